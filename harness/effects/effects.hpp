@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+
+#include "effect.hpp"
+
+namespace shakedown {
+
+/// Every effect that a setup may name, in the order of the documentation. A new effect is one file and one line in effects.cpp.
+std::span<const EffectRecord* const> all_effects();
+
+/// The effect of this name, or nullptr.
+const EffectRecord* find_effect(std::string_view name);
+
+}  // namespace shakedown

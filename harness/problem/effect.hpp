@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// A physical effect: a constant record, from which the setup's keys, the JSON schema, the listing, the fit's bounds, the engines'
+// capability table and the generic tests are made; and one function that writes the effect into the physics an engine reads.
+#pragma once
+#include <limits>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "errors.hpp"
+#include "vec3.hpp"
+
+namespace shakedown {
+
+struct Physics;
+
+enum class ParameterKind {
+  number,     ///< a quantity with a unit, or a bare number when `unit` is empty
+  vector,     ///< three quantities of one unit, [x, y, z]
+  choice,     ///< one word of `choices`
+  text,       ///< free text, e.g. a formula
+  constants,  ///< a table of named quantities with any unit
+};
+
+/// What the value of a parameter can be, in SI.
+using ParameterValue = std::variant<double, Vec3, std::string, std::map<std::string, double>>;
+
+struct Parameter {
+  std::string_view name;
+  ParameterKind kind = ParameterKind::number;
+  std::string_view unit;  ///< SI unit, e.g. "N s/m"; empty for a pure number
+  ParameterValue default_value = 0.0;
+  bool required = false;  ///< the user must give it
+  double low = -std::numeric_limits<double>::infinity();   ///< closed bounds of the value (of each component)
+  double high = std::numeric_limits<double>::infinity();
+  double neutral = std::numeric_limits<double>::quiet_NaN();  ///< value at which the effect is absent; NaN: has no such value
+  double typical = 0;         ///< a strength worth looking for: step of a sensitivity, start of a fit; SI
+  std::string_view sentence;  ///< what it is
+  std::vector<std::string_view> choices{};
+};
+
+/// How faithfully an engine models an effect.
+enum class Fidelity { exact, to_stated_error, not_modelled };
+struct Capability {
+  Fidelity fidelity = Fidelity::not_modelled;
+  std::string_view note;  ///< the stated error, or what to use instead
+};
+
+/// Where an effect acts. Camera effects change only what the measurement sees.
+enum class ActsOn { contact, grains, box, all, camera };
+
+struct EffectChoice;
+
+struct EffectRecord {
+  std::string_view name;      ///< snake_case id, fixed for ever
+  ActsOn acts_on = ActsOn::box;
+  std::string_view sentence;  ///< one sentence for people
+  std::string_view formula;
+  std::string_view source;    ///< citation
+  std::string_view limits;    ///< where it stops being true
+  std::vector<Parameter> parameters;
+  /// The part of the model that it replaces and that two effects cannot both claim, e.g. "normal restitution"; empty: adds up.
+  std::string_view claims;
+  bool dissipative = false;  ///< its line in the energy ledger can never be negative
+  Capability hard, soft, bullet;
+  /// Writes the effect's share into the physics. `index` is its line in Setup::effects and in the energy ledger.
+  void (*apply)(const EffectChoice& choice, int index, Physics& physics) = nullptr;
+};
+
+/// An effect as chosen in a setup, with all its parameters filled in.
+struct EffectChoice {
+  const EffectRecord* record = nullptr;
+  std::map<std::string, ParameterValue, std::less<>> values;
+  SourcePlace place;  ///< where the setup names it
+
+  double number(std::string_view parameter) const;
+  const Vec3& vector(std::string_view parameter) const;
+  const std::string& text(std::string_view parameter) const;
+  const std::map<std::string, double>& constants(std::string_view parameter) const;
+};
+
+}  // namespace shakedown

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "initial_state.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "grain_file.hpp"
+#include "packing.hpp"
+#include "random.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// Relative diameters: Gaussian cut at 2.5 standard deviations.
+std::vector<double> relative_diameters(const Setup& setup, double deviation, int run) {
+  std::vector<double> relative(static_cast<std::size_t>(setup.grains.count), 1.0);
+  if (deviation == 0) return relative;
+  Random random(setup.run.seed, static_cast<std::uint64_t>(run), Stream::diameters);
+  for (double& diameter : relative) {
+    double deviate = random.normal();
+    while (std::abs(deviate) > 2.5) deviate = random.normal();
+    diameter = 1 + deviation * deviate;
+  }
+  return relative;
+}
+
+void set_sizes(const Setup& setup, double deviation, int run, State& state) {
+  const std::vector<double> relative = relative_diameters(setup, deviation, run);
+  double volume = 0;
+  for (const double diameter : relative) volume += diameter * diameter * diameter;
+  // Masses go as d^3 and keep the total N m.
+  const double mass = relative.empty() ? 0 : setup.grains.mass * static_cast<double>(relative.size()) / volume;
+  for (const double diameter : relative) {
+    state.radius.push_back(setup.grains.diameter / 2 * diameter);
+    state.mass.push_back(deviation == 0 ? setup.grains.mass : mass * diameter * diameter * diameter);
+  }
+}
+
+/// Gaussian velocities scaled to a given total kinetic energy; in domains without a spring the total momentum is removed first.
+void set_velocities(const Setup& setup, double energy, int run, State& state) {
+  Random random(setup.run.seed, static_cast<std::uint64_t>(run), Stream::velocities);
+  state.velocity.resize(state.size());
+  for (Vec3& velocity : state.velocity)
+    for (double& component : velocity) component = random.normal();
+  if (setup.domain == Domain::periodic) {
+    Vec3 momentum = Vec3::Zero();
+    double mass = 0;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      momentum += state.mass[i] * state.velocity[i];
+      mass += state.mass[i];
+    }
+    if (state.size() > 1)
+      for (Vec3& velocity : state.velocity) velocity -= momentum / mass;
+  }
+  const double now = kinetic_energy(state, 0);
+  const double factor = now > 0 ? std::sqrt(energy / now) : 0;
+  for (Vec3& velocity : state.velocity) velocity *= factor;
+}
+
+}  // namespace
+
+State initial_state(const Setup& setup, int run) {
+  const Physics physics = physics_of(setup);
+  State state;
+  const bool damper = setup.domain == Domain::damper;
+  if (damper) {
+    state.x_box = setup.release.displacement;
+  }
+  set_sizes(setup, physics.relative_diameter_deviation, run, state);
+  if (!setup.release.initial_grains.empty()) {
+    read_grains(setup, state);
+  } else {
+    state.position = packed_centres(setup, physics.packing, state.radius, run);
+    for (Vec3& position : state.position) position.x() += state.x_box;
+    double mass = 0;
+    for (const double m : state.mass) mass += m;
+    const double spring_energy = physics.stiffness * state.x_box * state.x_box / 2;
+    const double speed = setup.release.grain_speed;
+    set_velocities(setup, damper ? setup.release.kinetic_energy_fraction * spring_energy : mass * speed * speed / 2, run,
+                   state);
+  }
+  if (damper) state.v_box = physics.initial_box_velocity;
+  return state;
+}
+
+double kinetic_energy(const State& state, double box_mass) {
+  double energy = box_mass * state.v_box * state.v_box / 2;
+  for (std::size_t i = 0; i < state.velocity.size(); ++i) {
+    energy += state.mass[i] * state.velocity[i].squaredNorm() / 2;
+    if (!state.spin.empty()) energy += 0.2 * state.mass[i] * state.radius[i] * state.radius[i] * state.spin[i].squaredNorm();
+  }
+  return energy;
+}
+
+double centre_of_mass_x(const State& state) {
+  if (state.size() == 0) return std::numeric_limits<double>::quiet_NaN();
+  double moment = 0, mass = 0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    moment += state.mass[i] * state.position[i].x();
+    mass += state.mass[i];
+  }
+  return moment / mass;
+}
+
+}  // namespace shakedown

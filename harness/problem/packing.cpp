@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "packing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "random.hpp"
+
+namespace shakedown {
+
+namespace {
+
+[[noreturn]] void does_not_fit(const Setup& setup, std::size_t placed, const char* packing) {
+  const auto place = setup.places.find("grains.count");
+  throw InputError({{place == setup.places.end() ? SourcePlace{} : place->second, "grains.count",
+                     std::to_string(setup.grains.count) + " grains do not fit (packing '" + packing + "' holds " +
+                         std::to_string(placed) + " in this box)",
+                     "take fewer or smaller grains, a larger box, or another release.packing"}});
+}
+
+/// Cubic-close layers from the outer (+x) wall inwards: alternate sites of a square grid of spacing a/2, a = 1.42 diameters.
+std::vector<Vec3> fcc_layers(const Setup& setup) {
+  const double diameter = setup.grains.diameter, half_constant = 0.71 * diameter;
+  const double front = (setup.box.length - diameter) / 2;
+  const auto sites = [&](double width) {
+    return static_cast<int>(std::floor((width - diameter) / half_constant * (1 + 1e-12))) + 1;
+  };
+  const int rows = sites(setup.box.width[0]), columns = sites(setup.box.width[1]);
+  const double first_y = -half_constant * (rows - 1) / 2, first_z = -half_constant * (columns - 1) / 2;
+  const std::size_t count = static_cast<std::size_t>(setup.grains.count);
+  std::vector<Vec3> centres;
+  for (int layer = 0; centres.size() < count; ++layer) {
+    const double x = front - 10e-6 - layer * half_constant;
+    if (x < -front) does_not_fit(setup, centres.size(), "fcc");
+    for (int i = 0; i < rows && centres.size() < count; ++i)
+      for (int j = 0; j < columns && centres.size() < count; ++j)
+        if ((i + j + layer) % 2 == 0) centres.emplace_back(x, first_y + i * half_constant, first_z + j * half_constant);
+  }
+  return centres;
+}
+
+/// Square layers in turn, n x n and (n-1) x (n-1), 1.1 diameters apart within a layer, layers 0.65 diameters apart.
+std::vector<Vec3> square_layers(const Setup& setup) {
+  const double diameter = setup.grains.diameter, spacing = 1.1 * diameter;
+  const double front = (setup.box.length - diameter) / 2;
+  const auto sites = [&](double width) {
+    return static_cast<int>(std::floor((width - diameter) / spacing * (1 + 1e-12))) + 1;
+  };
+  const int rows = sites(setup.box.width[0]), columns = sites(setup.box.width[1]);
+  const std::size_t count = static_cast<std::size_t>(setup.grains.count);
+  std::vector<Vec3> centres;
+  for (int layer = 0; centres.size() < count; ++layer) {
+    const double x = front - 0.01 * diameter - layer * 0.65 * diameter;
+    if (x < -front) does_not_fit(setup, centres.size(), "square");
+    const int shrink = layer % 2;
+    const int r = std::max(1, rows - shrink), c = std::max(1, columns - shrink);
+    for (int i = 0; i < r && centres.size() < count; ++i)
+      for (int j = 0; j < c && centres.size() < count; ++j)
+        centres.emplace_back(x, spacing * (i - (r - 1) / 2.0), spacing * (j - (c - 1) / 2.0));
+  }
+  return centres;
+}
+
+std::vector<Vec3> random_centres(const Setup& setup, double thickness, int run) {
+  Random random(setup.run.seed, static_cast<std::uint64_t>(run), Stream::packing);
+  const double diameter = setup.grains.diameter, front = (setup.box.length - diameter) / 2;
+  std::vector<Vec3> centres(static_cast<std::size_t>(setup.grains.count));
+  for (Vec3& centre : centres) {
+    centre.x() = front - 10e-6 - random.uniform() * thickness;
+    centre.y() = (random.uniform() - 0.5) * (setup.box.width[0] - diameter);
+    centre.z() = (random.uniform() - 0.5) * (setup.box.width[1] - diameter);
+  }
+  return centres;
+}
+
+/// Face-centred cubic lattice that fills a whole cell (closed and periodic domains).
+std::vector<Vec3> filled_cell(const Setup& setup) {
+  const std::size_t count = static_cast<std::size_t>(setup.grains.count);
+  const Vec3 cell(setup.box.length, setup.box.width[0], setup.box.width[1]);
+  const double margin = setup.domain == Domain::closed ? setup.grains.diameter : 0.0;
+  const Vec3 room = cell.array() - margin;
+  const double per_length = std::cbrt(static_cast<double>(count) / 4 / room.prod());
+  Eigen::Vector3i cells;
+  for (int axis = 0; axis < 3; ++axis)
+    cells[axis] = std::max(1, static_cast<int>(std::ceil(per_length * room[axis] - 1e-9)));
+  while (4LL * cells.x() * cells.y() * cells.z() < static_cast<long long>(count)) ++cells.x();
+  const Vec3 step = room.cwiseQuotient(cells.cast<double>());
+  constexpr std::array<std::array<double, 3>, 4> basis{{{.25, .25, .25}, {.75, .75, .25}, {.75, .25, .75}, {.25, .75, .75}}};
+  std::vector<Vec3> centres;
+  centres.reserve(count);
+  for (int i = 0; i < cells.x(); ++i)
+    for (int j = 0; j < cells.y(); ++j)
+      for (int k = 0; k < cells.z(); ++k)
+        for (const auto& site : basis)
+          if (centres.size() < count)
+            centres.push_back(-room / 2 + step.cwiseProduct(Vec3(i + site[0], j + site[1], k + site[2])));
+  return centres;
+}
+
+/// Pushes overlapping grains apart and back into the box until none overlap; false when that does not come about.
+bool relax(const Setup& setup, const std::vector<double>& radius, std::vector<Vec3>& centres) {
+  const Vec3 half(setup.box.length / 2, setup.box.width[0] / 2, setup.box.width[1] / 2);
+  const double clearance = 1e-3 * setup.grains.diameter;
+  for (int sweep = 0; sweep < 20000; ++sweep) {
+    bool overlapping = false;
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      for (std::size_t j = i + 1; j < centres.size(); ++j) {
+        const Vec3 apart = centres[i] - centres[j];
+        const double reach = radius[i] + radius[j], distance = apart.norm();
+        if (distance >= reach + clearance / 10) continue;
+        overlapping = true;
+        const Vec3 shift = apart / std::max(distance, 1e-12) * ((reach + clearance - distance) / 2);
+        centres[i] += shift;
+        centres[j] -= shift;
+      }
+      const Vec3 room = half.array() - radius[i] - 1e-6;
+      centres[i] = centres[i].cwiseMin(room).cwiseMax(-room);
+    }
+    if (!overlapping) return true;
+  }
+  return false;
+}
+
+bool free_of_overlap(const Setup& setup, const std::vector<double>& radius, const std::vector<Vec3>& centres) {
+  const Vec3 half(setup.box.length / 2, setup.box.width[0] / 2, setup.box.width[1] / 2);
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    if (((half - centres[i].cwiseAbs()).array() < radius[i]).any()) return false;
+    for (std::size_t j = i + 1; j < centres.size(); ++j)
+      if ((centres[i] - centres[j]).norm() < radius[i] + radius[j]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Vec3> packed_centres(const Setup& setup, Packing packing, const std::vector<double>& radius, int run) {
+  if (setup.grains.count == 0) return {};
+  if (setup.domain != Domain::damper) return filled_cell(setup);
+  const double diameter = setup.grains.diameter;
+  std::vector<Vec3> centres;
+  switch (packing) {
+    case Packing::fcc: centres = fcc_layers(setup); break;
+    case Packing::square: centres = square_layers(setup); break;
+    case Packing::random: {
+      // A layer of volume fraction 0.31, the loosest that relaxes at once and still lies against the wall.
+      const double area = (setup.box.width[0] - diameter) * (setup.box.width[1] - diameter);
+      const double volume = setup.grains.count * std::pow(diameter, 3) * 0.5236;
+      const double thickness = std::min(setup.box.length - diameter - 20e-6, volume / area / 0.31 * 0.8);
+      centres = random_centres(setup, thickness, run);
+      break;
+    }
+    case Packing::spread: centres = random_centres(setup, setup.box.length - diameter - 20e-6, run); break;
+  }
+  const bool equal = std::all_of(radius.begin(), radius.end(), [&](double r) { return r == radius[0]; });
+  const bool lattice = packing == Packing::fcc || packing == Packing::square;
+  if (lattice && equal) return centres;  // free of overlap by construction; large dampers skip the check of all pairs
+  if (!free_of_overlap(setup, radius, centres) && !relax(setup, radius, centres))
+    does_not_fit(setup, centres.size(), "random, without overlap");
+  return centres;
+}
+
+}  // namespace shakedown

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Numbers with units, at the borders of the program only. Dimensions are powers of metre, kilogram, second.
+#pragma once
+#include <compare>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace shakedown {
+
+struct Dimension {
+  int metre = 0, kilogram = 0, second = 0;
+  auto operator<=>(const Dimension&) const = default;
+};
+
+/// A unit's size in SI and its dimension.
+struct Unit {
+  double si = 1;
+  Dimension dimension;
+};
+
+struct Quantity {
+  double si = 0;
+  Dimension dimension;
+};
+
+/// Either a value or the reason in words why there is none.
+template <class T>
+using ValueOrReason = std::variant<T, std::string>;
+
+/// "mm", "g", "Hz", "N s/m", "N s^2/m^2", "m/s^2", "mN", "deg", "" ... products by space, dot or *, one or more "/", powers by ^.
+ValueOrReason<Unit> parse_unit(std::string_view text);
+
+/// "107.5 mm", "1.23 Hz", "65mm". A bare number gives the dimension of a pure number.
+ValueOrReason<Quantity> parse_quantity(std::string_view text);
+
+/// The shortest text that reads back to exactly this value in this unit, e.g. ("0.04", "m") -> "0.04 m".
+std::string write_quantity(double si, std::string_view unit);
+
+}  // namespace shakedown
