@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Grains of a small system (the paper's 37): structure of arrays, every pair tested in vector lanes, the next event found by a vector
+// scan. No lists, no queue: at this size both cost more than they save.
+#pragma once
+#include <vector>
+
+#include "grain_event.hpp"
+#include "initial_state.hpp"
+#include "lanes.hpp"
+
+namespace shakedown {
+
+class AllPairs {
+ public:
+  struct Next {
+    double time;
+    int grain;
+  };
+
+  /// `room`: half widths of the box along y and z; each grain's radius is taken off. Infinite: no side walls.
+  AllPairs(const State& state, std::array<double, 2> half_width);
+
+  int size() const { return static_cast<int>(size_); }
+  Flight3 flight(int i) const;
+  /// After an impact: a new flight, and everything predicted with this grain is stale.
+  void set_flight(int i, const Flight3& flight);
+  /// Brings a grain to another point of the flight it is on.
+  void move_to(int i, const Flight3& flight);
+  double radius(int i) const { return radius_[static_cast<std::size_t>(i)]; }
+  double mass(int i) const { return mass_[static_cast<std::size_t>(i)]; }
+  std::array<double, 2> side_room(int i) const { return {half_width_[0] - radius(i), half_width_[1] - radius(i)}; }
+
+  Next next() const {
+    const Smallest earliest = smallest(event_time_, padded_size_);
+    return {earliest.value, earliest.index};
+  }
+  GrainEvent event(int i) const {
+    const std::size_t k = static_cast<std::size_t>(i);
+    return {event_time_[k], partner_[k], partner_count_[k]};
+  }
+  bool is_stale(const GrainEvent& event) const {
+    return event.partner >= 0 && count_[static_cast<std::size_t>(event.partner)] != event.partner_count;
+  }
+  /// Predicts the next event of a grain, or of both grains of a pair, whose flights start now.
+  void predict(int i);
+  void predict(int i, int j);
+  void predict_all();
+  void leave_neighbourhood(int) {}
+  std::array<double, 3> separation(const Flight3& a, const Flight3& b) const {
+    return {b.x[0] - a.x[0], b.x[1] - a.x[1], b.x[2] - a.x[2]};
+  }
+
+  /// Largest overlap of two grains met so far, m.
+  double deepest_overlap() const;
+
+ private:
+  template <int K>
+  void predict_grains(const std::array<int, K>& who);
+
+  std::size_t size_, padded_size_;
+  std::array<double, 2> half_width_;
+  AlignedVector<double> x_, y_, z_, vx_, vy_, vz_, time_, radius_, mass_, event_time_;
+  std::vector<std::int32_t> partner_;
+  std::vector<std::uint32_t> partner_count_, count_;
+  double smallest_room_ = 0;  // of r^2 - reach^2, m^2
+};
+
+}  // namespace shakedown

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "hard_engine.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "hard_sphere_system.hpp"
+
+namespace shakedown {
+
+namespace {
+
+class HardEngine final : public Engine {
+ public:
+  std::string_view name() const override { return "hard"; }
+  Capability can_model(const EffectRecord& effect) const override { return effect.hard; }
+
+  Trajectory run(const Setup& setup, const RunOptions& options) const override {
+    refuse_what_is_not_modelled(*this, setup);
+    const auto start = std::chrono::steady_clock::now();
+    HardSphereSystem system(setup, options.run);
+    Trajectory trajectory;
+    trajectory.engine = "hard";
+    trajectory.initial_energy = system.initial_energy();
+    const auto samples = static_cast<std::int64_t>(std::floor(setup.run.duration * setup.run.sample_rate * (1 + 1e-12)));
+    const std::int64_t report_every = std::max<std::int64_t>(1, samples / 200);
+    for (std::int64_t k = 0; k <= samples; ++k) {
+      const double time = static_cast<double>(k) / setup.run.sample_rate;
+      if (!system.advance_to(time, options.stop)) {
+        trajectory.interrupted = true;
+        break;
+      }
+      append(system.observe(), system.ledger(), trajectory);
+      if (options.progress && k % report_every == 0) options.progress(time);
+    }
+    trajectory.end_time = trajectory.time.empty() ? 0 : trajectory.time.back();
+    trajectory.ledger = system.ledger();
+    trajectory.collisions = system.collisions();
+    trajectory.events = system.events();
+    trajectory.health = system.health();
+    trajectory.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return trajectory;
+  }
+
+ private:
+  static void append(const Observation& seen, const Ledger& ledger, Trajectory& trajectory) {
+    trajectory.time.push_back(seen.time);
+    trajectory.x_box.push_back(seen.x_box);
+    trajectory.v_box.push_back(seen.v_box);
+    trajectory.x_com.push_back(seen.x_com);
+    trajectory.total_energy.push_back(seen.total_energy);
+    for (std::size_t c = 0; c < contact_classes; ++c) trajectory.loss[c].push_back(ledger.contact_loss[c]);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_hard_engine() { return std::make_unique<HardEngine>(); }
+
+}  // namespace shakedown

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "wall_root.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace shakedown {
+
+namespace {
+
+/// The root of a gap that falls monotonically from above zero at `low` to zero or below at `high`: Newton, kept in the bracket.
+double root_in(const HarmonicGap& gap, double low, double high) {
+  double t = low + (high - low) / 2;
+  // From the low end the curvature bound gives a start that cannot overshoot.
+  const double curvature = std::hypot(gap.a, gap.b) * gap.angular_frequency * gap.angular_frequency;
+  if (curvature > 0) t = std::min(t, low + earliest_possible_root(gap.at(low), gap.rate(low), curvature));
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    const double value = gap.at(t), slope = gap.rate(t);
+    if (value > 0) low = t;
+    else high = t;
+    double next = slope < 0 ? t - value / slope : low + (high - low) / 2;
+    if (!(next > low && next < high)) next = low + (high - low) / 2;
+    const double step = std::abs(next - t);
+    t = next;
+    if (step <= 2e-16 * t || high - low <= 2e-16 * high) break;
+  }
+  return t;
+}
+
+/// The falling stretch, as phases, in which the first root lies when there is one: from a maximum (or the start) to a minimum.
+struct FallingStretch {
+  double maximum, minimum;
+};
+
+FallingStretch next_falling_stretch(const HarmonicGap& gap, double amplitude, double start_rate) {
+  constexpr double pi = std::numbers::pi, turn = 2 * pi;
+  const double phi = std::atan2(gap.b, gap.a), tilt = std::asin(-gap.u / (gap.angular_frequency * amplitude));
+  const double length = pi - 2 * tilt;
+  double minimum = std::fmod(phi + pi - tilt, turn);
+  if (minimum <= 0) minimum += turn;
+  // An opening gap with a minimum just ahead is past that minimum but for rounding: its stretch is the next one.
+  if (start_rate >= 0 && minimum < length / 2) minimum += turn;
+  return {minimum - length, minimum};
+}
+
+}  // namespace
+
+double first_wall_root(const HarmonicGap& gap) {
+  constexpr double turn = 2 * std::numbers::pi;
+  const double w = gap.angular_frequency, amplitude = std::hypot(gap.a, gap.b);
+  const double start = gap.a + gap.c, start_rate = w * gap.b - gap.u;
+  if (start <= 0 && start_rate < 0) return 0;
+  if (amplitude * w <= std::abs(gap.u) || amplitude == 0) {  // the grain outruns the wall: the gap is monotone
+    if (gap.u <= 0) return never;
+    return root_in(gap, 0, std::max(amplitude + gap.c, 0.0) / gap.u * (1 + 1e-15) + 1e-300);
+  }
+  FallingStretch stretch = next_falling_stretch(gap, amplitude, start_rate);
+  const double lowest = gap.at(stretch.minimum / w);
+  if (lowest > 0) {
+    if (gap.u <= 0) return never;  // later minima are no lower
+    const double periods = std::ceil(lowest / (gap.u * turn / w));
+    if (!(periods < 1e12)) return never;
+    const auto later = [&](double n) { return FallingStretch{stretch.maximum + n * turn, stretch.minimum + n * turn}; };
+    FallingStretch found = later(periods);
+    if (gap.at(found.minimum / w) > 0) found = later(periods + 1);  // the division rounded down
+    stretch = found;
+  }
+  return root_in(gap, std::max(0.0, stretch.maximum / w), stretch.minimum / w);
+}
+
+}  // namespace shakedown

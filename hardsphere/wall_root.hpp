@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// When a grain in free flight meets an end wall of a box that swings on a spring.
+//
+// The gap of a grain to the wall, counted positive inside the box, is
+//   g(t) = a cos Wt + b sin Wt + c - u t
+// with a, b from the box's state, c the room, u the grain's speed towards the wall. Its stationary points are known in closed form,
+// sin(Wt - phi) = -u / (W R), R = hypot(a, b): g is monotone between them, so the first root is bracketed with certainty. No root
+// can be missed, and the root at t = 0 of a grain that has just left the wall is excluded by construction.
+#pragma once
+#include <cmath>
+#include <limits>
+
+namespace shakedown {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+struct HarmonicGap {
+  double a, b;               ///< m
+  double angular_frequency;  ///< rad/s, > 0
+  double c;                  ///< m
+  double u;                  ///< m/s
+
+  double at(double t) const {
+    const double phase = angular_frequency * t;
+    return a * std::cos(phase) + b * std::sin(phase) + c - u * t;
+  }
+  double rate(double t) const {
+    const double phase = angular_frequency * t;
+    return angular_frequency * (b * std::cos(phase) - a * std::sin(phase)) - u;
+  }
+};
+
+/// Earliest time t >= 0, s, at which the gap closes from above; `never` when it does not. A gap that is zero (or below by rounding)
+/// and closing gives 0; one that is opening is followed to its next maximum first. Error: a few units in the last place of t.
+double first_wall_root(const HarmonicGap& gap);
+
+/// A time before which no root can lie, whatever the phase: g(t) >= g + g' t - A t^2 / 2 with |g''| <= A (A > 0).
+inline double earliest_possible_root(double gap, double rate, double top_acceleration) {
+  const double room = gap > 0 ? gap : 0;
+  const double root = std::sqrt(rate * rate + 2 * top_acceleration * room);
+  // Two forms of the same root, each without cancellation.
+  return rate >= 0 ? (rate + root) / top_acceleration : 2 * room / (root - rate);
+}
+
+}  // namespace shakedown

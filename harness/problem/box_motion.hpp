@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Flight of the box on its spring between two kicks, in closed form. Both engines use it.
+//   M x'' = -k x      =>  x(t) = x0 cos W(t - t0) + (v0 / W) sin W(t - t0),  W = sqrt(k / M)
+// The state is (x, v) at the last kick (physics: amplitude and phase are outputs), so no arctangent and no growing phase enters.
+#pragma once
+#include <cmath>
+
+namespace shakedown {
+
+class BoxMotion {
+ public:
+  struct Point {
+    double x, v;
+  };
+
+  BoxMotion(double mass, double stiffness, double x, double v, double time = 0)
+      : mass_(mass), stiffness_(stiffness), angular_frequency_(std::sqrt(stiffness / mass)) {
+    restart(time, x, v);
+  }
+
+  /// Position and velocity at time t; exact for every t (also before the last kick, along the same arc).
+  Point at(double t) const {
+    if (angular_frequency_ == 0) return {x_ + v_ * (t - time_), v_};
+    const double phase = angular_frequency_ * (t - time_);
+    const double c = std::cos(phase), s = std::sin(phase);
+    return {x_ * c + v_ / angular_frequency_ * s, v_ * c - x_ * angular_frequency_ * s};
+  }
+
+  /// A kick: from time t on the box flies from (x, v).
+  void restart(double t, double x, double v) {
+    time_ = t;
+    x_ = x;
+    v_ = v;
+    amplitude_ = angular_frequency_ > 0 ? std::hypot(x, v / angular_frequency_) : std::abs(x);
+  }
+
+  /// Impulse of the spring from the last kick to time t, N s: -k integral of x.
+  double spring_impulse(double t) const {
+    if (angular_frequency_ == 0) return 0;
+    const double phase = angular_frequency_ * (t - time_);
+    const double half = std::sin(phase / 2);
+    return -stiffness_ / angular_frequency_ * (x_ * std::sin(phase) + v_ / angular_frequency_ * 2 * half * half);
+  }
+
+  double energy() const { return stiffness_ * x_ * x_ / 2 + mass_ * v_ * v_ / 2; }
+  double mass() const { return mass_; }
+  double stiffness() const { return stiffness_; }
+  double angular_frequency() const { return angular_frequency_; }
+  double amplitude() const { return amplitude_; }                              ///< m, of the present arc
+  double top_speed() const { return amplitude_ * angular_frequency_; }         ///< m/s
+  double top_acceleration() const { return top_speed() * angular_frequency_; } ///< m/s^2, bound of |x''|
+  double x() const { return x_; }        ///< at the last kick
+  double v() const { return v_; }        ///< after the last kick
+  double time() const { return time_; }  ///< of the last kick
+
+ private:
+  double mass_, stiffness_, angular_frequency_;
+  double time_ = 0, x_ = 0, v_ = 0, amplitude_ = 0;
+};
+
+}  // namespace shakedown
