@@ -28,16 +28,16 @@ enum class ParameterKind {
 using ParameterValue = std::variant<double, Vec3, std::string, std::map<std::string, double>>;
 
 struct Parameter {
-  std::string_view name;
+  std::string_view name{};
   ParameterKind kind = ParameterKind::number;
-  std::string_view unit;  ///< SI unit, e.g. "N s/m"; empty for a pure number
+  std::string_view unit{};  ///< SI unit, e.g. "N s/m"; empty for a pure number
   ParameterValue default_value = 0.0;
   bool required = false;  ///< the user must give it
   double low = -std::numeric_limits<double>::infinity();   ///< closed bounds of the value (of each component)
   double high = std::numeric_limits<double>::infinity();
   double neutral = std::numeric_limits<double>::quiet_NaN();  ///< value at which the effect is absent; NaN: has no such value
   double typical = 0;         ///< a strength worth looking for: step of a sensitivity, start of a fit; SI
-  std::string_view sentence;  ///< what it is
+  std::string_view sentence{};  ///< what it is
   std::vector<std::string_view> choices{};
 };
 
@@ -45,7 +45,7 @@ struct Parameter {
 enum class Fidelity { exact, to_stated_error, not_modelled };
 struct Capability {
   Fidelity fidelity = Fidelity::not_modelled;
-  std::string_view note;  ///< the stated error, or what to use instead
+  std::string_view note{};  ///< the stated error, or what to use instead
 };
 
 /// Where an effect acts. Camera effects change only what the measurement sees.
@@ -53,20 +53,34 @@ enum class ActsOn { contact, grains, box, all, camera };
 
 struct EffectChoice;
 
+/// What EffectRecord::check found wrong with one parameter.
+struct ParameterProblem {
+  std::string_view parameter;
+  std::string problem, remedy;
+};
+
 struct EffectRecord {
-  std::string_view name;      ///< snake_case id, fixed for ever
+  std::string_view name{};      ///< snake_case id, fixed for ever
   ActsOn acts_on = ActsOn::box;
-  std::string_view sentence;  ///< one sentence for people
-  std::string_view formula;
-  std::string_view source;    ///< citation
-  std::string_view limits;    ///< where it stops being true
-  std::vector<Parameter> parameters;
-  /// The part of the model that it replaces and that two effects cannot both claim, e.g. "normal restitution"; empty: adds up.
-  std::string_view claims;
+  std::string_view sentence{};  ///< one sentence for people
+  std::string_view formula{};
+  std::string_view source{};    ///< citation
+  std::string_view limits{};    ///< where it stops being true
+  std::vector<Parameter> parameters{};
+  /// The part of the model that it replaces and that two effects cannot both claim, e.g. "normal restitution", or the path of the
+  /// setup's key that it stands for; empty: adds up.
+  std::string_view claims{};
   bool dissipative = false;  ///< its line in the energy ledger can never be negative
-  Capability hard, soft, bullet;
+  Capability hard{}, soft{}, bullet{};
   /// Writes the effect's share into the physics. `index` is its line in Setup::effects and in the energy ledger.
   void (*apply)(const EffectChoice& choice, int index, Physics& physics) = nullptr;
+  /// Applied after all others because it reads what they wrote (the box's whole mass, the restitutions).
+  bool applied_last = false;
+  /// What bounds and kinds cannot say about the parameters; nullptr: nothing.
+  std::vector<ParameterProblem> (*check)(const EffectChoice& choice) = nullptr;
+
+  /// The parameter of this name, or nullptr.
+  const Parameter* find(std::string_view parameter) const;
 };
 
 /// An effect as chosen in a setup, with all its parameters filled in.
@@ -80,5 +94,12 @@ struct EffectChoice {
   const std::string& text(std::string_view parameter) const;
   const std::map<std::string, double>& constants(std::string_view parameter) const;
 };
+
+/// The effect with every parameter at its default.
+EffectChoice with_defaults(const EffectRecord& record);
+
+/// True when the effect does nothing: it has parameters with a neutral value, all of them are at it, and every choice of a law is
+/// at its default.
+bool is_neutral(const EffectChoice& choice);
 
 }  // namespace shakedown

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "quantity.hpp"
+#include "setup_file.hpp"
+#include "setup_keys.hpp"
+#include "suggestion.hpp"
+#include "value_reading.hpp"
+
+namespace shakedown {
+
+namespace {
+
+using Known = std::span<const EffectRecord* const>;
+
+const EffectRecord* record_of(Known known, std::string_view name) {
+  for (const EffectRecord* record : known)
+    if (record->name == name) return record;
+  return nullptr;
+}
+
+std::vector<std::string_view> names_of(Known known) {
+  std::vector<std::string_view> names;
+  for (const EffectRecord* record : known) names.push_back(record->name);
+  return names;
+}
+
+std::vector<std::string_view> section_names() {
+  std::vector<std::string_view> names;
+  for (const SetupKey& key : setup_keys())
+    if (names.empty() || names.back() != key.section()) names.push_back(key.section());
+  names.push_back("effect");
+  return names;
+}
+
+std::vector<std::string_view> keys_of_section(std::string_view section) {
+  std::vector<std::string_view> names;
+  for (const SetupKey& key : setup_keys())
+    if (key.section() == section) names.push_back(key.name());
+  return names;
+}
+
+/// "did you mean ...?" and what is known.
+std::string remedy_for(std::string_view word, std::span<const std::string_view> candidates, const std::string& what) {
+  const std::string_view near = nearest(word, candidates);
+  return (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") + what + ": " + listed(candidates);
+}
+
+// ---- overrides: written into the tree before anything is read, so that one reader judges both ----
+
+TomlValue value_of(const Override& override) {
+  const SourcePlace place{override.origin, 0, 0};
+  TomlValue value;
+  try {
+    TomlValue parsed = parse_toml("value = " + override.value, override.origin);
+    if (parsed.entries.size() == 1) value = std::move(parsed.entries.front().value);
+  } catch (const InputError&) {
+    value.kind = TomlValue::Kind::text;  // a bare word or quantity
+    value.text = override.value;
+  }
+  value.place = place;
+  for (TomlValue& item : value.items) item.place = place;
+  for (TomlEntry& entry : value.entries) entry.place = entry.value.place = place;
+  return value;
+}
+
+TomlEntry& entry_of(TomlValue& table, std::string_view key, const SourcePlace& place) {
+  for (TomlEntry& entry : table.entries)
+    if (entry.key == key) return entry;
+  TomlValue empty;
+  empty.place = place;
+  return table.entries.emplace_back(TomlEntry{std::string(key), place, std::move(empty)});
+}
+
+/// The table of an effect in the list `effect`, made when it is not there.
+TomlValue& effect_table(TomlValue& root, std::string_view name, const SourcePlace& place) {
+  TomlValue& list = entry_of(root, "effect", place).value;
+  if (list.kind != TomlValue::Kind::array) {
+    list = TomlValue{};
+    list.kind = TomlValue::Kind::array;
+  }
+  for (TomlValue& item : list.items)
+    if (const TomlValue* found = item.find("name"); found != nullptr && found->text == name) return item;
+  TomlValue item, text;
+  text.kind = TomlValue::Kind::text;
+  text.text = name;
+  text.place = item.place = place;
+  item.entries.push_back({"name", place, std::move(text)});
+  return list.items.emplace_back(std::move(item));
+}
+
+void write_override(TomlValue& root, const Override& override, Known known) {
+  TomlValue value = value_of(override);
+  const SourcePlace place = value.place;
+  std::string_view path = override.key;
+  const std::size_t dot = std::min(path.find('.'), path.size());
+  const std::string_view first = path.substr(0, dot);
+  path.remove_prefix(std::min(dot + 1, path.size()));
+  TomlValue* table = record_of(known, first) ? &effect_table(root, first, place) : &entry_of(root, first, place).value;
+  for (std::size_t next = path.find('.'); next != path.npos; next = path.find('.')) {
+    TomlValue& deeper = entry_of(*table, path.substr(0, next), place).value;
+    path.remove_prefix(next + 1);
+    const std::size_t axis = path == "x" ? 0 : path == "y" ? 1 : path == "z" ? 2 : 3;
+    if (deeper.kind == TomlValue::Kind::array && axis < deeper.items.size()) {
+      deeper.items[axis] = std::move(value);
+      return;
+    }
+    table = &deeper;
+  }
+  TomlEntry& entry = path.empty() ? entry_of(root, first, place) : entry_of(*table, path, place);
+  entry.place = place;
+  entry.value = std::move(value);
+}
+
+// ---- reading ----
+
+struct Reader {
+  Known known;
+  std::filesystem::path folder;
+  Setup setup{};
+  std::vector<Violation> found{};
+
+  void add(const SourcePlace& place, std::string key, std::string problem, std::string remedy) {
+    found.push_back({place, std::move(key), std::move(problem), std::move(remedy)});
+  }
+
+  /// Stores the value, or the problem with its place.
+  template <class T, class Store>
+  void take(const ValueOrProblem<T>& value, const TomlValue& from, std::string_view path, Store store) {
+    if (const auto* wrong = std::get_if<Problem>(&value))
+      add(from.place, std::string(path), wrong->problem, wrong->remedy);
+    else
+      store(std::get<T>(value));
+  }
+
+  void read(const SetupKey& key, const TomlValue& value) {
+    std::visit([&](auto field) { read_field(key, field, value); }, key.field);
+  }
+  void read_field(const SetupKey& key, Field<double> field, const TomlValue& value) {
+    take(number_in(value, key.unit), value, key.path, [&](double number) { field(setup) = number; });
+  }
+  /// ["50 mm", "60 mm"], or one width for both.
+  void read_field(const SetupKey& key, Field<std::array<double, 2>> field, const TomlValue& value) {
+    if (value.kind != TomlValue::Kind::array)
+      return take(number_in(value, key.unit), value, key.path, [&](double number) { field(setup) = {number, number}; });
+    if (value.items.size() != 2)
+      return add(value.place, std::string(key.path), "has " + std::to_string(value.items.size()) + " values (two are expected)",
+                 "write both, e.g. [\"50 mm\", \"50 mm\"]");
+    for (std::size_t i = 0; i < 2; ++i)
+      take(number_in(value.items[i], key.unit), value.items[i], key.path, [&](double number) { field(setup)[i] = number; });
+  }
+  void read_field(const SetupKey& key, Field<int> field, const TomlValue& value) {
+    take(count_in(value, key.high), value, key.path, [&](std::int64_t count) { field(setup) = static_cast<int>(count); });
+  }
+  void read_field(const SetupKey& key, Field<std::uint64_t> field, const TomlValue& value) {
+    take(count_in(value, key.high), value, key.path, [&](std::int64_t count) { field(setup) = static_cast<std::uint64_t>(count); });
+  }
+  void read_field(const SetupKey& key, Field<bool> field, const TomlValue& value) {
+    take(boolean_in(value), value, key.path, [&](bool given) { field(setup) = given; });
+  }
+  void read_field(const SetupKey& key, Field<std::string> field, const TomlValue& value) {
+    take(text_in(value), value, key.path, [&](const std::string& text) {
+      // The only text is the path of a file: absolute, so that the setup as used can be read from anywhere.
+      const std::filesystem::path base = value.place.line > 0 ? folder : std::filesystem::path{};
+      field(setup) = text.empty() ? "" : std::filesystem::absolute(base / text).lexically_normal().string();
+    });
+  }
+  template <class Enumeration>
+  void read_field(const SetupKey& key, Field<Enumeration> field, const TomlValue& value) {
+    const auto choices = choices_of(key);
+    take(choice_in(value, choices), value, key.path, [&](const std::string& word) {
+      field(setup) = static_cast<Enumeration>(std::find(choices.begin(), choices.end(), word) - choices.begin());
+    });
+  }
+
+  void unknown_key(const TomlEntry& section, const TomlEntry& entry) {
+    std::string remedy;
+    for (const SetupKey& key : setup_keys())
+      if (key.name() == entry.key) remedy += (remedy.empty() ? "did you mean " : " or ") + std::string(key.path);
+    if (!remedy.empty()) remedy += "? ";
+    const auto names = keys_of_section(section.key);
+    add(entry.place, section.key + "." + entry.key, "is not a key of a setup (the section has no such key)",
+        remedy + remedy_for(entry.key, names, "keys of [" + section.key + "]"));
+  }
+
+  void read_section(const TomlEntry& section) {
+    const auto names = section_names();
+    if (std::find(names.begin(), names.end(), section.key) == names.end()) {
+      const bool effect = record_of(known, section.key) != nullptr;
+      return add(section.place, section.key, "is not a section of a setup",
+                 effect ? "write [[effect]] and name = " + toml_string(section.key) : remedy_for(section.key, names, "sections"));
+    }
+    if (section.value.kind != TomlValue::Kind::table)
+      return add(section.place, section.key, "is " + std::string(describe(section.value.kind)) + " (a section is expected)",
+                 "write [" + section.key + "] and its keys below");
+    for (const TomlEntry& entry : section.value.entries) {
+      const SetupKey* key = find_setup_key(section.key + "." + entry.key);
+      if (key == nullptr) {
+        unknown_key(section, entry);
+        continue;
+      }
+      setup.places[std::string(key->path)] = entry.value.place;
+      read(*key, entry.value);
+    }
+  }
+
+  void read_parameters(const TomlValue& table, EffectChoice& choice) {
+    const EffectRecord& record = *choice.record;
+    std::vector<std::string_view> names;
+    for (const Parameter& parameter : record.parameters) names.push_back(parameter.name);
+    for (const TomlEntry& entry : table.entries) {
+      if (entry.key == "name") continue;
+      const std::string path = std::string(record.name) + "." + entry.key;
+      const Parameter* parameter = record.find(entry.key);
+      if (parameter == nullptr) {
+        add(entry.place, path, "is not a parameter of this effect", remedy_for(entry.key, names, "its parameters"));
+        continue;
+      }
+      setup.places[path] = entry.value.place;
+      take(parameter_in(entry.value, *parameter), entry.value, path,
+           [&](const ParameterValue& value) { choice.values[std::string(entry.key)] = value; });
+    }
+    for (const Parameter& parameter : record.parameters)
+      if (parameter.required && table.find(parameter.name) == nullptr)
+        add(choice.place, std::string(record.name) + "." + std::string(parameter.name), "is missing (the effect has no strength without it)",
+            parameter.unit.empty() ? "add it" : "add it, e.g. " + std::string(parameter.name) + " = \"" +
+                                                    write_quantity(parameter.typical, parameter.unit) + "\"");
+  }
+
+  void read_effect(const TomlValue& table) {
+    const TomlValue* name = table.kind == TomlValue::Kind::table ? table.find("name") : nullptr;
+    if (name == nullptr || name->kind != TomlValue::Kind::text)
+      return add(table.place, "effect", "has no name", "write name = \"...\"; `shakedown effects` lists the names");
+    const EffectRecord* record = record_of(known, name->text);
+    if (record == nullptr)
+      return add(name->place, "effect.name", toml_string(name->text) + " is not an effect", remedy_for(name->text, names_of(known), "effects"));
+    EffectChoice choice = with_defaults(*record);
+    choice.place = name->place;
+    read_parameters(table, choice);
+    setup.effects.push_back(std::move(choice));
+  }
+
+  void read_effects(const TomlEntry& entry) {
+    if (entry.value.kind != TomlValue::Kind::array)
+      return add(entry.place, "effect", "is " + std::string(describe(entry.value.kind)) + " (a list of effects is expected)",
+                 "write [[effect]] with double brackets for each effect");
+    for (const TomlValue& table : entry.value.items) read_effect(table);
+  }
+
+  void read_all(const TomlValue& root) {
+    for (const TomlEntry& entry : root.entries) entry.key == "effect" ? read_effects(entry) : read_section(entry);
+  }
+
+  /// Adds what is wrong with the values, except where the reading of the same key or a needed one failed already.
+  void check_values() {
+    const auto failed = [&](const std::string& key) {
+      return std::any_of(found.begin(), found.end(), [&](const Violation& violation) { return violation.key == key; });
+    };
+    std::vector<Violation> more;
+    for (Violation& violation : violations_of(setup))
+      if (!failed(violation.key)) more.push_back(std::move(violation));
+    found.insert(found.end(), more.begin(), more.end());
+    std::stable_sort(found.begin(), found.end(), [](const Violation& a, const Violation& b) {
+      return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+    });
+  }
+};
+
+}  // namespace
+
+Override parse_override(std::string_view text, const std::string& origin) {
+  const std::size_t equals = text.find('=');
+  if (equals == text.npos || equals == 0)
+    throw InputError({{{origin, 0, 0}, "", toml_string(text) + " does not set a key", "write it as key=value, e.g. box.length=65mm"}});
+  const auto trimmed = [](std::string_view part) {
+    while (part.starts_with(' ')) part.remove_prefix(1);
+    while (part.ends_with(' ')) part.remove_suffix(1);
+    return std::string(part);
+  };
+  return {trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1)), origin};
+}
+
+Setup parse_setup(std::string_view text, const std::string& name, Known known, std::span<const Override> overrides,
+                  const std::filesystem::path& folder) {
+  TomlValue root = parse_toml(text, name);
+  for (const Override& override : overrides) write_override(root, override, known);
+  Reader reader{known, folder};
+  reader.read_all(root);
+  reader.check_values();
+  if (!reader.found.empty()) throw InputError(std::move(reader.found));
+  std::erase_if(reader.setup.effects, [](const EffectChoice& choice) { return is_neutral(choice); });
+  return std::move(reader.setup);
+}
+
+Setup read_setup(const std::filesystem::path& file, Known known, std::span<const Override> overrides) {
+  return parse_setup(read_text_file(file), file.string(), known, overrides, file.parent_path());
+}
+
+}  // namespace shakedown

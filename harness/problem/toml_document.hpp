@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// A TOML file as a plain tree that knows where everything stands. The one place that opens the TOML library.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "errors.hpp"
+
+namespace shakedown {
+
+struct TomlEntry;
+
+struct TomlValue {
+  enum class Kind { text, integer, number, boolean, date, array, table };
+  Kind kind = Kind::table;
+  std::string text;          ///< of a text, or of a date as written
+  std::int64_t integer = 0;
+  double number = 0;         ///< of an integer too
+  bool boolean = false;
+  std::vector<TomlValue> items;
+  std::vector<TomlEntry> entries;  ///< in the order of the file
+  SourcePlace place;
+
+  /// The value of a key, or nullptr.
+  const TomlValue* find(std::string_view key) const;
+};
+
+struct TomlEntry {
+  std::string key;
+  SourcePlace place;  ///< of the key
+  TomlValue value;
+};
+
+/// "a text", "a whole number" ... for messages.
+std::string_view describe(TomlValue::Kind kind);
+
+/// `name` stands for the file in places. Throws InputError with the place of a syntax error.
+TomlValue parse_toml(std::string_view text, const std::string& name);
+
+/// The whole file; throws FileError.
+std::string read_text_file(const std::filesystem::path& file);
+
+/// A TOML string: quoted and escaped.
+std::string toml_string(std::string_view text);
+
+}  // namespace shakedown
