@@ -3,18 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include "random.hpp"
+#include "setup_keys.hpp"
 
 namespace shakedown {
 
 namespace {
 
-[[noreturn]] void does_not_fit(const Setup& setup, std::size_t placed, const char* packing) {
+/// `placed`: how many the packing holds, 0 when it cannot tell.
+[[noreturn]] void does_not_fit(const Setup& setup, std::size_t placed, const std::string& packing) {
   const auto place = setup.places.find("grains.count");
+  const std::string why = placed > 0 ? "holds " + std::to_string(placed) + " in this box" : "leaves overlaps in this box";
   throw InputError({{place == setup.places.end() ? SourcePlace{} : place->second, "grains.count",
-                     std::to_string(setup.grains.count) + " grains do not fit (packing '" + packing + "' holds " +
-                         std::to_string(placed) + " in this box)",
+                     std::to_string(setup.grains.count) + " grains do not fit (packing '" + packing + "' " + why + ")",
                      "take fewer or smaller grains, a larger box, or another release.packing"}});
 }
 
@@ -94,6 +98,9 @@ std::vector<Vec3> filled_cell(const Setup& setup) {
         for (const auto& site : basis)
           if (centres.size() < count)
             centres.push_back(-room / 2 + step.cwiseProduct(Vec3(i + site[0], j + site[1], k + site[2])));
+  double nearest = std::numeric_limits<double>::infinity();  // every site of a lattice sees what the first one sees
+  for (std::size_t i = 1; i < centres.size(); ++i) nearest = std::min(nearest, (centres[i] - centres[0]).squaredNorm());
+  if (nearest < setup.grains.diameter * setup.grains.diameter) does_not_fit(setup, 0, "fcc, stretched to the cell");
   return centres;
 }
 
@@ -155,7 +162,7 @@ std::vector<Vec3> packed_centres(const Setup& setup, Packing packing, const std:
   const bool lattice = packing == Packing::fcc || packing == Packing::square;
   if (lattice && equal) return centres;  // free of overlap by construction; large dampers skip the check of all pairs
   if (!free_of_overlap(setup, radius, centres) && !relax(setup, radius, centres))
-    does_not_fit(setup, centres.size(), "random, without overlap");
+    does_not_fit(setup, 0, std::string(name_of(packing)));
   return centres;
 }
 

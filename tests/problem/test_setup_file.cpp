@@ -198,6 +198,35 @@ TEST(SetupFile, BoxesTooSmall) {
                                                "box, or another release.packing");
 }
 
+TEST(SetupFile, CellsWithoutASpringAnswerToo) {
+  const std::string cell = "[domain]\nkind = \"periodic\"\n[box]\nlength = \"40 mm\"\nwidth = \"40 mm\"\n[grains]\n";
+  EXPECT_EQ(complaint(cell + "count = 32"), "");
+  EXPECT_EQ(complaint(cell + "count = 90"), "s.toml:7:9: grains.count: 90 grains do not fit (packing 'fcc, stretched to the cell' leaves overlaps in this box); take fewer or "
+                                            "smaller grains, a larger box, or another release.packing");
+}
+
+TEST(SetupFile, ExamplesAreThePapersDamper) {
+  const auto folder = std::filesystem::path(PROJECT_ROOT) / "harness/examples";
+  for (const auto& [name, length] : {std::pair("L040", 0.040), {"L065", 0.065}, {"L085", 0.085}, {"L104", 0.104}, {"L311", 0.311}}) {
+    shakedown::Setup expected;
+    expected.box.length = length;
+    expected.run.duration = 30;
+    EXPECT_EQ(write_setup(read_setup(folder / (std::string(name) + ".toml"), known)), write_setup(expected)) << name;
+  }
+}
+
+TEST(SetupFile, InitialGrainsOfOtherCodesAreTaken) {
+  for (const auto& [name, length] : {std::pair("L40", 0.040), {"L65", 0.065}, {"L85", 0.085}, {"L104", 0.104}}) {
+    shakedown::Setup setup;
+    setup.box.length = length;
+    setup.release.initial_grains = std::string(TEST_DATA) + "/init_damper_" + name + ".csv";
+    const State state = initial_state(setup);
+    const double spring = physics_of(setup).stiffness * state.x_box * state.x_box / 2;
+    EXPECT_EQ(state.size(), 37u);
+    EXPECT_NEAR(kinetic_energy(state, 0.434) / spring, 1e-5, 1e-11) << name;
+  }
+}
+
 TEST(SetupFile, EveryViolationAtOnce) {
   const std::string all = complaint("[box]\nmass = \"-1 g\"\nlength = 40\nwdth = \"1 mm\"\n[run]\nduration = \"0 s\"\n[[effect]]\nname = \"nothing_like_it\"\n");
   EXPECT_EQ(std::count(all.begin(), all.end(), '\n') + 1, 5) << all;
