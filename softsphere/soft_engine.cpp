@@ -75,17 +75,14 @@ class SoftRun {
     // Samples at 0, interval, ... up to the duration; the last piece may be shorter and carries no sample.
     const auto samples = static_cast<std::int64_t>(std::floor(setup_.run.duration * setup_.run.sample_rate * (1 + 1e-12)));
     record(0);
-    for (std::int64_t k = 1; k <= samples && !stopped(); ++k) {
+    for (std::int64_t k = 1; k <= samples; ++k) {
       const double until = static_cast<double>(k) / setup_.run.sample_rate;
-      march(interval, until);
+      if (!march(interval, until)) break;
       record(until);
       if (options_.progress && k % 50 == 0) options_.progress(until);
     }
     const double rest = setup_.run.duration - static_cast<double>(samples) / setup_.run.sample_rate;
-    if (rest > 1e-9 * interval && !stopped()) {
-      march(rest, setup_.run.duration);
-      check_promises();
-    }
+    if (!trajectory_.interrupted && rest > 1e-9 * interval && march(rest, setup_.run.duration)) check_promises();
     finish();
     trajectory_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     return std::move(trajectory_);
@@ -103,12 +100,18 @@ class SoftRun {
     return true;
   }
 
-  void march(double interval, double until) {
+  /// Returns false when stopped on the way.
+  bool march(double interval, double until) {
     const std::int64_t steps = steps_in(interval);
     const double step = interval / static_cast<double>(steps), from = until - interval;
-    for (std::int64_t k = 0; k < steps; ++k) advance(from + static_cast<double>(k) * step, step);
-    trajectory_.events += steps;
+    for (std::int64_t k = 0; k < steps; ++k) {
+      time_ = from + static_cast<double>(k) * step;
+      if ((k & 0xfff) == 0 && stopped()) return false;
+      advance(time_, step);
+      ++trajectory_.events;
+    }
     time_ = until;
+    return true;
   }
 
   void advance(double time, double step) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hard_engine.hpp"
 #include "soft_engine.hpp"
 
 namespace shakedown {
@@ -24,6 +25,7 @@ inline void PrintTo(const EngineUnderTest& engine, std::ostream* out) { *out << 
 
 inline std::vector<EngineUnderTest> engines_under_test() {
   return {
+      {"hard", [] { return make_hard_engine(); }, 1e-12, 1e-12, 1e-12, 1e-12},
       {"soft", [] { return make_soft_engine(); }, 3.5e-3, 6e-4, 1e-12, 1e-12},
   };
 }
