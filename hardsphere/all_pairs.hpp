@@ -50,6 +50,7 @@ class AllPairs {
     return {b.x[0] - a.x[0], b.x[1] - a.x[1], b.x[2] - a.x[2]};
   }
 
+  double bytes_per_grain() const { return 10 * sizeof(double) + 3 * sizeof(std::int32_t); }
   /// Largest overlap of two grains met so far, m.
   double deepest_overlap() const;
 

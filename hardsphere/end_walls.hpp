@@ -5,7 +5,10 @@
 // In large dampers even that sweep would cost O(N) a kick. There a window is opened: with the box on its present arc, displaced by
 // at most `slack`, most grains cannot reach a wall before the window ends. They sleep; only the others are swept. Kicks move the box
 // off the arc by at most sum |dV| (end of window - now); when that exceeds the slack, or time runs out, a new window is opened.
+// Windows are as long as makes the sweeps over all grains (one a window) and over the watched ones (one a kick) cost the same; a
+// kick then costs O(sqrt N) with a small factor.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -40,8 +43,7 @@ class EndWalls {
   void grain_changed(int i, const Flight& flight, double now, const BoxMotion& box);
   /// The box was kicked at `now`; its motion restarted there with a velocity jump of `jump`.
   void box_kicked(double now, const BoxMotion& box, double jump);
-  /// True when a new window must be opened before time t is passed.
-  bool window_ends_by(double t) const { return t >= window_end_ || drift_ > slack_; }
+  /// The time at which a new window must be opened.
   double window_end() const { return window_end_; }
 
   /// Earliest known wall time, exact or bound.
@@ -51,6 +53,7 @@ class EndWalls {
 
   double deepest_overlap() const { return -smallest_gap_; }
   std::size_t watched() const { return count_; }
+  double bytes_per_grain() const { return room_.empty() ? 0 : 6 * sizeof(double) + 2 * sizeof(std::int32_t) + 1; }
 
  private:
   void find_next();
@@ -70,11 +73,23 @@ class EndWalls {
   std::vector<std::int32_t> grain_;
   std::vector<std::int8_t> side_;    // 0: bound_ is a lower bound
   Next next_;
-  double window_end_ = never, slack_ = never, drift_ = 0;
-  double reach_ = 0;                 // length over which a window is safe, m; adapted
+  double window_start_ = 0, window_end_ = never, slack_ = never;
+  double planned_ = 0;               // length of a window, s; adapted
+  double drift_ = 0, jumps_ = 0;     // of this window: bound of the box's displacement off its arc, sum of |dV|
+  double jump_rate_ = 0;             // sum of |dV| a second, of past windows
   std::int64_t kicks_ = 0;           // in this window
   double smallest_gap_ = 0;
 };
+
+inline bool EndWalls::can_sleep(const Flight& flight, double room, double now, BoxMotion::Point point,
+                                double top_acceleration) const {
+  const double h = window_end_ - now;
+  const double apart = point.x - (flight.x + flight.v * (now - flight.time)), rate = point.v - flight.v;
+  const double curved = top_acceleration * h * h / 2;
+  // The bound is concave in time: it is lowest at one of the window's ends.
+  const double upper = room + apart, lower = room - apart;
+  return std::min(upper, upper + rate * h - curved) > slack_ && std::min(lower, lower - rate * h - curved) > slack_;
+}
 
 template <class FlightOf>
 void EndWalls::open(double now, const BoxMotion& box, FlightOf&& flight_of) {
@@ -88,7 +103,6 @@ void EndWalls::open(double now, const BoxMotion& box, FlightOf&& flight_of) {
     if (watch_all_ || !can_sleep(flight, room_[i], now, point, top_acceleration)) watch(static_cast<int>(i), flight);
   }
   bound_all(now, box);
-  find_next();
 }
 
 }  // namespace shakedown

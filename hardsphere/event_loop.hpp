@@ -44,6 +44,7 @@ class EventLoop {
   double initial_energy() const { return initial_energy_; }
   /// Sum over pair impacts of impulse times distance, N s m: 3 N k T (Z - 1) times the time it was summed over.
   double virial() const { return virial_; }
+  double bytes_per_grain() const { return grains_.bytes_per_grain() + walls_.bytes_per_grain(); }
 
  private:
   void step(double limit);
@@ -142,10 +143,9 @@ void EventLoop<Grains>::step(double limit) {
   if (has_walls_) {
     const EndWalls::Next& wall = walls_.next();
     const double earliest = std::min(next.time, wall.time);
-    if (walls_.window_ends_by(earliest)) {
-      now_ = std::max(now_, std::min(earliest, walls_.window_end()));
-      open_window();
-      return;
+    if (walls_.window_end() <= earliest) {
+      now_ = std::max(now_, walls_.window_end());
+      return open_window();
     }
     if (wall.time < next.time) {
       if (!wall.certain) return walls_.refine(box_, std::min(next.time, limit));

@@ -5,19 +5,43 @@
 #include <variant>
 
 #include "all_pairs.hpp"
+#include "cell_lists.hpp"
 #include "event_loop.hpp"
 
 namespace shakedown {
 
+using Loop = std::variant<EventLoop<AllPairs>, EventLoop<CellLists<false>>, EventLoop<CellLists<true>>>;
+
 struct HardSphereSystem::Inside {
-  EventLoop<AllPairs> loop;
+  Loop loop;
   double momentum_scale;  // M Omega Delta0
 };
 
 namespace {
 
-std::array<double, 2> half_widths(const Setup& setup) {
-  return {setup.box.width[0] / 2, setup.box.width[1] / 2};
+/// Up to this size testing every pair in vector lanes beats lists and queue.
+constexpr std::size_t all_pairs_up_to = 128;
+
+double grain_volume(const State& state) {
+  double volume = 0;
+  for (const double radius : state.radius) volume += 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  return volume;
+}
+
+Loop loop_for(const Setup& setup, const Physics& physics, const State& state) {
+  const double infinite = never;
+  const std::array<double, 2> half_width{setup.box.width[0] / 2, setup.box.width[1] / 2};
+  const std::array<double, 3> cell{setup.box.length, setup.box.width[0], setup.box.width[1]};
+  const double fraction = grain_volume(state) / (cell[0] * cell[1] * cell[2]);
+  if (setup.domain == Domain::periodic) {
+    const CellListsPlan plan{cell, true, {infinite, infinite}, fraction, 0};
+    return Loop(std::in_place_index<2>, state, physics, setup, CellLists<true>(state, plan));
+  }
+  if (state.size() <= all_pairs_up_to)
+    return Loop(std::in_place_index<0>, state, physics, setup, AllPairs(state, half_width));
+  // The grains of a damper lie in layers most of the time, whatever the box's mean filling.
+  const CellListsPlan plan{cell, false, half_width, setup.domain == Domain::damper ? std::max(0.45, fraction) : fraction, 0};
+  return Loop(std::in_place_index<1>, state, physics, setup, CellLists<false>(state, plan));
 }
 
 }  // namespace
@@ -25,30 +49,34 @@ std::array<double, 2> half_widths(const Setup& setup) {
 HardSphereSystem::HardSphereSystem(const Setup& setup, int run) : HardSphereSystem(setup, initial_state(setup, run)) {}
 
 HardSphereSystem::HardSphereSystem(const Setup& setup, const State& state) {
-  const Physics physics = physics_of(setup);
   const double scale =
       setup.box.mass * 2 * std::numbers::pi * setup.spring.frequency * std::abs(setup.release.displacement);
-  inside_.reset(new Inside{EventLoop<AllPairs>(state, physics, setup, AllPairs(state, half_widths(setup))), scale});
+  inside_.reset(new Inside{loop_for(setup, physics_of(setup), state), scale});
 }
 
 HardSphereSystem::~HardSphereSystem() = default;
 HardSphereSystem::HardSphereSystem(HardSphereSystem&&) noexcept = default;
 
-bool HardSphereSystem::advance_to(double t, const std::atomic<bool>* stop) { return inside_->loop.advance_to(t, stop); }
-void HardSphereSystem::advance_impacts(std::int64_t n) { inside_->loop.advance_impacts(n); }
-double HardSphereSystem::time() const { return inside_->loop.time(); }
-Observation HardSphereSystem::observe() { return inside_->loop.observe(inside_->loop.time()); }
-State HardSphereSystem::state() const { return inside_->loop.state(inside_->loop.time()); }
-const Ledger& HardSphereSystem::ledger() const { return inside_->loop.ledger(); }
+// Which loop it is was decided once; every call goes to it.
+#define SHAKEDOWN_IN_LOOP(expression) std::visit([&](auto& loop) -> decltype(auto) { return expression; }, inside_->loop)
+
+bool HardSphereSystem::advance_to(double t, const std::atomic<bool>* stop) { return SHAKEDOWN_IN_LOOP(loop.advance_to(t, stop)); }
+void HardSphereSystem::advance_impacts(std::int64_t n) { SHAKEDOWN_IN_LOOP(loop.advance_impacts(n)); }
+double HardSphereSystem::time() const { return SHAKEDOWN_IN_LOOP(loop.time()); }
+Observation HardSphereSystem::observe() { return SHAKEDOWN_IN_LOOP(loop.observe(loop.time())); }
+State HardSphereSystem::state() const { return SHAKEDOWN_IN_LOOP(loop.state(loop.time())); }
+const Ledger& HardSphereSystem::ledger() const { return SHAKEDOWN_IN_LOOP(loop.ledger()); }
 Health HardSphereSystem::health() const {
-  Health health = inside_->loop.health();
+  Health health = SHAKEDOWN_IN_LOOP(loop.health());
   if (inside_->momentum_scale > 0) health.momentum_error /= inside_->momentum_scale;
   return health;
 }
-const std::array<std::int64_t, contact_classes>& HardSphereSystem::collisions() const { return inside_->loop.collisions(); }
-std::int64_t HardSphereSystem::events() const { return inside_->loop.events(); }
-double HardSphereSystem::initial_energy() const { return inside_->loop.initial_energy(); }
-double HardSphereSystem::virial() const { return inside_->loop.virial(); }
-double HardSphereSystem::bytes_per_grain() const { return 0; }
+const std::array<std::int64_t, contact_classes>& HardSphereSystem::collisions() const {
+  return SHAKEDOWN_IN_LOOP(loop.collisions());
+}
+std::int64_t HardSphereSystem::events() const { return SHAKEDOWN_IN_LOOP(loop.events()); }
+double HardSphereSystem::initial_energy() const { return SHAKEDOWN_IN_LOOP(loop.initial_energy()); }
+double HardSphereSystem::virial() const { return SHAKEDOWN_IN_LOOP(loop.virial()); }
+double HardSphereSystem::bytes_per_grain() const { return SHAKEDOWN_IN_LOOP(loop.bytes_per_grain()); }
 
 }  // namespace shakedown

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Grains of a large system: one cache line a grain, neighbour lists found through cells, a calendar of one event a grain. The cost of an
+// impact does not depend on the number of grains.
+//
+// A list holds the grains whose list centres lie within `shell` of one's own; a grain renews its list when it has moved `leeway` from its
+// centre, an event like any other. Spheres touch at `reach` at most, so with shell = reach + 2 leeway no partner can be missed.
+#pragma once
+#include <vector>
+
+#include "calendar_queue.hpp"
+#include "grain_event.hpp"
+#include "initial_state.hpp"
+#include "lanes.hpp"
+
+namespace shakedown {
+
+struct CellListsPlan {
+  std::array<double, 3> cell{};    ///< m, extent of the domain along each axis; grains may leave it, cells wrap around
+  bool periodic = false;
+  std::array<double, 2> half_width{never, never};  ///< side walls, m
+  double packing_fraction = 0.5;   ///< local; sets the shell
+  double shell = 0;                ///< in units of the largest diameter; 0: chosen by packing fraction
+};
+
+template <bool Periodic>
+class CellLists {
+ public:
+  using Next = CalendarQueue::Next;
+
+  CellLists(const State& state, const CellListsPlan& plan);
+
+  int size() const { return static_cast<int>(lines_.size()); }
+  Flight3 flight(int i) const {
+    const Line& line = lines_[static_cast<std::size_t>(i)];
+    return {{line.x, line.y, line.z}, {line.vx, line.vy, line.vz}, line.time};
+  }
+  void set_flight(int i, const Flight3& flight);
+  void move_to(int i, const Flight3& flight);
+  double radius(int i) const { return radius_[static_cast<std::size_t>(i)]; }
+  double mass(int i) const { return mass_[static_cast<std::size_t>(i)]; }
+  Next next() { return queue_.next(); }
+  GrainEvent event(int i) const;
+  bool is_stale(const GrainEvent& event) const {
+    return event.partner >= 0 && lines_[static_cast<std::size_t>(event.partner)].count != event.partner_count;
+  }
+  void predict(int i);
+  void predict(int i, int j) {
+    predict(i);
+    predict(j);
+  }
+  void predict_all();
+  /// Renews the list of a grain that has reached its leeway.
+  void leave_neighbourhood(int i);
+  /// From a to b, the nearest image.
+  std::array<double, 3> separation(const Flight3& a, const Flight3& b) const;
+  double deepest_overlap() const { return -smallest_room_ / (2 * smallest_reach_); }
+  double bytes_per_grain() const;
+
+ private:
+  /// All that a neighbour must know of a grain, in one cache line.
+  struct alignas(64) Line {
+    double x, y, z, vx, vy, vz, time;
+    std::uint32_t count;  ///< impacts, to tell stale predictions
+    std::uint32_t unused;
+  };
+  struct Event {
+    std::int32_t partner;
+    std::uint32_t partner_count;
+  };
+
+  std::size_t cell_of(const std::array<double, 3>& centre) const;
+  void put_in_cell(std::size_t i);
+  void take_from_cell(std::size_t i);
+  void find_neighbours(std::size_t i, bool both_ways);
+  void add_neighbour(std::size_t i, std::int32_t neighbour);
+  void remove_neighbour(std::size_t i, std::int32_t neighbour);
+  void widen_lists();
+  double nearest(double r, std::size_t axis) const { return Periodic ? r - extent_[axis] * std::nearbyint(r * inverse_extent_[axis]) : r; }
+  double time_to_leave(std::size_t i, const Flight3& flight) const;
+
+  AlignedVector<Line> lines_;
+  std::vector<double> radius_, mass_;
+  std::vector<std::array<double, 3>> centre_;
+  std::vector<std::int32_t> list_;
+  std::vector<std::uint16_t> list_size_;
+  std::size_t list_room_ = 24;
+  std::vector<std::int32_t> cell_first_, cell_next_, cell_previous_, cell_;
+  std::array<int, 3> cells_{};
+  std::array<double, 3> extent_{}, inverse_extent_{}, per_cell_{};
+  std::array<double, 2> half_width_{};
+  double shell_ = 0, leeway_ = 0, largest_reach_ = 0, smallest_reach_ = never;
+  bool equal_ = true;
+  std::vector<Event> event_;
+  CalendarQueue queue_;
+  double smallest_room_ = 0;
+};
+
+extern template class CellLists<true>;
+extern template class CellLists<false>;
+
+}  // namespace shakedown
