@@ -106,6 +106,18 @@ void AllPairs::predict_all() {
   for (int i = 0; i < size(); ++i) predict(i);
 }
 
+GrainSums AllPairs::sums(double t) const {
+  Lanes mass(0.0), kinetic(0.0), moment(0.0), momentum(0.0);
+  for (std::size_t j = 0; j < padded_size_; j += lane_count) {
+    const Lanes m = load(mass_, j), vx = load(vx_, j), vy = load(vy_, j), vz = load(vz_, j);
+    mass += m;
+    kinetic += m * (vx * vx + vy * vy + vz * vz);
+    moment += m * (load(x_, j) + vx * (Lanes(t) - load(time_, j)));
+    momentum += m * vx;
+  }
+  return {simd::reduce(mass), simd::reduce(kinetic) / 2, simd::reduce(moment), simd::reduce(momentum)};
+}
+
 double AllPairs::deepest_overlap() const {
   if (size_ == 0) return 0;
   double reach = never;

@@ -41,6 +41,7 @@ class AllPairs {
   bool is_stale(const GrainEvent& event) const {
     return event.partner >= 0 && count_[static_cast<std::size_t>(event.partner)] != event.partner_count;
   }
+  GrainSums sums(double t) const;
   /// Predicts the next event of a grain, or of both grains of a pair, whose flights start now.
   void predict(int i);
   void predict(int i, int j);

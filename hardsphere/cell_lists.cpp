@@ -242,6 +242,20 @@ void CellLists<Periodic>::leave_neighbourhood(int i) {
 }
 
 template <bool Periodic>
+GrainSums CellLists<Periodic>::sums(double t) const {
+  GrainSums sums;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const Line& line = lines_[i];
+    const double m = mass_[i];
+    sums.mass += m;
+    sums.kinetic += m / 2 * (line.vx * line.vx + line.vy * line.vy + line.vz * line.vz);
+    sums.moment += m * (line.x + line.vx * (t - line.time));
+    sums.momentum += m * line.vx;
+  }
+  return sums;
+}
+
+template <bool Periodic>
 double CellLists<Periodic>::bytes_per_grain() const {
   if (lines_.empty()) return 0;
   const double n = static_cast<double>(lines_.size());

@@ -43,6 +43,7 @@ class CellLists {
   bool is_stale(const GrainEvent& event) const {
     return event.partner >= 0 && lines_[static_cast<std::size_t>(event.partner)].count != event.partner_count;
   }
+  GrainSums sums(double t) const;
   void predict(int i);
   void predict(int i, int j) {
     predict(i);

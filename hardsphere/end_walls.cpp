@@ -102,10 +102,9 @@ void EndWalls::find_next() {
   next_ = {earliest.value, grain_[slot], side_[slot], side_[slot] != 0};
 }
 
-void EndWalls::grain_changed(int i, const Flight& flight, double now, const BoxMotion& box) {
+void EndWalls::grain_changed(int i, const Flight& flight, double now, BoxMotion::Point point, double top) {
   std::int32_t& slot = slot_[static_cast<std::size_t>(i)];
-  const BoxMotion::Point point = box.at(now);
-  const double top = box.top_acceleration(), room = room_[static_cast<std::size_t>(i)];
+  const double room = room_[static_cast<std::size_t>(i)];
   if (slot < 0) {
     if (can_sleep(flight, room, now, point, top)) return;
     watch(i, flight);

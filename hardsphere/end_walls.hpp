@@ -40,7 +40,7 @@ class EndWalls {
   void open(double now, const BoxMotion& box, FlightOf&& flight_of);
 
   /// Grain i flies anew from `now` on.
-  void grain_changed(int i, const Flight& flight, double now, const BoxMotion& box);
+  void grain_changed(int i, const Flight& flight, double now, BoxMotion::Point box_now, double top_acceleration);
   /// The box was kicked at `now`; its motion restarted there with a velocity jump of `jump`.
   void box_kicked(double now, const BoxMotion& box, double jump);
   /// The time at which a new window must be opened.

@@ -37,7 +37,11 @@ class EventLoop {
   double time() const { return now_; }
   Observation observe(double t);
   State state(double t) const;
-  const Ledger& ledger() const { return ledger_; }
+  Ledger ledger() const {
+    Ledger ledger = ledger_;
+    for (std::size_t c = 0; c < contact_classes; ++c) ledger.contact_loss[c] += ledger_rest_[c];
+    return ledger;
+  }
   Health health() const;
   const std::array<std::int64_t, contact_classes>& collisions() const { return collisions_; }
   std::int64_t events() const { return events_; }
@@ -54,12 +58,24 @@ class EventLoop {
   void grain_event(int i);
   void open_window();
   void after(int i);
-  double box_energy(double t) const;
+  double box_energy(BoxMotion::Point box) const;
   EndWalls::Flight axial(int i) const {
     const Flight3 flight = grains_.flight(i);
     return {flight.x[0], flight.v[0], flight.time};
   }
   void check_progress();
+  /// Adds to the ledger with Neumaier's compensation: millions of small losses must not cost the closure its digits.
+  void lose(std::size_t contact_class, double energy) {
+    double& sum = ledger_.contact_loss[contact_class];
+    const double next = sum + energy;
+    ledger_rest_[contact_class] += std::abs(sum) >= std::abs(energy) ? (sum - next) + energy : (energy - next) + sum;
+    sum = next;
+  }
+  /// The box at now_; several callers of one event share it.
+  BoxMotion::Point box_now() {
+    if (now_ != box_time_) box_point_ = box_.at(now_), box_time_ = now_;
+    return box_point_;
+  }
 
   ContactLaw contact_;
   ElasticLimits limits_;
@@ -67,8 +83,10 @@ class EventLoop {
   BoxMotion box_;
   bool has_walls_, has_spring_;
   EndWalls walls_;
-  double now_ = 0;
+  double now_ = 0, box_time_ = -1;
+  BoxMotion::Point box_point_{};
   Ledger ledger_;
+  std::array<double, contact_classes> ledger_rest_{};
   std::array<std::int64_t, contact_classes> collisions_{};
   std::int64_t events_ = 0, refused_ = 0, elastic_walls_ = 0, elastic_pairs_ = 0;
   double initial_energy_ = 0, initial_momentum_ = 0, spring_impulse_ = 0, virial_ = 0;
@@ -195,7 +213,7 @@ void EventLoop<Grains>::pair_impact(int i, int j) {
     a.v[axis] -= along / ma;
     b.v[axis] += along / mb;
   }
-  ledger_.contact_loss[0] += reduced / 2 * (1 - restitution * restitution) * closing * closing;
+  lose(0, reduced / 2 * (1 - restitution * restitution) * closing * closing);
   ++collisions_[0];
   virial_ += impulse * distance;
   grains_.set_flight(i, a);
@@ -218,7 +236,7 @@ void EventLoop<Grains>::side_impact(int i, std::int32_t face) {
     ++elastic_walls_;
   }
   flight.v[axis] *= -restitution;
-  ledger_.contact_loss[2] += grains_.mass(i) / 2 * (1 - restitution * restitution) * closing * closing;
+  lose(2, grains_.mass(i) / 2 * (1 - restitution * restitution) * closing * closing);
   ++collisions_[2];
   grains_.set_flight(i, flight);
   grains_.predict(i);
@@ -230,7 +248,7 @@ template <class Grains>
 void EventLoop<Grains>::end_impact(int i, int side) {
   Flight3 flight = grains_.flight(i);
   flight.advance(now_);
-  const BoxMotion::Point box = box_.at(now_);
+  const BoxMotion::Point box = box_now();
   const double closing = side * (flight.v[0] - box.v);
   if (closing <= 0) {
     ++refused_;
@@ -247,15 +265,16 @@ void EventLoop<Grains>::end_impact(int i, int side) {
   const double m = grains_.mass(i), reduced = has_spring_ ? m * box_.mass() / (m + box_.mass()) : m;
   const double impulse = reduced * (1 + restitution) * closing;
   flight.v[0] -= side * impulse / m;
-  ledger_.contact_loss[1] += reduced / 2 * (1 - restitution * restitution) * closing * closing;
+  lose(1, reduced / 2 * (1 - restitution * restitution) * closing * closing);
   ++collisions_[1];
   if (has_spring_) {
     const double jump = side * impulse / box_.mass();
     spring_impulse_ += box_.spring_impulse(now_);
     box_.restart(now_, box.x, box.v + jump);
+    box_point_.v += jump;
     grains_.set_flight(i, flight);
     grains_.predict(i);
-    walls_.grain_changed(i, {flight.x[0], flight.v[0], now_}, now_, box_);
+    walls_.grain_changed(i, {flight.x[0], flight.v[0], now_}, now_, {box_.x(), box_.v()}, box_.top_acceleration());
     walls_.box_kicked(now_, box_, jump);
   } else {
     grains_.set_flight(i, flight);
@@ -267,34 +286,25 @@ void EventLoop<Grains>::end_impact(int i, int side) {
 /// Tells the end walls of a grain's new flight.
 template <class Grains>
 void EventLoop<Grains>::after(int i) {
-  if (has_walls_) walls_.grain_changed(i, axial(i), now_, box_);
+  if (has_walls_) walls_.grain_changed(i, axial(i), now_, box_now(), box_.top_acceleration());
 }
 
 template <class Grains>
-double EventLoop<Grains>::box_energy(double t) const {
+double EventLoop<Grains>::box_energy(BoxMotion::Point box) const {
   if (!has_spring_) return 0;
-  const BoxMotion::Point box = box_.at(t);
   return box_.stiffness() * box.x * box.x / 2 + box_.mass() * box.v * box.v / 2;
 }
 
 template <class Grains>
 Observation EventLoop<Grains>::observe(double t) {
-  double kinetic = 0, moment = 0, mass = 0, momentum = 0;
-  for (int i = 0; i < grains_.size(); ++i) {
-    const Flight3 flight = grains_.flight(i);
-    const double m = grains_.mass(i);
-    kinetic += m / 2 * (flight.v[0] * flight.v[0] + flight.v[1] * flight.v[1] + flight.v[2] * flight.v[2]);
-    moment += m * flight.along(0, t);
-    momentum += m * flight.v[0];
-    mass += m;
-  }
+  const GrainSums grains = grains_.sums(t);
   const BoxMotion::Point box = box_.at(t);
-  const Observation seen{t, box.x, box.v, grains_.size() > 0 ? moment / mass : std::nan(""), kinetic + box_energy(t)};
+  const Observation seen{t, box.x, box.v, grains_.size() > 0 ? grains.moment / grains.mass : std::nan(""), grains.kinetic + box_energy(box)};
   if (initial_energy_ > 0)
     worst_ledger_ = std::max(worst_ledger_,
-                             std::abs(seen.total_energy + ledger_.total_loss() - initial_energy_) / initial_energy_);
+                             std::abs(seen.total_energy + ledger().total_loss() - initial_energy_) / initial_energy_);
   if (has_spring_) {
-    momentum += box_.mass() * box.v;
+    const double momentum = grains.momentum + box_.mass() * box.v;
     worst_momentum_ = std::max(worst_momentum_,
                                std::abs(momentum - initial_momentum_ - spring_impulse_ - box_.spring_impulse(t)));
   }

@@ -21,6 +21,11 @@ struct Flight3 {
   }
 };
 
+/// Sums over all grains: mass, kinetic energy, first moment of x at a time, momentum along x.
+struct GrainSums {
+  double mass = 0, kinetic = 0, moment = 0, momentum = 0;
+};
+
 /// Partners that are not grains.
 constexpr std::int32_t no_partner = -1;
 constexpr std::int32_t leaves_neighbourhood = -2;

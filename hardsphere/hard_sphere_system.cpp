@@ -65,7 +65,7 @@ void HardSphereSystem::advance_impacts(std::int64_t n) { SHAKEDOWN_IN_LOOP(loop.
 double HardSphereSystem::time() const { return SHAKEDOWN_IN_LOOP(loop.time()); }
 Observation HardSphereSystem::observe() { return SHAKEDOWN_IN_LOOP(loop.observe(loop.time())); }
 State HardSphereSystem::state() const { return SHAKEDOWN_IN_LOOP(loop.state(loop.time())); }
-const Ledger& HardSphereSystem::ledger() const { return SHAKEDOWN_IN_LOOP(loop.ledger()); }
+Ledger HardSphereSystem::ledger() const { return SHAKEDOWN_IN_LOOP(loop.ledger()); }
 Health HardSphereSystem::health() const {
   Health health = SHAKEDOWN_IN_LOOP(loop.health());
   if (inside_->momentum_scale > 0) health.momentum_error /= inside_->momentum_scale;

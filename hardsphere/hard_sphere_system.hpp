@@ -31,7 +31,7 @@ class HardSphereSystem {
   double time() const;
   Observation observe();
   State state() const;
-  const Ledger& ledger() const;
+  Ledger ledger() const;
   /// Errors in Health's units; also updated by every observe().
   Health health() const;
   const std::array<std::int64_t, contact_classes>& collisions() const;

@@ -13,9 +13,14 @@ double root_in(const HarmonicGap& gap, double low, double high) {
   double t = low + (high - low) / 2;
   // From the low end the curvature bound gives a start that cannot overshoot.
   const double curvature = std::hypot(gap.a, gap.b) * gap.angular_frequency * gap.angular_frequency;
-  if (curvature > 0) t = std::min(t, low + earliest_possible_root(gap.at(low), gap.rate(low), curvature));
+  const HarmonicGap::Value start = gap.value(low);
+  if (curvature > 0) t = std::min(t, low + earliest_possible_root(start.gap, start.rate, curvature));
+  // Below this a gap is rounding: half a unit in the last place of the largest term.
+  const double noise = 0x1p-53 * (std::abs(gap.a) + std::abs(gap.b) + std::abs(gap.c));
   for (int iteration = 0; iteration < 200; ++iteration) {
-    const double value = gap.at(t), slope = gap.rate(t);
+    const HarmonicGap::Value now = gap.value(t);
+    const double value = now.gap, slope = now.rate;
+    if (std::abs(value) <= noise) break;
     if (value > 0) low = t;
     else high = t;
     double next = slope < 0 ? t - value / slope : low + (high - low) / 2;
@@ -55,14 +60,14 @@ double first_wall_root(const HarmonicGap& gap) {
     return root_in(gap, 0, std::max(amplitude + gap.c, 0.0) / gap.u * (1 + 1e-15) + 1e-300);
   }
   FallingStretch stretch = next_falling_stretch(gap, amplitude, start_rate);
-  const double lowest = gap.at(stretch.minimum / w);
+  const double lowest = gap.value(stretch.minimum / w).gap;
   if (lowest > 0) {
     if (gap.u <= 0) return never;  // later minima are no lower
     const double periods = std::ceil(lowest / (gap.u * turn / w));
     if (!(periods < 1e12)) return never;
     const auto later = [&](double n) { return FallingStretch{stretch.maximum + n * turn, stretch.minimum + n * turn}; };
     FallingStretch found = later(periods);
-    if (gap.at(found.minimum / w) > 0) found = later(periods + 1);  // the division rounded down
+    if (gap.value(found.minimum / w).gap > 0) found = later(periods + 1);  // the division rounded down
     stretch = found;
   }
   return root_in(gap, std::max(0.0, stretch.maximum / w), stretch.minimum / w);

@@ -20,13 +20,12 @@ struct HarmonicGap {
   double c;                  ///< m
   double u;                  ///< m/s
 
-  double at(double t) const {
-    const double phase = angular_frequency * t;
-    return a * std::cos(phase) + b * std::sin(phase) + c - u * t;
-  }
-  double rate(double t) const {
-    const double phase = angular_frequency * t;
-    return angular_frequency * (b * std::cos(phase) - a * std::sin(phase)) - u;
+  struct Value {
+    double gap, rate;
+  };
+  Value value(double t) const {
+    const double phase = angular_frequency * t, cosine = std::cos(phase), sine = std::sin(phase);
+    return {a * cosine + b * sine + c - u * t, angular_frequency * (b * cosine - a * sine) - u};
   }
 };
 
