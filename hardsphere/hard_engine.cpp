@@ -27,7 +27,9 @@ class HardEngine final : public Engine {
     const std::int64_t report_every = std::max<std::int64_t>(1, samples / 200);
     for (std::int64_t k = 0; k <= samples; ++k) {
       const double time = static_cast<double>(k) / setup.run.sample_rate;
-      if (!system.advance_to(time, options.stop)) {
+      // Small dampers have few events a sample, too few for the loop itself to look at the flag.
+      const bool stopped = k > 0 && options.stop != nullptr && options.stop->load(std::memory_order_relaxed);
+      if (stopped || !system.advance_to(time, options.stop)) {
         trajectory.interrupted = true;
         break;
       }
