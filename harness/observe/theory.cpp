@@ -19,6 +19,19 @@ LandingPhase landing_phase(double to_peak, double through_box) {
   return fraction(through_box) < 0.5 ? LandingPhase::inward : LandingPhase::unfavourable;
 }
 
+void expect_a_released_spring(const Setup& setup) {
+  const auto place = [&](const char* key) {
+    return setup.places.contains(key) ? setup.places.at(key) : SourcePlace{};
+  };
+  if (setup.domain != Domain::damper)
+    throw InputError({{place("domain.kind"), "domain.kind",
+                       "has no spring, so the theory of the damper does not apply", "use \"damper\""}});
+  if (setup.release.displacement == 0)
+    throw InputError(
+        {{place("release.displacement"), "release.displacement",
+          "is zero, so there is no stroke to estimate from", "give the distance of the release"}});
+}
+
 }  // namespace
 
 const char* to_string(LandingPhase phase) {
@@ -43,11 +56,7 @@ double layer_thickness(const Setup& setup) {
 }
 
 Theory theory_of(const Setup& setup) {
-  if (setup.domain != Domain::damper)
-    throw InputError({{{},
-                       "domain",
-                       "has no spring, so the theory of the damper does not apply",
-                       "use domain = \"damper\""}});
+  expect_a_released_spring(setup);
   const Physics physics = physics_of(setup);
   const Setup::Blade& blade = setup.blade;
   const double release = std::abs(setup.release.displacement), length = setup.box.length;
