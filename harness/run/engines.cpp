@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "engines.hpp"
+
+#include <span>
+
+#ifdef WITH_HARDSPHERE
+#include "hard_engine.hpp"
+#endif
+#ifdef WITH_SOFTSPHERE
+#include "soft_engine.hpp"
+#endif
+
+namespace shakedown {
+
+namespace {
+
+struct NamedEngine {
+  const char* name;
+  std::unique_ptr<Engine> (*make)();
+};
+
+std::span<const NamedEngine> engines() {
+  static const std::vector<NamedEngine> list{
+#ifdef WITH_HARDSPHERE
+      {"hard", make_hard_engine},
+#endif
+#ifdef WITH_SOFTSPHERE
+      {"soft", [] { return make_soft_engine(); }},
+#endif
+  };
+  return list;
+}
+
+}  // namespace
+
+std::vector<std::string> engine_names() {
+  std::vector<std::string> names;
+  for (const NamedEngine& engine : engines()) names.emplace_back(engine.name);
+  return names;
+}
+
+std::unique_ptr<Engine> engine_named(std::string_view name) {
+  std::string known;
+  for (const NamedEngine& engine : engines()) {
+    if (name == engine.name) return engine.make();
+    known += (known.empty() ? "" : ", ") + std::string(engine.name);
+  }
+  throw InputError(
+      {{{}, "engine", "there is no engine '" + std::string(name) + "'", "choose one of: " + known}});
+}
+
+}  // namespace shakedown

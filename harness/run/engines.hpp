@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine.hpp"
+
+namespace shakedown {
+
+/// Names of the engines in this program, the default ("hard") first.
+std::vector<std::string> engine_names();
+
+/// Throws InputError for a name that is none of them.
+std::unique_ptr<Engine> engine_named(std::string_view name);
+
+}  // namespace shakedown

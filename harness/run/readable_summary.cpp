@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "readable_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+namespace shakedown {
+
+namespace {
+
+/// "8.20", of an ensemble "8.20 +- 0.05"; "-" where there is no such number.
+std::string with_spread(const Statistic& statistic, int decimals) {
+  if (statistic.n == 0) return "-";
+  if (statistic.n == 1 || std::isnan(statistic.sd)) return fmt::format("{:.{}f}", statistic.mean, decimals);
+  return fmt::format("{:.{}f} +- {:.{}f}", statistic.mean, decimals, statistic.sd, decimals);
+}
+
+std::string line(std::string_view name, const std::string& value, std::string_view unit = "") {
+  return fmt::format("  {:<34}{}{}{}\n", name, value, unit.empty() || value == "-" ? "" : " ",
+                     value == "-" ? "" : unit);
+}
+
+std::string peaks_line(const Ensemble& ensemble) {
+  std::string text;
+  for (std::size_t n = 0; n < 8; ++n) {
+    const Statistic peak = ensemble.over_runs([&](const RunResult& run) {
+      return n < run.observables.peaks.size() ? 1e3 * std::abs(run.observables.peaks[n].position) : absent;
+    });
+    if (peak.n > 0) text += fmt::format("{}{:.1f}", n == 0 ? "" : "  ", peak.mean);
+  }
+  return text.empty() ? "-" : text;
+}
+
+std::string motion_lines(const Ensemble& ensemble) {
+  const auto seen = [&](double scale, int decimals, auto member) {
+    return with_spread(
+        ensemble.over_runs([&](const RunResult& run) { return scale * run.observables.*member; }), decimals);
+  };
+  const auto rms = [&](auto which) {
+    return with_spread(
+        ensemble.over_runs([&](const RunResult& run) { return 1e3 * which(run.observables.decay); }), 2);
+  };
+  return line("first |peaks|", peaks_line(ensemble), "mm") +
+         line("slope of |peaks|", seen(1e3, 2, &Observables::slope), "mm/s") +
+         line("frequency", seen(1, 4, &Observables::frequency), "Hz") +
+         line("first peak below 10 mm", seen(1, 2, &Observables::first_small_peak), "s") +
+         line("decay: rms about a straight line", rms([](const Decay& decay) { return decay.linear.rms; }),
+              "mm") +
+         line("       rms about an exponential",
+              rms([](const Decay& decay) { return decay.exponential.rms; }), "mm");
+}
+
+std::string energy_lines(const Ensemble& ensemble, const Setup& setup) {
+  std::string text;
+  for (const std::size_t i : {0u, 3u})
+    text += line(fmt::format("{:g} % of the energy gone after", 100 * (1 - energy_fractions[i])),
+                 with_spread(ensemble.over_runs([&](const RunResult& run) {
+                   return run.observables.seconds_to_energy_fraction[i];
+                 }),
+                             2),
+                 "s");
+  constexpr std::array<std::string_view, contact_classes> names{
+      "lost between grains", "lost at the end walls", "lost at the side walls"};
+  for (std::size_t i = 0; i < contact_classes; ++i)
+    text += line(names[i],
+                 with_spread(ensemble.over_runs(
+                                 [&](const RunResult& run) { return 100 * run.observables.energy_loss[i]; }),
+                             1),
+                 "% of E0");
+  for (std::size_t i = 0; i < setup.effects.size(); ++i)
+    text +=
+        line(fmt::format("taken by {}", setup.effects[i].record->name),
+             with_spread(ensemble.over_runs([&](const RunResult& run) {
+               return i < run.observables.effect_loss.size() ? 100 * run.observables.effect_loss[i] : absent;
+             }),
+                         1),
+             "% of E0");
+  return text;
+}
+
+double collisions_of(const RunResult& run) {
+  double total = 0;
+  for (const std::int64_t count : run.trajectory.collisions) total += static_cast<double>(count);
+  return total;
+}
+
+std::string health_lines(const Ensemble& ensemble) {
+  double ledger = 0, momentum = 0, overlap = -1, rescues = 0;
+  std::set<std::string> notes;
+  for (const RunResult& run : ensemble.runs) {
+    const Health& health = run.trajectory.health;
+    ledger = std::max(ledger, health.ledger_error);
+    momentum = std::max(momentum, health.momentum_error);
+    overlap = std::max(overlap, health.deepest_overlap);
+    rescues = std::max(rescues, static_cast<double>(health.elastic_rescues));
+    notes.insert(health.notes.begin(), health.notes.end());
+  }
+  std::string text = line("collisions", with_spread(ensemble.over_runs(collisions_of), 0)) +
+                     line("energy ledger open by", fmt::format("{:.1e}", ledger), "of E0") +
+                     line("momentum off by", fmt::format("{:.1e}", momentum), "of M Omega Delta0") +
+                     line("deepest overlap", fmt::format("{:.1e}", overlap), "m") +
+                     line("impacts made elastic", fmt::format("{:.0f}", rescues));
+  for (const std::string& note : notes) text += line("note", note);
+  return text;
+}
+
+}  // namespace
+
+std::string readable_summary(const Ensemble& ensemble, const Setup& setup) {
+  const std::size_t finished = ensemble.runs.size();
+  std::string text = fmt::format("engine {}: {} grain{}, box {:g} mm, {:g} s, seed {}", ensemble.engine,
+                                 setup.grains.count, setup.grains.count == 1 ? "" : "s",
+                                 1e3 * setup.box.length, setup.run.duration, setup.run.seed);
+  if (ensemble.requested > 1) text += fmt::format(", {} runs (mean +- sd of one run)", finished);
+  text += "\n";
+  if (ensemble.interrupted && ensemble.requested == 1 && finished == 1)
+    text += fmt::format("  interrupted at {:.3f} s\n", ensemble.runs[0].trajectory.end_time);
+  else if (ensemble.interrupted)
+    text += fmt::format("  interrupted: {} of {} runs finished\n", finished, ensemble.requested);
+  if (finished == 0) return text;
+  if (setup.domain == Domain::damper) text += motion_lines(ensemble);
+  text += energy_lines(ensemble, setup) + health_lines(ensemble);
+  double collisions = 0, seconds = 0;
+  for (const RunResult& run : ensemble.runs) {
+    collisions += collisions_of(run);
+    seconds += run.trajectory.wall_seconds;
+  }
+  return text +
+         line("time taken", fmt::format("{:.2f} s, {:.3g} collisions per second of engine time",
+                                        ensemble.wall_seconds, seconds > 0 ? collisions / seconds : 0.0));
+}
+
+}  // namespace shakedown

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "run_results.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "setup_file.hpp"
+#include "summary_file.hpp"
+
+namespace shakedown {
+
+namespace {
+
+constexpr const char* run_columns =
+    "run,slope_mm_per_s,frequency_hz,first_peak_below_10mm_s,seconds_to_0.5,seconds_to_0.25,seconds_to_0.1,"
+    "seconds_to_0.05,"
+    "seconds_to_0.01,loss_grain_grain,loss_end_wall,loss_side_wall,collisions_grain_grain,collisions_end_"
+    "wall,"
+    "collisions_side_wall,ledger_error,momentum_error,deepest_overlap_m\n";
+
+std::string line_of(int run, const Trajectory& trajectory, const Observables& seen) {
+  std::vector<double> numbers{static_cast<double>(run), 1e3 * seen.slope, seen.frequency,
+                              seen.first_small_peak};
+  numbers.insert(numbers.end(), seen.seconds_to_energy_fraction.begin(),
+                 seen.seconds_to_energy_fraction.end());
+  numbers.insert(numbers.end(), seen.energy_loss.begin(), seen.energy_loss.end());
+  for (const std::int64_t count : trajectory.collisions) numbers.push_back(static_cast<double>(count));
+  const Health& health = trajectory.health;
+  numbers.insert(numbers.end(), {health.ledger_error, health.momentum_error, health.deepest_overlap});
+  return csv_line(numbers);
+}
+
+/// The setup as used; a file of grains moves into the folder with it.
+void write_used_setup(const OutputFolder& folder, Setup setup) {
+  if (!setup.release.initial_grains.empty()) {
+    std::ifstream file(setup.release.initial_grains, std::ios::binary);
+    std::ostringstream contents;
+    contents << file.rdbuf();
+    folder.write("initial_grains.csv", contents.str());
+    setup.release.initial_grains = "initial_grains.csv";
+  }
+  folder.write("setup.toml", write_setup(setup));
+}
+
+}  // namespace
+
+RunResults::RunResults(OutputFolder folder, bool every_series)
+    : folder_(std::move(folder)), every_series_(every_series), lines_(run_columns) {}
+
+void RunResults::add(int run, const Trajectory& trajectory, const Observables& observables) {
+  if (++runs_ == 1) folder_.write("series.csv", series_csv(trajectory));
+  if (every_series_)
+    folder_.write(std::filesystem::path("series") / fmt::format("run_{:04}.csv", run),
+                  series_csv(trajectory));
+  mean_.add(trajectory);
+  lines_ += line_of(run, trajectory, observables);
+}
+
+void RunResults::finish(const Ensemble& ensemble, const Setup& setup, const Provenance& provenance) {
+  if (ensemble.requested > 1 && runs_ > 0) {
+    folder_.write("mean_series.csv", mean_.csv());
+    folder_.write("runs.csv", lines_);
+  }
+  write_used_setup(folder_, setup);
+  folder_.write("provenance.json", provenance_json(provenance));
+  folder_.write("summary.json", summary_json(ensemble, setup));
+}
+
+}  // namespace shakedown

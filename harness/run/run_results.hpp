@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// A folder of results, filled while the runs go on.
+#pragma once
+#include "ensemble.hpp"
+#include "output_file.hpp"
+#include "provenance.hpp"
+#include "series_file.hpp"
+#include "setup.hpp"
+
+namespace shakedown {
+
+/// Writes into a folder: series.csv (of the first run), and of ensembles mean_series.csv, runs.csv (a line a
+/// run) and, if asked, series/run_NNNN.csv of every run; at the end summary.json, provenance.json and
+/// setup.toml (with initial_grains.csv when the grains came from a file, so that the folder can be run
+/// again).
+class RunResults {
+ public:
+  /// Throws FileError when the folder cannot be written to.
+  RunResults(OutputFolder folder, bool every_series);
+
+  /// Hand it to EnsembleOptions::each.
+  void add(int run, const Trajectory& trajectory, const Observables& observables);
+
+  /// Writes what is left. Throws FileError.
+  void finish(const Ensemble& ensemble, const Setup& setup, const Provenance& provenance);
+
+  const OutputFolder& folder() const { return folder_; }
+
+ private:
+  OutputFolder folder_;
+  bool every_series_;
+  int runs_ = 0;
+  MeanSeries mean_;
+  std::string lines_;
+};
+
+}  // namespace shakedown

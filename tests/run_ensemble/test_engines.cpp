@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "engines.hpp"
+
+#include <gtest/gtest.h>
+
+#include "errors.hpp"
+
+using namespace shakedown;
+
+TEST(Engines, EachNameMakesTheEngineOfThatName) {
+  const std::vector<std::string> names = engine_names();
+  ASSERT_FALSE(names.empty());
+  EXPECT_EQ(names[0], "hard");
+  for (const std::string& name : names) EXPECT_EQ(engine_named(name)->name(), name);
+}
+
+TEST(Engines, AnUnknownNameIsTheUsersInput) {
+  try {
+    engine_named("magic");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("hard"), std::string::npos);
+  }
+}
