@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <vector>
+
+namespace shakedown {
+
+/// Exit codes of every command.
+enum ExitCode : int {
+  exit_done = 0,            ///< done; the model holds
+  exit_model_rejected = 1,  ///< the data reject the model
+  exit_bad_input = 2,       ///< usage or setup
+  exit_promise_broken = 3,  ///< an engine could not keep its promise
+  exit_bad_file = 4,        ///< a file cannot be read or written
+  exit_bug = 70,
+  exit_interrupted = 130  ///< Ctrl-C; what was done is kept
+};
+
+/// A subcommand: what parses its arguments, and what it then does (returns the exit code).
+struct Command {
+  CLI::App* parser = nullptr;
+  std::function<int()> run;
+};
+
+/// Adds every command, in the order of `shakedown --help`. A new command is one file and one line here.
+std::vector<Command> add_commands(CLI::App& program);
+
+Command add_run_command(CLI::App& program);
+Command add_theory_command(CLI::App& program);
+
+}  // namespace shakedown

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#include "command.hpp"
+
+namespace shakedown {
+
+std::vector<Command> add_commands(CLI::App& program) {
+  return {
+      add_run_command(program),
+      add_theory_command(program),
+  };
+}
+
+}  // namespace shakedown

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <chrono>
+#include <functional>
+#include <string>
+
+namespace shakedown {
+
+/// A bar on a terminal, one plain line at the first sign of progress otherwise; on standard error. The bar is
+/// wiped when the display goes out of scope.
+class ProgressDisplay {
+ public:
+  explicit ProgressDisplay(const std::string& what);
+  ~ProgressDisplay();
+  ProgressDisplay(const ProgressDisplay&) = delete;
+  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+
+  /// fraction: 0 to 1.
+  void show(double fraction);
+
+ private:
+  std::string what_;
+  bool terminal_, announced_ = false;
+  std::chrono::steady_clock::time_point start_, last_;
+};
+
+}  // namespace shakedown

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// shakedown run: a setup through an engine.
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "command.hpp"
+#include "engines.hpp"
+#include "ensemble.hpp"
+#include "in_order.hpp"
+#include "interruption.hpp"
+#include "json_output.hpp"
+#include "progress_display.hpp"
+#include "readable_summary.hpp"
+#include "run_results.hpp"
+#include "setup_arguments.hpp"
+#include "summary_file.hpp"
+
+namespace shakedown {
+
+namespace {
+
+struct RunArguments {
+  SetupArguments setup;
+  JsonOutput json;
+  std::string engine = "hard", folder;
+  int runs = 1, threads = 0;
+  bool every_series = false;
+};
+
+Provenance provenance_of(const RunArguments& arguments, const Setup& setup) {
+  Provenance provenance = provenance_of_this_program();
+  provenance.engine = arguments.engine;
+  provenance.seed = setup.run.seed;
+  provenance.runs = arguments.runs;
+  provenance.threads = threads_or_all(arguments.threads);
+  return provenance;
+}
+
+Ensemble ensemble_of(const RunArguments& arguments, const Engine& engine, const Setup& setup,
+                     std::optional<RunResults>& results) {
+  const std::atomic<bool>* stop = catch_interruption();
+  ProgressDisplay display(fmt::format("{}: engine {}, {} run{} of {:g} s", arguments.setup.file,
+                                      engine.name(), arguments.runs, arguments.runs == 1 ? "" : "s",
+                                      setup.run.duration));
+  EnsembleOptions options;
+  options.runs = arguments.runs;
+  options.threads = arguments.threads;
+  options.progress = [&](double fraction) { display.show(fraction); };
+  options.stop = stop;
+  if (results)
+    options.each = [&](int run, const Trajectory& trajectory, const Observables& observables) {
+      results->add(run, trajectory, observables);
+    };
+  return run_ensemble(engine, setup, options);
+}
+
+int run(const RunArguments& arguments) {
+  const Setup setup = arguments.setup.read();
+  const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
+  refuse_what_is_not_modelled(*engine, setup);
+  arguments.json.check();
+  std::optional<RunResults> results;
+  if (!arguments.folder.empty()) results.emplace(OutputFolder(arguments.folder), arguments.every_series);
+  const Provenance provenance = provenance_of(arguments, setup);
+
+  const Ensemble ensemble = ensemble_of(arguments, *engine, setup, results);
+  if (ensemble.runs.empty()) throw Interrupted("no run had finished, nothing was kept");
+  if (results) results->finish(ensemble, setup, provenance);
+  fmt::print(arguments.json.for_people(), "{}", readable_summary(ensemble, setup));
+  if (results)
+    fmt::print(arguments.json.for_people(), "  results in {}\n", results->folder().path().string());
+  arguments.json.write(summary_json(ensemble, setup));
+  return ensemble.interrupted ? exit_interrupted : exit_done;
+}
+
+}  // namespace
+
+Command add_run_command(CLI::App& program) {
+  CLI::App& command = *program.add_subcommand("run", "run a setup through an engine");
+  const auto arguments = std::make_shared<RunArguments>();
+  add_setup_arguments(command, arguments->setup);
+  std::string names;
+  for (const std::string& name : engine_names()) names += (names.empty() ? "" : ", ") + name;
+  command.add_option("--engine", arguments->engine, "one of " + names)
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
+      .add_option("--out", arguments->folder,
+                  "write series, summary, setup as used and provenance into this folder")
+      ->type_name("DIR");
+  command
+      .add_option("--runs", arguments->runs,
+                  "runs that differ by their random numbers only; results as mean and spread")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      .add_option("--threads", arguments->threads,
+                  "threads for the runs, 0: one a core; the results do not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("T")
+      ->capture_default_str();
+  command.add_flag("--every-series", arguments->every_series,
+                   "with --out: the series of every run, not only of the first");
+  add_json_option(command, arguments->json);
+  return {&command, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace shakedown

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "program.hpp"
+
+#include <fcntl.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Captured {
+  fs::path path;
+  int descriptor;
+  Captured() {
+    std::string name = (fs::temp_directory_path() / "shakedown_cli_XXXXXX").string();
+    descriptor = ::mkstemp(name.data());
+    path = name;
+  }
+  ~Captured() {
+    ::close(descriptor);
+    fs::remove(path);
+  }
+  Captured(const Captured&) = delete;
+  Captured& operator=(const Captured&) = delete;
+};
+
+[[noreturn]] void become(const std::vector<std::string>& arguments) {
+  std::vector<char*> words{const_cast<char*>(SHAKEDOWN)};
+  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
+  ::execv(SHAKEDOWN, words.data());
+  ::_exit(127);
+}
+
+int exit_code_of(pid_t child) {
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+}  // namespace
+
+Outcome shakedown_program(const std::vector<std::string>& arguments) {
+  const Captured out, err;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+    ::dup2(out.descriptor, STDOUT_FILENO);
+    ::dup2(err.descriptor, STDERR_FILENO);
+    become(arguments);
+  }
+  const int code = exit_code_of(child);
+  return {code, contents(out.path), contents(err.path)};
+}
+
+Outcome interrupted_program(const std::vector<std::string>& arguments, const std::string& awaited) {
+  const Captured out;
+  int terminal = -1, far_end = -1;
+  EXPECT_EQ(::openpty(&terminal, &far_end, nullptr, nullptr, nullptr), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::dup2(out.descriptor, STDOUT_FILENO);
+    ::dup2(far_end, STDERR_FILENO);
+    ::close(terminal);
+    become(arguments);
+  }
+  ::close(far_end);
+  std::string seen;
+  bool sent = false;
+  std::array<char, 512> part;
+  for (ssize_t count; (count = ::read(terminal, part.data(), part.size())) > 0;) {
+    seen.append(part.data(), static_cast<std::size_t>(count));
+    if (!sent && seen.find(awaited) != std::string::npos) {
+      ::kill(child, SIGINT);
+      sent = true;
+    }
+  }
+  ::close(terminal);
+  const int code = exit_code_of(child);
+  EXPECT_TRUE(sent) << seen;
+  return {code, contents(out.path), seen};
+}
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::string example(const std::string& name) {
+  return std::string(PROJECT_ROOT) + "/harness/examples/" + name;
+}
+
+void WithFolder::SetUp() {
+  std::string name = (fs::temp_directory_path() / "shakedown_cli_XXXXXX").string();
+  folder = ::mkdtemp(name.data());
+}
+
+void WithFolder::TearDown() { fs::remove_all(folder); }
+
+std::string WithFolder::file(const std::string& name, const std::string& text) const {
+  std::ofstream(folder / name) << text;
+  return in_folder(name);
+}

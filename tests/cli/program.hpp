@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Runs the shakedown program as a user would.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+/// Runs `shakedown` with these arguments and no terminal.
+Outcome shakedown_program(const std::vector<std::string>& arguments);
+
+/// Runs it with standard error on a terminal, sends SIGINT once `awaited` was printed there.
+Outcome interrupted_program(const std::vector<std::string>& arguments, const std::string& awaited);
+
+std::string contents(const std::filesystem::path& file);
+
+/// An example setup of the project.
+std::string example(const std::string& name);
+
+/// A test with an empty folder of its own.
+class WithFolder : public testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+  std::string in_folder(const std::string& name) const { return (folder / name).string(); }
+  /// Writes a file into the folder and returns its path.
+  std::string file(const std::string& name, const std::string& text) const;
+  std::filesystem::path folder;
+};

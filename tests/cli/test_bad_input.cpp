@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Each mistake: one clear message on standard error, nothing on standard output, the right exit code.
+#include "program.hpp"
+
+namespace fs = std::filesystem;
+
+class BadInput : public WithFolder {
+ protected:
+  /// Expects exit code 2 and the given words in the message, in one line unless more are announced.
+  void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& words,
+                      int lines = 1) const {
+    const Outcome outcome = shakedown_program(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+    for (const std::string& word : words)
+      EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " in: " << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), lines) << outcome.err;
+  }
+  void expect_setting_refused(const std::string& setting, const std::vector<std::string>& words) const {
+    expect_refused({"run", example("L040.toml"), "--set", setting}, words);
+  }
+};
+
+TEST_F(BadInput, UnknownKey) {
+  expect_refused({"run", file("a.toml", "[box]\nlenght = \"40 mm\"\n")},
+                 {"a.toml:2:1", "lenght", "did you mean", "length"});
+}
+TEST_F(BadInput, WrongUnit) { expect_setting_refused("box.length=40 g", {"box.length"}); }
+TEST_F(BadInput, BareNumber) {
+  expect_refused({"run", file("a.toml", "[box]\nmass = 434\n")}, {"a.toml:2:", "box.mass", "unit"});
+}
+TEST_F(BadInput, NegativeMass) { expect_setting_refused("box.mass=-434 g", {"box.mass"}); }
+TEST_F(BadInput, MoreGrainsThanFit) { expect_setting_refused("grains.count=5000", {"grains.count"}); }
+TEST_F(BadInput, BoxShorterThanAGrain) { expect_setting_refused("box.length=5 mm", {"box.length"}); }
+TEST_F(BadInput, ZeroDuration) { expect_setting_refused("run.duration=0 s", {"run.duration"}); }
+TEST_F(BadInput, NotANumber) { expect_setting_refused("box.mass=nan g", {"box.mass"}); }
+TEST_F(BadInput, NotToml) { expect_refused({"run", file("a.toml", "[box\nmass = 3\n")}, {"a.toml:1"}); }
+TEST_F(BadInput, SettingWithoutAValue) { expect_setting_refused("box.mass", {"box.mass", "key=value"}); }
+
+TEST_F(BadInput, EveryMistakeAtOnce) {
+  expect_refused({"run", file("a.toml", "[box]\nmass = 434\nlength = \"4 g\"\n[grains]\ncuont = 3\n")},
+                 {"a.toml:2:", "a.toml:3:", "a.toml:5:"}, 3);
+}
+
+TEST_F(BadInput, OverlappingGrains) {
+  const std::string grains = file("g.csv", "id,x,y,z,vx,vy,vz\n1,0.1075,0,0,0,0,0\n2,0.1125,0,0,0,0,0\n");
+  expect_refused(
+      {"run", example("L040.toml"), "--set", "grains.count=2", "--set", "release.initial_grains=" + grains},
+      {"g.csv:3", "overlap"});
+}
+
+TEST_F(BadInput, UnknownEngine) {
+  expect_refused({"run", example("L040.toml"), "--engine", "magic"}, {"magic", "hard"});
+}
+
+TEST_F(BadInput, Usage) {
+  expect_refused({}, {"--help"}, 2);
+  expect_refused({"run"}, {"SETUP"}, 2);
+  expect_refused({"run", example("L040.toml"), "--runs", "0"}, {"--runs"}, 2);
+  expect_refused({"run", example("L040.toml"), "--no-such-option"}, {"--no-such-option"}, 2);
+  expect_refused({"jump"}, {"jump"}, 2);
+}
+
+TEST_F(BadInput, MissingFileIsExitFour) {
+  for (const char* command : {"run", "theory"}) {
+    const Outcome outcome = shakedown_program({command, in_folder("none.toml")});
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_NE(outcome.err.find("none.toml"), std::string::npos);
+  }
+}
+
+TEST_F(BadInput, UnwritableOutputIsExitFourBeforeAnyWork) {
+  file("plain", "");
+  const std::string forever = "run.duration=1e7 s";
+  for (const std::vector<std::string>& option :
+       std::vector<std::vector<std::string>>{{"--out", in_folder("plain/out")},
+                                             {"--out", in_folder("plain")},
+                                             {"--json", in_folder("plain/a.json")},
+                                             {"--json", folder.string()}}) {
+    std::vector<std::string> arguments{"run", example("L040.toml"), "--set", forever, "--rate", "1"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    const Outcome outcome = shakedown_program(arguments);
+    EXPECT_EQ(outcome.code, 4) << outcome.err;
+    EXPECT_NE(outcome.err.find("cannot be written"), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Ctrl-C keeps what is done and exits 130.
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+using nlohmann::json;
+
+class Interruption : public WithFolder {};
+
+TEST_F(Interruption, KeepsThePartOfASingleRun) {
+  const Outcome outcome = interrupted_program(
+      {"run", example("L040.toml"), "--set", "run.duration=1e6 s", "--rate", "1", "--out", in_folder("out")},
+      " %");
+  EXPECT_EQ(outcome.code, 130) << outcome.err;
+  const json summary = json::parse(contents(folder / "out/summary.json"));
+  EXPECT_TRUE(summary["interrupted"]);
+  EXPECT_GT(summary["end_time_s"], 1);
+  EXPECT_LT(summary["end_time_s"], 1e6);
+  EXPECT_FALSE(contents(folder / "out/series.csv").empty());
+  EXPECT_NE(outcome.out.find("interrupted at"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Interruption, KeepsFinishedRunsOfAnEnsemble) {
+  const Outcome outcome =
+      interrupted_program({"run", example("L040.toml"), "--set", "run.duration=2 s", "--runs", "100000",
+                           "--threads", "2", "--out", in_folder("out")},
+                          " %");
+  EXPECT_EQ(outcome.code, 130) << outcome.err;
+  const json summary = json::parse(contents(folder / "out/summary.json"));
+  EXPECT_TRUE(summary["interrupted"]);
+  EXPECT_GE(summary["runs"]["finished"], 1);
+  EXPECT_LT(summary["runs"]["finished"], 100000);
+  EXPECT_EQ(summary["peaks_mm"][0]["n"], summary["runs"]["finished"]);
+}
