@@ -5,11 +5,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "box_flow.hpp"
 #include "grain_flow.hpp"
 #include "kick.hpp"
+#include "run_record.hpp"
 
 namespace shakedown {
 
@@ -56,59 +56,48 @@ class SoftRun {
  public:
   SoftRun(const Setup& setup, const RunOptions& options, PairSearch search)
       : setup_(setup), options_(options), physics_(physics_of(setup)), held_(setup.domain != Domain::damper),
-        state_(initial_state(setup, options.run)),
         model_{physics_.contact, setup.soft.contact_time, held_ ? 0.0 : physics_.box_mass, setup.box.length, setup.box.width},
-        bodies_(bodies_of(state_, model_.box_mass)), box_(physics_),
+        bodies_(bodies_of(initial_state(setup, options.run), model_.box_mass)), box_(physics_),
         neighbours_(bodies_, model_.law.has_attraction() ? model_.law.attraction_range : 0.0,
-                    search == PairSearch::every_step ? 0.0 : skin_in_diameters * setup.grains.diameter) {
+                    search == PairSearch::every_step ? 0.0 : skin_in_diameters * setup.grains.diameter),
+        record_(setup, "soft", model_.box_mass, [this](double x) { return box_.spring_energy(x); }) {
     accounts_.effect_work.resize(setup.effects.size());
     find_contacts(model_, bodies_, neighbours_.pairs(bodies_), longest_step(), {}, contacts_, accounts_);
     settle_contacts(contacts_);
-    stored_at_start_ = stored();
-    initial_energy_ = energy();
-    momentum_at_start_ = momentum();
+    record_.begin(setup, bodies_, stored());
   }
+  SoftRun(const SoftRun&) = delete;
+  SoftRun& operator=(const SoftRun&) = delete;
 
   Trajectory run() {
     const auto started = std::chrono::steady_clock::now();
-    const double interval = 1 / setup_.run.sample_rate;
-    // Samples at 0, interval, ... up to the duration; the last piece may be shorter and carries no sample.
-    const auto samples = static_cast<std::int64_t>(std::floor(setup_.run.duration * setup_.run.sample_rate * (1 + 1e-12)));
-    record(0);
-    for (std::int64_t k = 1; k <= samples; ++k) {
-      const double until = static_cast<double>(k) / setup_.run.sample_rate;
-      if (!march(interval, until)) break;
-      record(until);
-      if (options_.progress && k % 50 == 0) options_.progress(until);
-    }
-    const double rest = setup_.run.duration - static_cast<double>(samples) / setup_.run.sample_rate;
-    if (!trajectory_.interrupted && rest > 1e-9 * interval && march(rest, setup_.run.duration)) check_promises();
-    finish();
-    trajectory_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    return std::move(trajectory_);
+    through_samples(
+        setup_, options_, [this](double interval, double until) { return march(interval, until); },
+        [this](double time) {
+          check_promises();
+          record_.sample(time, bodies_, accounts_, stored());
+        });
+    check_promises();
+    add_notes();
+    Trajectory trajectory = record_.finish(bodies_, accounts_, stored(), time_);
+    trajectory.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    return trajectory;
   }
 
  private:
   double longest_step() const { return setup_.soft.contact_time / setup_.soft.steps_per_contact; }
-  std::int64_t steps_in(double interval) const {
-    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(interval / longest_step() * (1 - 1e-12))));
-  }
 
-  bool stopped() {
-    if (options_.stop == nullptr || !options_.stop->load(std::memory_order_relaxed)) return false;
-    trajectory_.interrupted = true;
-    return true;
-  }
-
-  /// Returns false when stopped on the way.
   bool march(double interval, double until) {
-    const std::int64_t steps = steps_in(interval);
+    const std::int64_t steps = steps_that_fill(interval, longest_step());
     const double step = interval / static_cast<double>(steps), from = until - interval;
     for (std::int64_t k = 0; k < steps; ++k) {
       time_ = from + static_cast<double>(k) * step;
-      if ((k & 0xfff) == 0 && stopped()) return false;
+      if ((k & 0xfff) == 0 && stop_is_asked(options_)) {
+        record_.trajectory.interrupted = true;
+        return false;
+      }
       advance(time_, step);
-      ++trajectory_.events;
+      ++record_.trajectory.events;
     }
     time_ = until;
     return true;
@@ -139,77 +128,15 @@ class SoftRun {
     if (physics_.grains.arc_length > 0) follow_arc(physics_.grains, before, bodies_, accounts_);
   }
 
-  double stored() const {
-    double energy = 0;
-    for (const Contact& contact : contacts_) energy += stored_energy(model_, contact);
+  StoredEnergy stored() const {
+    StoredEnergy energy{};
+    for (const Contact& contact : contacts_) energy[static_cast<std::size_t>(contact.kind)] += stored_energy(model_, contact);
     return energy;
-  }
-
-  double kinetic() const {
-    const Eigen::Index n = bodies_.grains;
-    double energy = held_ ? 0.0 : model_.box_mass * bodies_.v_box() * bodies_.v_box() / 2;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      energy += bodies_.mass(i) * bodies_.velocity_of(i).squaredNorm() / 2;
-      energy += 0.2 * bodies_.mass(i) * bodies_.radius(i) * bodies_.radius(i) * bodies_.spin_of(i).squaredNorm();
-    }
-    return energy;
-  }
-
-  double energy() const { return kinetic() + stored() + (held_ ? 0.0 : box_.spring_energy(bodies_.x_box())); }
-
-  double momentum() const {
-    return (bodies_.mass * bodies_.velocity.col(0).head(bodies_.grains)).sum() + model_.box_mass * bodies_.v_box();
-  }
-
-  double momentum_scale() const {
-    const double spring =
-        held_ ? 0.0 : setup_.box.mass * 2 * std::numbers::pi * setup_.spring.frequency * std::abs(setup_.release.displacement);
-    if (spring > 0) return spring;
-    double sum = 0;
-    for (std::size_t i = 0; i < state_.size(); ++i) sum += state_.mass[i] * state_.velocity[i].norm();
-    return sum > 0 ? sum : 1;
-  }
-
-  /// Dissipated in contacts of each class: what they took, less what their springs still hold.
-  std::array<double, contact_classes> losses() const {
-    std::array<double, contact_classes> loss{};
-    for (std::size_t kind = 0; kind < contact_classes; ++kind) loss[kind] = -accounts_.contact_work[kind].value();
-    for (const Contact& contact : contacts_) loss[static_cast<std::size_t>(contact.kind)] -= stored_energy(model_, contact);
-    // Springs that are loaded at release (attraction) belong to pairs of grains and walls alike; only their sum is needed.
-    loss[0] += stored_at_start_;
-    return loss;
-  }
-
-  Ledger ledger() const {
-    Ledger ledger{losses(), {}};
-    for (const CompensatedSum& work : accounts_.effect_work) ledger.effect_loss.push_back(-work.value());
-    return ledger;
-  }
-
-  double centre_of_mass() const {
-    return bodies_.grains == 0 ? std::numeric_limits<double>::quiet_NaN()
-                               : (bodies_.mass * bodies_.position.col(0).head(bodies_.grains)).sum() / bodies_.mass.sum();
-  }
-
-  void record(double time) {
-    trajectory_.time.push_back(time);
-    trajectory_.x_box.push_back(bodies_.x_box());
-    trajectory_.v_box.push_back(bodies_.v_box());
-    trajectory_.x_com.push_back(centre_of_mass());
-    trajectory_.total_energy.push_back(energy());
-    const auto loss = losses();
-    for (std::size_t kind = 0; kind < contact_classes; ++kind) trajectory_.loss[kind].push_back(loss[kind]);
-    check_promises();
   }
 
   void check_promises() {
-    Health& health = trajectory_.health;
-    const double scale = initial_energy_ > 0 ? initial_energy_ : 1;
-    const double open = std::abs(energy() + ledger().total_loss() - initial_energy_) / scale;
-    if (!std::isfinite(open) || accounts_.deepest_overlap > setup_.grains.diameter / 4) fail();
-    health.ledger_error = std::max(health.ledger_error, open);
-    const double drift = std::abs(momentum() - momentum_at_start_ - accounts_.outer_impulse.value());
-    health.momentum_error = std::max(health.momentum_error, drift / momentum_scale());
+    const bool finite = record_.check(bodies_, accounts_, stored());
+    if (!finite || accounts_.deepest_overlap > setup_.grains.diameter / 4) fail();
   }
 
   /// Contacts deeper than half a radius, or numbers that are none: the setup asks for more than soft contacts can do.
@@ -226,20 +153,11 @@ class SoftRun {
     throw PhysicsError(text);
   }
 
-  void finish() {
-    trajectory_.engine = "soft";
-    trajectory_.initial_energy = initial_energy_;
-    trajectory_.ledger = ledger();
-    trajectory_.collisions = accounts_.collisions;
-    trajectory_.end_time = time_;
-    trajectory_.health.deepest_overlap = accounts_.deepest_overlap;
-    add_notes();
-  }
-
   void add_notes() {
-    std::vector<std::string>& notes = trajectory_.health.notes;
+    std::vector<std::string>& notes = record_.trajectory.health.notes;
     const double interval = 1 / setup_.run.sample_rate;
-    const double steps = setup_.soft.contact_time / (interval / static_cast<double>(steps_in(interval)));
+    const double steps =
+        setup_.soft.contact_time / interval * static_cast<double>(steps_that_fill(interval, longest_step()));
     const double error = predicted_restitution_error(steps);
     if (error > largest_quiet_restitution_error)
       notes.push_back(text_of("%.3g steps per contact are coarse: the restitution is off by up to %.2g (predicted); use 20 for "
@@ -258,16 +176,15 @@ class SoftRun {
   const RunOptions& options_;
   Physics physics_;
   bool held_;
-  State state_;
   ContactModel model_;
   Bodies bodies_;
   BoxFlow box_;
   Neighbours neighbours_;
+  RunRecord record_;
   Accounts accounts_;
   std::vector<Contact> contacts_, found_;
   KickSpace space_;
-  double time_ = 0, stored_at_start_ = 0, initial_energy_ = 0, momentum_at_start_ = 0;
-  Trajectory trajectory_;
+  double time_ = 0;
 };
 
 class SoftEngine final : public Engine {
