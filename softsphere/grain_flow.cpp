@@ -48,6 +48,11 @@ void advance_grains(const GrainForces& forces, double time, double step, Bodies&
   const Eigen::Index n = bodies.grains;
   for (int axis = 0; axis < 3; ++axis)
     bodies.position.col(axis).head(n) += step * bodies.velocity.col(axis).head(n);
+  accelerate_grains(forces, time, step, bodies, accounts);
+}
+
+void accelerate_grains(const GrainForces& forces, double time, double step, Bodies& bodies, Accounts& accounts) {
+  const Eigen::Index n = bodies.grains;
   const bool constant = !forces.constant.isZero(0);
   if (!constant && forces.harmonics.empty()) return;
   std::vector<Change> changes;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bullet_engine.hpp"
 #include "hard_engine.hpp"
 #include "soft_engine.hpp"
 
@@ -27,6 +28,7 @@ inline std::vector<EngineUnderTest> engines_under_test() {
   return {
       {"hard", [] { return make_hard_engine(); }, 1e-12, 1e-12, 1e-12, 1e-12},
       {"soft", [] { return make_soft_engine(); }, 3.5e-3, 6e-4, 1e-12, 1e-12},
+      {"bullet", [] { return make_bullet_engine(); }, 2e-4, 2e-4, 1e-12, 1e-12},
   };
 }
 

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "bullet_engine.hpp"
+
+#include <chrono>
+#include <cstdio>
+
+#include "box_flow.hpp"
+#include "bullet_world.hpp"
+#include "grain_flow.hpp"
+#include "kick.hpp"
+#include "run_record.hpp"
+
+namespace shakedown {
+
+namespace {
+
+constexpr int implicit_passes = 3;
+
+std::string text_of(const char* format, auto... values) {
+  std::array<char, 400> text;
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+bool has_fields(const GrainForces& forces) {
+  return !forces.constant.isZero(0) || !forces.harmonics.empty() || forces.linear_drag != 0 || forces.quadratic_drag != 0 ||
+         !forces.free.empty() || forces.arc_length > 0;
+}
+
+bool has_forces_beside_spring(const Physics& physics) {
+  const BoxForces& box = physics.box;
+  return physics.spring_cubic != 0 || box.viscous != 0 || box.dry_friction != 0 || box.constant != 0 ||
+         !box.harmonics.empty() || !box.free.empty();
+}
+
+void check(const Setup& setup, const Physics& physics) {
+  const auto place = [&](const char* key) {
+    const auto found = setup.places.find(key);
+    return found == setup.places.end() ? SourcePlace{} : found->second;
+  };
+  std::vector<Violation> found;
+  if (setup.domain == Domain::periodic)
+    found.push_back({place("domain"), "domain", "periodic is not modelled by engine 'bullet' (Bullet has no periodic space)",
+                     "use engine 'hard' for periodic cells, or domain = \"closed\""});
+  if (!(setup.bullet.time_step > 0))
+    found.push_back({place("bullet.time_step"), "bullet.time_step", "must be above zero", "0.1 ms suits the paper's damper"});
+  if (physics.contact.has_attraction() || physics.contact.push)
+    found.push_back({{}, "effect", "attraction and forces by overlap are not modelled by engine 'bullet' (its contacts are impulses)",
+                     "use engine 'soft'"});
+  const ContactLaw& law = physics.contact;
+  const bool special_contacts = law.restitution_at || law.has_friction() || law.restitution[1] != law.restitution[2];
+  if (setup.bullet.defaults && (special_contacts || has_fields(physics.grains) || has_forces_beside_spring(physics)))
+    found.push_back({place("bullet.defaults"), "bullet.defaults", "does not go with effects (it shows Bullet untouched)",
+                     "set it to false"});
+  if (!found.empty()) throw InputError(std::move(found));
+}
+
+class BulletRun {
+ public:
+  BulletRun(const Setup& setup, const RunOptions& options, const Physics& physics)
+      : setup_(setup), options_(options), physics_(physics), held_(setup.domain != Domain::damper),
+        untouched_(setup.bullet.defaults), fields_(has_fields(physics.grains)),
+        model_{physics.contact, 0, held_ ? 0.0 : physics.box_mass, setup.box.length, setup.box.width},
+        bodies_(bodies_of(initial_state(setup, options.run), model_.box_mass)), box_(physics),
+        world_(setup, physics, model_.box_mass, bodies_),
+        record_(setup, "bullet", model_.box_mass, [this](double x) { return box_.spring_energy(x); }) {
+    accounts_.effect_work.resize(setup.effects.size());
+    record_.begin(setup, bodies_, {});
+  }
+  BulletRun(const BulletRun&) = delete;
+  BulletRun& operator=(const BulletRun&) = delete;
+
+  Trajectory run() {
+    const auto started = std::chrono::steady_clock::now();
+    through_samples(
+        setup_, options_, [this](double interval, double until) { return march(interval, until); },
+        [this](double time) {
+          if (!record_.check(bodies_, accounts_, {})) fail();
+          record_.sample(time, bodies_, accounts_, {});
+        });
+    add_notes();
+    Trajectory trajectory = record_.finish(bodies_, accounts_, {}, time_);
+    trajectory.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    return trajectory;
+  }
+
+ private:
+  bool march(double interval, double until) {
+    const std::int64_t steps = steps_that_fill(interval, setup_.bullet.time_step);
+    const double step = interval / static_cast<double>(steps), from = until - interval;
+    for (std::int64_t k = 0; k < steps; ++k) {
+      time_ = from + static_cast<double>(k) * step;
+      if ((k & 0xff) == 0 && stop_is_asked(options_)) {
+        record_.trajectory.interrupted = true;
+        return false;
+      }
+      untouched_ ? advance_untouched(step) : advance(step);
+      ++record_.trajectory.events;
+    }
+    time_ = until;
+    return true;
+  }
+
+  /// The spring as users of Bullet write it: a force at the beginning of each step.
+  void advance_untouched(double step) {
+    world_.step(step, held_ ? 0.0 : -physics_.stiffness * bodies_.x_box(), accounts_);
+    world_.read(bodies_);
+    if (asleep_since_ < 0 && !held_ && world_.box_sleeps()) asleep_since_ = time_ + step;
+  }
+
+  /// Bullet resolves the contacts at the places of the beginning of the step; the flight to its end is ours, and exact for the box.
+  void advance(double step) {
+    const double x = bodies_.x_box(), momentum_of_place = x * bodies_.v_box();
+    world_.step(step, 0, accounts_);
+    world_.read(bodies_);
+    if (!held_) fly_box(x, step);
+    if (fields_) accelerate(step, momentum_of_place);
+    if (!held_) world_.write_box(bodies_);
+    if (fields_) world_.write_grains(bodies_);
+  }
+
+  void fly_box(double from, double step) {
+    // What Bullet's overlap correction has moved the box by: it did no work on velocities, but the spring feels it.
+    const double pushed = bodies_.x_box() - (from + step * bodies_.v_box());
+    double x = from;
+    box_.advance(time_, step, x, bodies_.v_box(), accounts_);
+    bodies_.x_box() = x + pushed;
+    const double work = box_.spring_energy(x + pushed) - box_.spring_energy(x);
+    accounts_.contact_work[static_cast<std::size_t>(ContactClass::end_wall)] += work;
+    correction_work_ += std::abs(work);
+  }
+
+  void accelerate(double step, double momentum_of_place) {
+    accelerate_grains(physics_.grains, time_, step, bodies_, accounts_);
+    half_kick(model_, physics_.grains, time_, step, implicit_passes, bodies_, no_contacts_, space_, accounts_);
+    if (physics_.grains.arc_length > 0) follow_arc(physics_.grains, momentum_of_place, bodies_, accounts_);
+  }
+
+  [[noreturn]] void fail() const {
+    throw PhysicsError(text_of("engine 'bullet': velocities are not finite at t = %.6g s (box x %.9g m, v %.9g m/s). Use a shorter "
+                               "bullet.time_step than %.3g ms.",
+                               time_, bodies_.x_box(), bodies_.v_box(), setup_.bullet.time_step * 1e3));
+  }
+
+  void add_notes() {
+    std::vector<std::string>& notes = record_.trajectory.health.notes;
+    if (!untouched_) {
+      notes.push_back("simultaneous contacts are resolved one after another (restitution is right in binary impacts only)");
+      if (correction_work_.value() > 1e-9 * record_.trajectory.initial_energy)
+        notes.push_back(text_of("overlap corrections moved the box against its spring by %.2g of E0 in sum, entered as end-wall work",
+                                correction_work_.value() / record_.trajectory.initial_energy));
+      return;
+    }
+    notes.push_back("Bullet as shipped: impacts below 0.2 m/s do not bounce, faster ones by up to 0.2 too much (overlap correction), bodies fall asleep");
+    notes.push_back("ledger and momentum are not exact: spring by semi-implicit Euler, energy from overlap correction, sleep");
+    if (asleep_since_ >= 0)
+      notes.push_back(text_of("the box fell asleep at t = %.4g s and stays at %.4g mm", asleep_since_, bodies_.x_box() * 1e3));
+  }
+
+  const Setup& setup_;
+  const RunOptions& options_;
+  const Physics& physics_;
+  bool held_, untouched_, fields_;
+  ContactModel model_;
+  Bodies bodies_;
+  BoxFlow box_;
+  BulletWorld world_;
+  RunRecord record_;
+  Accounts accounts_;
+  KickSpace space_;
+  std::vector<Contact> no_contacts_;
+  CompensatedSum correction_work_;
+  double time_ = 0, asleep_since_ = -1;
+};
+
+class BulletEngine final : public Engine {
+ public:
+  std::string_view name() const override { return "bullet"; }
+  Capability can_model(const EffectRecord& effect) const override { return effect.bullet; }
+  Trajectory run(const Setup& setup, const RunOptions& options) const override {
+    refuse_what_is_not_modelled(*this, setup);
+    const Physics physics = physics_of(setup);
+    check(setup, physics);
+    return BulletRun(setup, options, physics).run();
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_bullet_engine() { return std::make_unique<BulletEngine>(); }
+
+}  // namespace shakedown
