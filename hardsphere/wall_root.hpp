@@ -29,8 +29,9 @@ struct HarmonicGap {
   }
 };
 
-/// Earliest time t >= 0, s, at which the gap closes from above; `never` when it does not. A gap that is zero (or below by rounding)
-/// and closing gives 0; one that is opening is followed to its next maximum first. Error: a few units in the last place of t.
+/// Earliest time t >= 0, s, at which the gap closes from above; `never` when it does not (within 1e12 periods). A gap that is zero
+/// (or below by rounding) and closing gives 0; one that is opening is followed to its next maximum first. Error: a few units in the
+/// last place of t.
 double first_wall_root(const HarmonicGap& gap);
 
 /// A time before which no root can lie, whatever the phase: g(t) >= g + g' t - A t^2 / 2 with |g''| <= A (A > 0).

@@ -77,31 +77,58 @@ std::vector<Vec3> random_centres(const Setup& setup, double thickness, int run) 
   return centres;
 }
 
+/// Sites of a face-centred cubic lattice of cells[0] x cells[1] x cells[2] cubes, stretched to a room about the origin.
+std::vector<Vec3> lattice_sites(const Eigen::Vector3i& cells, const Vec3& room) {
+  const Vec3 step = room.cwiseQuotient(cells.cast<double>());
+  constexpr std::array<std::array<double, 3>, 4> basis{{{.25, .25, .25}, {.75, .75, .25}, {.75, .25, .75}, {.25, .75, .75}}};
+  std::vector<Vec3> sites;
+  sites.reserve(4 * static_cast<std::size_t>(cells.x()) * static_cast<std::size_t>(cells.y()) * static_cast<std::size_t>(cells.z()));
+  for (int i = 0; i < cells.x(); ++i)
+    for (int j = 0; j < cells.y(); ++j)
+      for (int k = 0; k < cells.z(); ++k)
+        for (const auto& site : basis) sites.push_back(-room / 2 + step.cwiseProduct(Vec3(i + site[0], j + site[1], k + site[2])));
+  return sites;
+}
+
+/// Room of the centres in a closed or periodic cell.
+Vec3 room_of_cell(const Setup& setup) {
+  const double margin = setup.domain == Domain::closed ? setup.grains.diameter : 0.0;
+  return Vec3(setup.box.length, setup.box.width[0], setup.box.width[1]).array() - margin;
+}
+
 /// Face-centred cubic lattice that fills a whole cell (closed and periodic domains).
 std::vector<Vec3> filled_cell(const Setup& setup) {
   const std::size_t count = static_cast<std::size_t>(setup.grains.count);
-  const Vec3 cell(setup.box.length, setup.box.width[0], setup.box.width[1]);
-  const double margin = setup.domain == Domain::closed ? setup.grains.diameter : 0.0;
-  const Vec3 room = cell.array() - margin;
+  const Vec3 room = room_of_cell(setup);
   const double per_length = std::cbrt(static_cast<double>(count) / 4 / room.prod());
   Eigen::Vector3i cells;
   for (int axis = 0; axis < 3; ++axis)
     cells[axis] = std::max(1, static_cast<int>(std::ceil(per_length * room[axis] - 1e-9)));
   while (4LL * cells.x() * cells.y() * cells.z() < static_cast<long long>(count)) ++cells.x();
-  const Vec3 step = room.cwiseQuotient(cells.cast<double>());
-  constexpr std::array<std::array<double, 3>, 4> basis{{{.25, .25, .25}, {.75, .75, .25}, {.75, .25, .75}, {.25, .75, .75}}};
-  std::vector<Vec3> centres;
-  centres.reserve(count);
-  for (int i = 0; i < cells.x(); ++i)
-    for (int j = 0; j < cells.y(); ++j)
-      for (int k = 0; k < cells.z(); ++k)
-        for (const auto& site : basis)
-          if (centres.size() < count)
-            centres.push_back(-room / 2 + step.cwiseProduct(Vec3(i + site[0], j + site[1], k + site[2])));
+  std::vector<Vec3> centres = lattice_sites(cells, room);
+  centres.resize(count);
   double nearest = std::numeric_limits<double>::infinity();  // every site of a lattice sees what the first one sees
   for (std::size_t i = 1; i < centres.size(); ++i) nearest = std::min(nearest, (centres[i] - centres[0]).squaredNorm());
   if (nearest < setup.grains.diameter * setup.grains.diameter) does_not_fit(setup, 0, "fcc, stretched to the cell");
   return centres;
+}
+
+/// Grains on sites drawn at random from a lattice of packing fraction 0.70 (or a little less): full of vacancies, it melts within a few
+/// impacts a grain even where the full lattice is stable.
+std::vector<Vec3> sparsely_filled_cell(const Setup& setup, int run) {
+  const std::size_t count = static_cast<std::size_t>(setup.grains.count);
+  const Vec3 room = room_of_cell(setup);
+  const double constant = std::cbrt(4 * 0.5236 / 0.70) * setup.grains.diameter;
+  const Eigen::Vector3i cells = (room / constant).array().floor().cast<int>().max(1);
+  std::vector<Vec3> sites = lattice_sites(cells, room);
+  if (sites.size() < count || room.minCoeff() < constant) does_not_fit(setup, sites.size(), "random");
+  Random random(setup.run.seed, static_cast<std::uint64_t>(run), Stream::packing);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double left = static_cast<double>(sites.size() - i);
+    std::swap(sites[i], sites[i + static_cast<std::size_t>(random.uniform() * left)]);
+  }
+  sites.resize(count);
+  return sites;
 }
 
 /// Pushes overlapping grains apart and back into the box until none overlap; false when that does not come about.
@@ -142,7 +169,8 @@ bool free_of_overlap(const Setup& setup, const std::vector<double>& radius, cons
 
 std::vector<Vec3> packed_centres(const Setup& setup, Packing packing, const std::vector<double>& radius, int run) {
   if (setup.grains.count == 0) return {};
-  if (setup.domain != Domain::damper) return filled_cell(setup);
+  if (setup.domain != Domain::damper)
+    return packing == Packing::random ? sparsely_filled_cell(setup, run) : filled_cell(setup);
   const double diameter = setup.grains.diameter;
   std::vector<Vec3> centres;
   switch (packing) {

@@ -34,3 +34,24 @@ TEST(InitialState, EveryPackingIsFreeOfOverlapInEveryBoxOfThePaper) {
       }
     }
 }
+
+TEST(InitialState, RandomCellsHoldAllGrainsWithoutOverlapAcrossTheirFaces) {
+  shakedown::Setup setup;
+  setup.domain = Domain::periodic;
+  setup.release.packing = Packing::random;
+  setup.grains.count = 500;
+  setup.box.length = 0.083;
+  setup.box.width = {0.081, 0.079};  // packing fraction 0.49
+  const State state = initial_state(setup), other = initial_state(setup, 1);
+  ASSERT_EQ(state.size(), 500u);
+  EXPECT_NE(state.position[0], other.position[0]);
+  const Vec3 cell(0.083, 0.081, 0.079);
+  for (std::size_t i = 0; i < state.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      Vec3 apart = state.position[i] - state.position[j];
+      for (int axis = 0; axis < 3; ++axis) apart[axis] = std::remainder(apart[axis], cell[axis]);
+      EXPECT_GE(apart.norm(), 0.01);
+    }
+  setup.grains.count = 900;
+  EXPECT_THROW(initial_state(setup), InputError);
+}
