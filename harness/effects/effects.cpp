@@ -1,12 +1,47 @@
 // SPDX-License-Identifier: MIT
 #include "effects.hpp"
 
-#include <vector>
+#include <array>
+
+// The list of effects, in the order of the documentation. A new effect is one file that defines
+// `shakedown::effect::its_name`, and one line here. An explicit list, because a linker drops what registers itself
+// from a static library.
+#define SHAKEDOWN_EFFECTS(EFFECT)       \
+  EFFECT(grain_friction)                \
+  EFFECT(velocity_dependent_restitution) \
+  EFFECT(grain_cohesion)                \
+  EFFECT(side_wall_restitution)         \
+  EFFECT(grain_polydispersity)          \
+  EFFECT(blade_viscous_damping)         \
+  EFFECT(blade_quadratic_drag)          \
+  EFFECT(clamp_dry_friction)            \
+  EFFECT(spring_cubic)                  \
+  EFFECT(blade_mass)                    \
+  EFFECT(initial_box_velocity)          \
+  EFFECT(initial_packing)               \
+  EFFECT(constant_acceleration)         \
+  EFFECT(oscillating_acceleration)      \
+  EFFECT(grain_air_drag)                \
+  EFFECT(blade_arc)                     \
+  EFFECT(camera_com_bias)               \
+  EFFECT(camera_scale)                  \
+  EFFECT(camera_time_offset)            \
+  EFFECT(camera_drift)                  \
+  EFFECT(camera_arc)                    \
+  EFFECT(user_force)
 
 namespace shakedown {
 
+namespace effect {
+#define SHAKEDOWN_DECLARE(name) extern const EffectRecord name;
+SHAKEDOWN_EFFECTS(SHAKEDOWN_DECLARE)
+#undef SHAKEDOWN_DECLARE
+}  // namespace effect
+
 std::span<const EffectRecord* const> all_effects() {
-  static const std::vector<const EffectRecord*> effects{};
+#define SHAKEDOWN_ADDRESS(name) &effect::name,
+  static constexpr std::array effects{SHAKEDOWN_EFFECTS(SHAKEDOWN_ADDRESS)};
+#undef SHAKEDOWN_ADDRESS
   return effects;
 }
 

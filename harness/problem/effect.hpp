@@ -79,6 +79,9 @@ struct EffectRecord {
   /// What bounds and kinds cannot say about the parameters; nullptr: nothing.
   std::vector<ParameterProblem> (*check)(const EffectChoice& choice) = nullptr;
 
+  /// What a choice of parameters changes in an engine's capability (a formula of x on grains, say); nullptr: nothing.
+  Capability (*capability_of)(const EffectChoice& choice, std::string_view engine, Capability general) = nullptr;
+
   /// The parameter of this name, or nullptr.
   const Parameter* find(std::string_view parameter) const;
 };

@@ -6,7 +6,8 @@ namespace shakedown {
 void refuse_what_is_not_modelled(const Engine& engine, const Setup& setup) {
   std::vector<Violation> found;
   for (const EffectChoice& choice : setup.effects) {
-    const Capability capability = engine.can_model(*choice.record);
+    Capability capability = engine.can_model(*choice.record);
+    if (choice.record->capability_of != nullptr) capability = choice.record->capability_of(choice, engine.name(), capability);
     if (capability.fidelity != Fidelity::not_modelled) continue;
     found.push_back({choice.place, std::string(choice.record->name),
                      "is not modelled by engine '" + std::string(engine.name()) + "'",

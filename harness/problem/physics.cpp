@@ -13,6 +13,8 @@ Physics physics_of(const Setup& setup) {
   physics.stiffness =
       setup.domain == Domain::damper ? setup.box.mass * angular_frequency * angular_frequency : 0.0;
   physics.packing = setup.release.packing;
+  physics.release_displacement = setup.release.displacement;
+  physics.soft_contact_time = setup.soft.contact_time;
   const double wall = setup.restitution.grain_wall;
   physics.contact.restitution = {setup.restitution.grain_grain, wall, wall};
   for (const bool last : {false, true})

@@ -47,6 +47,7 @@ struct Harmonic {
 struct FreeForce {
   std::function<double(double x, double v, double t)> newton;
   int effect = -1;
+  bool of_time_only = false;  ///< depends on neither x nor v
 };
 
 /// Forces on the box besides the linear spring and the grains. Each effect's index is its line in the ledger, -1: unused.
@@ -97,6 +98,8 @@ struct Physics {
   double spring_cubic = 0;   ///< m^-2: spring force -k x (1 + spring_cubic x^2)
   int spring_cubic_effect = -1;
   double initial_box_velocity = 0;  ///< m/s
+  double release_displacement = 0;  ///< m, of the setup: effects scale with it
+  double soft_contact_time = 0;     ///< s, of the setup: laws with a stiffness of their own choose it to last this long
   double relative_diameter_deviation = 0;
   Packing packing = Packing::fcc;
   ContactLaw contact;
@@ -105,7 +108,8 @@ struct Physics {
   Camera camera;
 };
 
-/// The setup's numbers with each of its effects applied in turn.
+/// The setup's numbers with each of its effects applied in turn. Not for sharing between threads when it holds a user's formula:
+/// each run makes its own, or takes a copy.
 Physics physics_of(const Setup& setup);
 
 }  // namespace shakedown

@@ -43,6 +43,7 @@ struct Findings {
 void check_bounds(Findings& findings) {
   for (const SetupKey& key : setup_keys())
     for (const double value : numbers_of(key, findings.setup)) {
+      if (!findings.sound({key.path})) break;
       const std::string problem = out_of_bounds(value, key.low, key.high, key.low_excluded, key.unit);
       if (problem.empty()) continue;
       std::string sentence(key.sentence);
@@ -53,6 +54,7 @@ void check_bounds(Findings& findings) {
 
 void check_parameter(const EffectChoice& choice, const Parameter& parameter, Findings& findings) {
   const std::string key = std::string(choice.record->name) + "." + std::string(parameter.name);
+  if (!findings.sound({key})) return;
   const ParameterValue& value = choice.values.find(parameter.name)->second;
   std::vector<double> numbers;
   if (const auto* number = std::get_if<double>(&value)) numbers = {*number};
@@ -67,9 +69,12 @@ void check_parameter(const EffectChoice& choice, const Parameter& parameter, Fin
 }
 
 void check_effect(const EffectChoice& choice, Findings& findings) {
-  const std::size_t before = findings.found.size();
-  for (const Parameter& parameter : choice.record->parameters) check_parameter(choice, parameter, findings);
-  if (findings.found.size() > before || choice.record->check == nullptr) return;
+  bool sound = true;
+  for (const Parameter& parameter : choice.record->parameters) {
+    check_parameter(choice, parameter, findings);
+    sound = sound && findings.sound({std::string(choice.record->name) + "." + std::string(parameter.name)});
+  }
+  if (!sound || choice.record->check == nullptr) return;
   for (ParameterProblem& wrong : choice.record->check(choice))
     findings.add(std::string(choice.record->name) + "." + std::string(wrong.parameter), std::move(wrong.problem), std::move(wrong.remedy));
 }
@@ -150,8 +155,8 @@ void check_samples(Findings& findings) {
 
 }  // namespace
 
-std::vector<Violation> violations_of(const Setup& setup) {
-  Findings findings{setup, {}, {}};
+std::vector<Violation> violations_of(const Setup& setup, const std::set<std::string, std::less<>>& known_bad) {
+  Findings findings{setup, {}, known_bad};
   check_bounds(findings);
   for (const EffectChoice& choice : setup.effects) check_effect(choice, findings);
   check_claims(findings);

@@ -2,6 +2,7 @@
 // Setup from and to TOML. Quantities are strings with units; a bare number where a unit is due is an error.
 #pragma once
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,8 +44,9 @@ void set_number(Setup& setup, std::string_view key, double value, std::span<cons
 /// The value of a numeric key in SI; of an effect that the setup does not have: its neutral value, else its default.
 double get_number(const Setup& setup, std::string_view key, std::span<const EffectRecord* const> known = {});
 
-/// Everything wrong with the values of a setup built in code (a mass below zero, more grains than fit ...).
-std::vector<Violation> violations_of(const Setup& setup);
+/// Everything wrong with the values of a setup built in code (a mass below zero, more grains than fit ...). Nothing is concluded
+/// from the keys in `known_bad`.
+std::vector<Violation> violations_of(const Setup& setup, const std::set<std::string, std::less<>>& known_bad = {});
 
 /// A short stable digest of everything that determines the results of a setup, for caches: 16 hexadecimal digits. Effects at
 /// their neutral value, places and names of files do not count; the contents of a grain file do.

@@ -251,14 +251,11 @@ struct Reader {
     for (const TomlEntry& entry : root.entries) entry.key == "effect" ? read_effects(entry) : read_section(entry);
   }
 
-  /// Adds what is wrong with the values, except where the reading of the same key or a needed one failed already.
+  /// Adds what is wrong with the values that could be read.
   void check_values() {
-    const auto failed = [&](const std::string& key) {
-      return std::any_of(found.begin(), found.end(), [&](const Violation& violation) { return violation.key == key; });
-    };
-    std::vector<Violation> more;
-    for (Violation& violation : violations_of(setup))
-      if (!failed(violation.key)) more.push_back(std::move(violation));
+    std::set<std::string, std::less<>> unread;
+    for (const Violation& violation : found) unread.insert(violation.key);
+    const std::vector<Violation> more = violations_of(setup, unread);
     found.insert(found.end(), more.begin(), more.end());
     std::stable_sort(found.begin(), found.end(), [](const Violation& a, const Violation& b) {
       return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);

@@ -24,6 +24,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
   std::string_view best;
+  if (word.size() < 2) return best;  // everything short is near
   int least = std::max(1, static_cast<int>(word.size()) / 3) + 1;
   for (const std::string_view candidate : candidates)
     if (const int distance = edit_distance(word, candidate); distance < least) {

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Linear damping of the box, whatever its cause: the blade, air at low speed, eddy currents.
+#include "physics.hpp"
+
+namespace shakedown::effect {
+
+namespace {
+void apply(const EffectChoice& choice, int index, Physics& physics) {
+  physics.box.viscous = choice.number("damping");
+  physics.box.viscous_effect = index;
+}
+}  // namespace
+
+extern const EffectRecord blade_viscous_damping{
+    .name = "blade_viscous_damping",
+    .acts_on = ActsOn::box,
+    .sentence = "Linear damping of the box.",
+    .formula = "F = -c v",
+    .source = "L. D. Landau and E. M. Lifshitz, Mechanics, section 25",
+    .limits = "Linear in the speed at all speeds; damping inside a steel blade depends on amplitude rather than "
+              "frequency.",
+    .parameters = {{.name = "damping", .unit = "N s/m", .required = true, .low = 0, .high = 10, .neutral = 0, .typical = 0.05,
+                    .sentence = "Force divided by the speed of the box."}},
+    .dissipative = true,
+    .hard = {Fidelity::exact},
+    .soft = {Fidelity::exact},
+    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .apply = &apply};
+
+}  // namespace shakedown::effect

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// The clock of the camera does not start at the release.
+#include "physics.hpp"
+
+namespace shakedown::effect {
+
+namespace {
+void apply(const EffectChoice& choice, int, Physics& physics) {
+  physics.camera.time_offset = choice.number("offset");
+}
+}  // namespace
+
+extern const EffectRecord camera_time_offset{
+    .name = "camera_time_offset",
+    .acts_on = ActsOn::camera,
+    .sentence = "Recorded times are shifted.",
+    .formula = "t_recorded = t + t0",
+    .source = "Bookkeeping of the measurement: the frame of the release is known to about one frame",
+    .limits = "Constant; a wrong frame rate is not described.",
+    .parameters = {{.name = "offset", .unit = "s", .required = true, .low = -10, .high = 10, .neutral = 0, .typical = 0.002,
+                    .sentence = "Recorded time minus time since release."}},
+    .hard = {Fidelity::exact},
+    .soft = {Fidelity::exact},
+    .bullet = {Fidelity::exact},
+    .apply = &apply};
+
+}  // namespace shakedown::effect

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// What people and programs read about setups and effects, made from the records and the table of keys.
+#pragma once
+#include <span>
+#include <string>
+
+#include "effect.hpp"
+
+namespace shakedown {
+
+std::string_view name_of(ActsOn acts_on);
+std::string_view name_of(Fidelity fidelity);
+
+/// A table of all effects: name, what it acts on, what each engine makes of it, sentence.
+std::string list_effects(std::span<const EffectRecord* const> effects);
+
+/// Everything about one effect, with an example for the setup.
+std::string describe_effect(const EffectRecord& effect);
+
+/// The three lines or so that put the effect into a setup, at its typical strength.
+std::string example_of(const EffectRecord& effect);
+
+/// All records as JSON text (an array of objects).
+std::string effects_json(std::span<const EffectRecord* const> effects);
+
+/// JSON Schema (draft 2020-12) of a setup file.
+std::string setup_schema(std::span<const EffectRecord* const> effects);
+
+/// The setup's keys as a table in Markdown: key, unit, default, bounds, meaning.
+std::string setup_keys_markdown();
+
+}  // namespace shakedown

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Dry friction where the blade is clamped.
+#include "physics.hpp"
+
+namespace shakedown::effect {
+
+namespace {
+void apply(const EffectChoice& choice, int index, Physics& physics) {
+  physics.box.dry_friction = choice.number("force");
+  physics.box.dry_friction_effect = index;
+}
+}  // namespace
+
+extern const EffectRecord clamp_dry_friction{
+    .name = "clamp_dry_friction",
+    .acts_on = ActsOn::box,
+    .sentence = "Coulomb friction on the box that opposes its motion and can hold it still.",
+    .formula = "F = -F0 sgn(v); at rest as much as balances spring and grains, up to F0",
+    .source = "J. P. den Hartog, Trans. ASME 53, 107 (1931)",
+    .limits = "One force for rest and motion; real joints slip bit by bit and lose energy at every amplitude.",
+    .parameters = {{.name = "force", .unit = "N", .required = true, .low = 0, .high = 10, .neutral = 0, .typical = 0.02,
+                    .sentence = "Friction force."}},
+    .dissipative = true,
+    .hard = {Fidelity::exact},
+    .soft = {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"},
+    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .apply = &apply};
+
+}  // namespace shakedown::effect

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Residual gravity: what a parabolic flight leaves.
+#include "physics.hpp"
+
+namespace shakedown::effect {
+
+namespace {
+void apply(const EffectChoice& choice, int index, Physics& physics) {
+  const Vec3& acceleration = choice.vector("acceleration");
+  physics.grains.constant = acceleration;
+  physics.grains.constant_effect = index;
+  physics.box.constant = physics.box_mass * acceleration.x();
+  physics.box.constant_effect = index;
+}
+}  // namespace
+
+extern const EffectRecord constant_acceleration{
+    .name = "constant_acceleration",
+    .acts_on = ActsOn::all,
+    .sentence = "A constant acceleration of grains and box.",
+    .formula = "+m a on every grain and +M a_x on the box; +x points towards the release",
+    .source = "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
+              "011301 (2011), reports a residual acceleration of up to 0.05 g",
+    .limits = "Constant over the run; across the axis it acts on the grains only because the blade holds the box.",
+    .parameters = {{.name = "acceleration", .kind = ParameterKind::vector, .unit = "m/s^2", .default_value = Vec3(0, 0, 0), .required = true, .low = -100, .high = 100, .neutral = 0, .typical = 0.1,
+                    .sentence = "Acceleration [x, y, z]."}},
+    .hard = {Fidelity::exact},
+    .soft = {Fidelity::exact},
+    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .apply = &apply,
+    .applied_last = true};
+
+}  // namespace shakedown::effect

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// A constant attraction up to a gap: the simplest sticky grain, the same in both engines.
+#include "physics.hpp"
+
+namespace shakedown::effect {
+
+namespace {
+void apply(const EffectChoice& choice, int, Physics& physics) {
+  physics.contact.attraction_force = choice.number("force");
+  physics.contact.attraction_range = choice.number("range");
+}
+}  // namespace
+
+extern const EffectRecord grain_cohesion{
+    .name = "grain_cohesion",
+    .acts_on = ActsOn::contact,
+    .sentence = "Grains attract each other and the walls with a constant force up to a small gap.",
+    .formula = "F towards each other for 0 <= gap <= d; hard spheres see a square well of depth F d and width d, "
+               "entered with v_n^2 + 2 F d/mu and left only with more than F d",
+    .source = "B. J. Alder and T. E. Wainwright, J. Chem. Phys. 31, 459 (1959), square wells",
+    .limits = "The force has no memory of the contact (no hysteresis, no liquid volume). The range should stay "
+              "small against the diameter and the force above zero; the hard engine deepens the well at the outer "
+              "edge, the soft one pulls all the way.",
+    .parameters = {{.name = "force", .unit = "N", .low = 0, .high = 10, .neutral = 0, .typical = 0.02,
+                    .sentence = "Attraction of two grains, or of a grain and a wall, within the range."},
+                   {.name = "range", .unit = "m", .default_value = 1e-4, .low = 1e-7, .high = 2e-3, .typical = 1e-4,
+                    .sentence = "Gap between the surfaces up to which it acts."}},
+    .claims = "attraction of grains",
+    .hard = {Fidelity::exact},
+    .soft = {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"},
+    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .apply = &apply};
+
+}  // namespace shakedown::effect

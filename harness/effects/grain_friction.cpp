@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Coulomb friction with spin: an impulse at right angles to the normal one, at most mu times it.
+#include "physics.hpp"
+
+namespace shakedown::effect {
+
+namespace {
+void apply(const EffectChoice& choice, int, Physics& physics) {
+  const double wall = choice.number("grain_wall");
+  physics.contact.friction = {choice.number("grain_grain"), wall, wall};
+  physics.contact.tangential_restitution = choice.number("tangential_restitution");
+}
+}  // namespace
+
+extern const EffectRecord grain_friction{
+    .name = "grain_friction",
+    .acts_on = ActsOn::contact,
+    .sentence = "Coulomb friction between grains and at the walls, with rotation of the grains.",
+    .formula = "|J_t| <= mu J_n; where that suffices the slip u_t becomes -beta u_t; 1/m_t = 7/2 (1/m_i + 1/m_j) for "
+               "solid spheres, 7/(2 m) at a wall, plus 1/M along the axis at side walls, which pull the box",
+    .source = "O. R. Walton and R. L. Braun, J. Rheol. 30, 949 (1986); S. F. Foerster et al., Phys. Fluids 6, 1108 "
+              "(1994); the tangential spring of 2/7 k_n: L. E. Silbert et al., Phys. Rev. E 64, 051302 (2001)",
+    .limits = "One coefficient for rest and motion; no rolling resistance. Impacts that the regularisation of "
+              "inelastic collapse makes elastic are frictionless. An impulse and a tangential spring agree for free "
+              "flight between impacts, less so in a pressed layer.",
+    .parameters = {{.name = "grain_grain", .low = 0, .high = 1, .neutral = 0, .typical = 0.2,
+                    .sentence = "Coefficient of friction between grains."},
+                   {.name = "grain_wall", .low = 0, .high = 1, .neutral = 0, .typical = 0.2,
+                    .sentence = "Coefficient of friction of a grain and the box, end walls and side walls."},
+                   {.name = "tangential_restitution", .default_value = 1.0, .low = -1, .high = 1,
+                    .sentence = "Slip after an impact that sticks, reversed and divided by the slip before; 1 is what a tangential spring of 2/7 of the normal one does."}},
+    .claims = "friction of grains",
+    .dissipative = true,
+    .hard = {Fidelity::exact},
+    .soft = {Fidelity::to_stated_error, "tangential spring of 2/7 of the normal stiffness, stretched up to sliding; tangential_restitution 1 only"},
+    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .apply = &apply};
+
+}  // namespace shakedown::effect

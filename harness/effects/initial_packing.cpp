@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A nuisance to rule out, listed like an effect.
+#include "physics.hpp"
+#include "setup_keys.hpp"
+
+namespace shakedown::effect {
+
+namespace {
+void apply(const EffectChoice& choice, int, Physics& physics) {
+  physics.packing = packing_of(choice.text("packing"));
+}
+}  // namespace
+
+extern const EffectRecord initial_packing{
+    .name = "initial_packing",
+    .acts_on = ActsOn::grains,
+    .sentence = "Another arrangement of the grains at release.",
+    .formula = "fcc or square layers on the outer wall, random in a layer, spread over the box",
+    .source = "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
+              "011301 (2011), does not publish its lattice",
+    .limits = "Another packing moves peaks by 1 to 4 mm, late ones most.",
+    .parameters = {{.name = "packing", .kind = ParameterKind::choice, .default_value = std::string("square"), .required = true,
+                    .sentence = "The arrangement.",
+                    .choices = {"fcc", "square", "random", "spread"}}},
+    .claims = "release.packing",
+    .hard = {Fidelity::exact},
+    .soft = {Fidelity::exact},
+    .bullet = {Fidelity::exact},
+    .apply = &apply};
+
+}  // namespace shakedown::effect

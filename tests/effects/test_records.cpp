@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// What every record must keep, whatever the effect.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+#include <set>
+
+#include "catalogue.hpp"
+#include "effects.hpp"
+#include "initial_state.hpp"
+#include "quantity.hpp"
+#include "setup_file.hpp"
+#include "setup_keys.hpp"
+#include "value_reading.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+class Records : public testing::TestWithParam<const EffectRecord*> {
+ protected:
+  const EffectRecord& record = *GetParam();
+
+  shakedown::Setup with_example() const { return parse_setup(example_of(record), "example", all_effects()); }
+};
+
+void expect_sentence(std::string_view text, std::string_view what) {
+  EXPECT_TRUE(text.ends_with('.')) << what << ": " << text;
+  EXPECT_FALSE(text.empty() || std::islower(static_cast<unsigned char>(text.front()))) << what << ": " << text;
+}
+
+bool is_number(const Parameter& parameter) { return parameter.kind == ParameterKind::number || parameter.kind == ParameterKind::vector; }
+
+std::string name_of_case(const testing::TestParamInfo<const EffectRecord*>& info) { return std::string(info.param->name); }
+
+}  // namespace
+
+TEST_P(Records, SaysWhatItIs) {
+  EXPECT_TRUE(std::regex_match(std::string(record.name), std::regex("[a-z]+(_[a-z]+)+"))) << record.name;
+  expect_sentence(record.sentence, record.name);
+  expect_sentence(record.limits, record.name);
+  EXPECT_FALSE(record.formula.empty());
+  EXPECT_FALSE(record.source.empty());
+  EXPECT_NE(record.apply, nullptr);
+  EXPECT_FALSE(record.parameters.empty());
+  for (const Parameter& parameter : record.parameters) expect_sentence(parameter.sentence, parameter.name);
+}
+
+TEST_P(Records, CapabilitiesThatAreNotExactSayWhy) {
+  for (const Capability& capability : {record.hard, record.soft, record.bullet})
+    EXPECT_TRUE(capability.fidelity == Fidelity::exact || !capability.note.empty()) << record.name;
+}
+
+TEST_P(Records, ParametersAreSound) {
+  std::set<std::string_view> names;
+  for (const Parameter& parameter : record.parameters) {
+    EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
+    EXPECT_NE(parameter.name, "name");
+    EXPECT_EQ(parameter.kind == ParameterKind::choice, !parameter.choices.empty()) << parameter.name;
+    if (parameter.kind == ParameterKind::choice) {
+      EXPECT_EQ(std::count(parameter.choices.begin(), parameter.choices.end(), std::get<std::string>(parameter.default_value)), 1);
+    }
+    if (!is_number(parameter)) continue;
+    const auto unit = parse_unit(parameter.unit);
+    ASSERT_TRUE(std::holds_alternative<Unit>(unit)) << parameter.unit;
+    EXPECT_EQ(std::get<Unit>(unit).si, 1) << "records are in SI: " << parameter.unit;
+    EXPECT_LT(parameter.low, parameter.high);
+    EXPECT_TRUE(std::isfinite(parameter.low) && std::isfinite(parameter.high)) << "fits need bounds: " << parameter.name;
+    for (const double value : {parameter.typical, std::isnan(parameter.neutral) ? parameter.typical : parameter.neutral})
+      EXPECT_EQ(out_of_bounds(value, parameter.low, parameter.high, false, parameter.unit), "") << parameter.name;
+    if (const auto* value = std::get_if<double>(&parameter.default_value)) {
+      EXPECT_EQ(out_of_bounds(*value, parameter.low, parameter.high, false, parameter.unit), "") << parameter.name;
+    }
+  }
+}
+
+TEST_P(Records, ExampleIsASetupThatWritesAndReadsBack) {
+  const shakedown::Setup setup = with_example();
+  ASSERT_EQ(setup.effects.size(), 1u) << "the example must not be neutral";
+  EXPECT_EQ(setup.effects[0].record, &record);
+  const shakedown::Setup again = parse_setup(write_setup(setup), "again", all_effects());
+  EXPECT_EQ(write_setup(again), write_setup(setup));
+  EXPECT_EQ(digest(again), digest(setup));
+  EXPECT_NE(digest(setup), digest(shakedown::Setup{}));
+  physics_of(setup);
+  EXPECT_EQ(initial_state(setup).size(), 37u);
+}
+
+TEST_P(Records, NeutralValueIsDroppedWhenRead) {
+  shakedown::Setup setup = with_example();
+  bool has_neutral = false;
+  for (const Parameter& parameter : record.parameters) {
+    if (!is_number(parameter) || std::isnan(parameter.neutral)) continue;
+    has_neutral = true;
+    const bool vector = parameter.kind == ParameterKind::vector;
+    for (const std::string& axis : vector ? std::vector<std::string>{".x", ".y", ".z"} : std::vector<std::string>{""})
+      set_number(setup, std::string(record.name) + "." + std::string(parameter.name) + axis, parameter.neutral, all_effects());
+  }
+  const shakedown::Setup read = parse_setup(write_setup(setup), "neutral", all_effects());
+  EXPECT_EQ(read.effects.empty(), has_neutral);
+  EXPECT_EQ(digest(setup) == digest(shakedown::Setup{}), has_neutral);
+  EXPECT_EQ(write_setup(read) == write_setup(shakedown::Setup{}), has_neutral);
+}
+
+TEST_P(Records, ListedTwiceNamesBothLines) {
+  try {
+    parse_setup(example_of(record) + example_of(record), "twice", all_effects());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("is named twice (first at twice:2)"), std::string::npos) << error.what();
+  }
+}
+
+TEST_P(Records, NumbersBeyondTheirBoundsAreRefusedWithTheirPlace) {
+  for (const Parameter& parameter : record.parameters) {
+    if (parameter.kind != ParameterKind::number) continue;
+    const std::string key = std::string(record.name) + "." + std::string(parameter.name);
+    for (const double beyond : {parameter.low - 1, parameter.high + 1}) {
+      const std::vector<Override> overrides{{key, toml_of(beyond, parameter.unit)}};
+      try {
+        parse_setup(example_of(record), "example", all_effects(), overrides);
+        FAIL() << key;
+      } catch (const InputError& error) {
+        ASSERT_EQ(error.violations.size(), 1u) << error.what();
+        EXPECT_EQ(error.violations[0].key, key);
+        EXPECT_EQ(error.violations[0].place.file, "--set");
+      }
+      shakedown::Setup setup = with_example();
+      EXPECT_THROW(set_number(setup, key, beyond, all_effects()), InputError);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Records, testing::ValuesIn(all_effects().begin(), all_effects().end()), name_of_case);
+
+TEST(RecordList, NamesAreUniqueAndFound) {
+  std::set<std::string_view> names;
+  for (const EffectRecord* effect : all_effects()) {
+    EXPECT_TRUE(names.insert(effect->name).second) << effect->name;
+    EXPECT_EQ(find_effect(effect->name), effect);
+  }
+  EXPECT_EQ(names.size(), 22u);
+  EXPECT_EQ(find_effect("nothing"), nullptr);
+}
+
+TEST(RecordList, EffectsCombineInAnyOrder) {
+  std::string forward, backward;
+  for (const EffectRecord* effect : all_effects()) {
+    forward += example_of(*effect);
+    backward = example_of(*effect) + backward;
+  }
+  const Physics one = physics_of(parse_setup(forward, "forward", all_effects()));
+  const Physics other = physics_of(parse_setup(backward, "backward", all_effects()));
+  EXPECT_EQ(one.box_mass, 0.444);
+  EXPECT_EQ(one.box.constant, 0.1 * 0.444) << "an acceleration acts on the added mass too";
+  for (const ContactClass kind : {ContactClass::grain_grain, ContactClass::end_wall, ContactClass::side_wall})
+    EXPECT_EQ(one.contact.restitution_at(kind, 0.1), other.contact.restitution_at(kind, 0.1));
+  EXPECT_EQ(one.contact.restitution_at(ContactClass::side_wall, 0.3), 0.6) << "the side walls' own value at the reference speed";
+  EXPECT_EQ(one.box.constant, other.box.constant);
+  EXPECT_EQ(one.box.harmonics.at(0).amplitude, other.box.harmonics.at(0).amplitude);
+}
+
+TEST(RecordList, TwoArrangementsNameBothLines) {
+  try {
+    parse_setup("[release]\npacking = \"fcc\"\n[[effect]]\nname = \"initial_packing\"\npacking = \"square\"\n", "s.toml", all_effects());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "s.toml:4:8: initial_packing: sets what release.packing at s.toml:2 sets too; keep one of the two");
+  }
+}
+
+TEST(RecordList, ForcesHaveTheSignsOfTheirFormulas) {
+  const auto physics_with = [](const std::string& key, const std::string& value) {
+    const std::vector<Override> overrides{{key, value}};
+    return physics_of(parse_setup("", "s", all_effects(), overrides));
+  };
+  EXPECT_EQ(physics_with("blade_viscous_damping.damping", "0.05 N s/m").box.viscous, 0.05);
+  EXPECT_EQ(physics_with("clamp_dry_friction.force", "20 mN").box.dry_friction, 0.02);
+  const Physics drag = physics_with("blade_quadratic_drag.drag", "0.5 N s^2/m^2");
+  EXPECT_EQ(drag.box.free.at(0).newton(0, 2, 0), -2);
+  EXPECT_EQ(drag.box.free.at(0).newton(0, -2, 0), 2);
+  EXPECT_DOUBLE_EQ(physics_with("spring_cubic.coefficient", "0.04").spring_cubic * 0.1075 * 0.1075, 0.04);
+  const Physics gravity = physics_with("constant_acceleration.acceleration.x", "0.2 m/s^2");
+  EXPECT_EQ(gravity.grains.constant, Vec3(0.2, 0, 0));
+  EXPECT_DOUBLE_EQ(gravity.box.constant, 0.434 * 0.2);
+  EXPECT_EQ(physics_with("constant_acceleration.acceleration.y", "0.2 m/s^2").box.constant, 0);
+  const std::vector<Override> jitter{{"oscillating_acceleration.amplitude", "[\"0.1 m/s^2\", \"0 m/s^2\", \"0.3 m/s^2\"]"},
+                                     {"oscillating_acceleration.frequency", "7 Hz"}, {"oscillating_acceleration.phase", "90 deg"}};
+  const Physics shaken = physics_of(parse_setup("", "s", all_effects(), jitter));
+  EXPECT_EQ(shaken.grains.harmonics.at(0).amplitude, Vec3(0.1, 0, 0.3));
+  EXPECT_DOUBLE_EQ(shaken.box.harmonics.at(0).amplitude, 0.0434);
+  EXPECT_DOUBLE_EQ(shaken.box.harmonics.at(0).phase, 1.5707963267948966);
+  EXPECT_EQ(physics_with("initial_box_velocity.velocity", "2 cm/s").initial_box_velocity, 0.02);
+  EXPECT_EQ(physics_with("blade_arc.blade_length", "590 mm").grains.arc_length, 0.59);
+  EXPECT_EQ(physics_with("camera_arc.blade_length", "590 mm").camera.arc_length, 0.59);
+  EXPECT_EQ(physics_with("camera_time_offset.offset", "2 ms").camera.time_offset, 0.002);
+}
+
+TEST(RecordList, PolydisperseGrainsKeepTheirTotalMass) {
+  const std::vector<Override> overrides{{"grain_polydispersity.relative_deviation", "0.05"}};
+  const shakedown::Setup setup = parse_setup("", "s", all_effects(), overrides);
+  const State one = initial_state(setup, 0), other = initial_state(setup, 1);
+  double mass = 0, spread = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    mass += one.mass[i];
+    spread += std::pow(one.radius[i] / 0.005 - 1, 2);
+    EXPECT_NEAR(one.mass[i] / std::pow(one.radius[i], 3), one.mass[0] / std::pow(one.radius[0], 3), 1e-6);
+    EXPECT_LE(std::abs(one.radius[i] / 0.005 - 1), 0.125);
+  }
+  EXPECT_NEAR(mass, 37 * 4.04e-3, 1e-15);
+  EXPECT_NEAR(std::sqrt(spread / 37), 0.05, 0.015);
+  EXPECT_NE(one.radius[0], other.radius[0]);
+}
+
+TEST(RecordList, CubicSpringNeedsADisplacement) {
+  const std::vector<Override> overrides{{"spring_cubic.coefficient", "0.04"}, {"release.displacement", "0 mm"}};
+  EXPECT_THROW(physics_of(parse_setup("", "s", all_effects(), overrides)), InputError);
+}
