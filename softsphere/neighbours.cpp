@@ -17,6 +17,8 @@ struct Neighbours::Tree {
   std::vector<btBroadphaseProxy*> proxies;
 
   ~Tree() {
+    // destroyProxy looks through all pairs for each grain: a square law, for pairs that nobody needs any more.
+    broadphase.getOverlappingPairCache()->getOverlappingPairArray().clear();
     for (btBroadphaseProxy* proxy : proxies) broadphase.destroyProxy(proxy, nullptr);
   }
 };
