@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// Whatever finds the next event, it is the same event: pairs tested one and all, neighbour lists of any shell, end walls watched by
+// every grain or through windows.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "all_pairs.hpp"
+#include "cell_lists.hpp"
+#include "event_loop.hpp"
+#include "fluid.hpp"
+#include "random.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+EventLoop<AllPairs> with_all_pairs(const shakedown::Setup& setup, const State& state) {
+  return {state, physics_of(setup), setup, AllPairs(state, {setup.box.width[0] / 2, setup.box.width[1] / 2})};
+}
+
+template <bool Periodic>
+EventLoop<CellLists<Periodic>> with_lists(const shakedown::Setup& setup, const State& state, double shell) {
+  CellListsPlan plan{{setup.box.length, setup.box.width[0], setup.box.width[1]}, Periodic, {never, never}, 0.4, shell};
+  if (!Periodic) plan.half_width = {setup.box.width[0] / 2, setup.box.width[1] / 2};
+  return {state, physics_of(setup), setup, CellLists<Periodic>(state, plan)};
+}
+
+/// Impact for impact the same time and class; at the end the same state.
+template <class A, class B>
+void expect_same_impacts(A a, B b, std::int64_t impacts, const Vec3& cell) {
+  for (std::int64_t n = 0; n < impacts; ++n) {
+    a.advance_impacts(1);
+    b.advance_impacts(1);
+    ASSERT_NEAR(a.time(), b.time(), 1e-9) << "impact " << n;
+    ASSERT_EQ(a.collisions(), b.collisions()) << "impact " << n;
+  }
+  const State left = a.state(a.time()), right = b.state(a.time());
+  double worst = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    Vec3 apart = left.position[i] - right.position[i];
+    for (int axis = 0; axis < 3; ++axis) apart[axis] = std::remainder(apart[axis], cell[axis]);
+    worst = std::max({worst, apart.norm(), (left.velocity[i] - right.velocity[i]).norm()});
+  }
+  worst = std::max({worst, std::abs(left.x_box - right.x_box), std::abs(left.v_box - right.v_box)});
+  std::printf("%lld impacts of %zu grains: states differ by %.1e\n", static_cast<long long>(impacts), left.size(), worst);
+  EXPECT_LE(worst, 1e-9);
+}
+
+shakedown::Setup closed_box(double restitution) {
+  shakedown::Setup setup;
+  setup.domain = Domain::closed;
+  setup.grains.count = 200;
+  setup.box.length = 0.07;
+  setup.box.width = {0.08, 0.09};
+  setup.restitution = {restitution, restitution};
+  setup.release.packing = Packing::random;
+  return setup;
+}
+
+TEST(SameImpacts, PairByPairAndThroughLists) {
+  const Vec3 open = Vec3::Constant(1e9);
+  for (const double restitution : {1.0, 0.8}) {
+    const shakedown::Setup setup = closed_box(restitution);
+    const State state = initial_state(setup);
+    expect_same_impacts(with_all_pairs(setup, state), with_lists<false>(setup, state, 0), 200, open);
+    expect_same_impacts(with_all_pairs(setup, state), with_lists<false>(setup, state, 1.2), 200, open);
+  }
+  shakedown::Setup damper;
+  damper.release.kinetic_energy_fraction = 1e-2;
+  const State state = initial_state(damper);
+  expect_same_impacts(with_all_pairs(damper, state), with_lists<false>(damper, state, 0), 37, open);
+}
+
+TEST(SameImpacts, WithGrainsOfDifferentSizes) {
+  const shakedown::Setup setup = closed_box(0.9);
+  State state = initial_state(setup);
+  Random random(3, 0, Stream::diameters);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    state.radius[i] *= 0.5 + 0.5 * random.uniform();
+    state.mass[i] *= std::pow(state.radius[i] / 0.005, 3);
+  }
+  expect_same_impacts(with_all_pairs(setup, state), with_lists<false>(setup, state, 0), 200, Vec3::Constant(1e9));
+}
+
+TEST(SameImpacts, ThroughListsOfAnyShellInAPeriodicCell) {
+  for (const double packing_fraction : {0.1, 0.45}) {
+    const shakedown::Setup setup = periodic_fluid(1000, packing_fraction);
+    const State state = initial_state(setup);
+    expect_same_impacts(with_lists<true>(setup, state, 1.3), with_lists<true>(setup, state, 2.4), 1000,
+                        Vec3::Constant(setup.box.length));
+  }
+}
+
+// --- End walls alone: grains that do not meet each other, thrown about now and then, in a box that feels every impact. ----------------
+
+struct WallImpact {
+  double time;
+  int grain, side;
+};
+
+/// A pair impact's effect, made up: at `time` a grain gets a new velocity.
+struct Throw {
+  double time, v;
+  int grain;
+};
+
+struct Crowd {
+  static constexpr double mass = 1e-5, room = 0.05, top_throw = 0.6;
+  std::vector<EndWalls::Flight> flights;
+  std::vector<Throw> throws;
+  BoxMotion box{0.434, 25.92, 0.1075, 0};
+
+  explicit Crowd(int grains) {
+    Random random(9, 0, Stream::other);
+    for (int i = 0; i < grains; ++i)
+      flights.push_back({0.1075 + 2 * room * (random.uniform() - 0.5), top_throw * (2 * random.uniform() - 1), 0});
+    for (double time = 0; throws.size() < 4000; time -= std::log(random.uniform()) / (10.0 * grains))
+      throws.push_back({time, top_throw * (2 * random.uniform() - 1), static_cast<int>(random.uniform() * grains)});
+  }
+
+  EndWalls::Flight& fly(int i, double now) {
+    EndWalls::Flight& flight = flights[static_cast<std::size_t>(i)];
+    flight = {flight.x + flight.v * (now - flight.time), flight.v, now};
+    return flight;
+  }
+  /// Elastic; returns the jump of the box's velocity.
+  double impact(const WallImpact& hit) {
+    EndWalls::Flight& flight = fly(hit.grain, hit.time);
+    const BoxMotion::Point at = box.at(hit.time);
+    const double impulse = 2 * mass * box.mass() / (mass + box.mass()) * (flight.v - at.v);
+    flight.v -= impulse / mass;
+    box.restart(hit.time, at.x, at.v + impulse / box.mass());
+    return impulse / box.mass();
+  }
+};
+
+std::vector<WallImpact> impacts_by_end_walls(Crowd crowd, bool watch_all, std::size_t count, std::size_t& most_watched) {
+  EndWalls walls(std::vector<double>(crowd.flights.size(), Crowd::room), watch_all);
+  const auto flight_of = [&](int i) { return crowd.flights[static_cast<std::size_t>(i)]; };
+  walls.open(0, crowd.box, flight_of);
+  std::vector<WallImpact> impacts;
+  std::size_t windows = 0, watched = 0;
+  for (std::size_t next_throw = 0; impacts.size() < count;) {
+    const Throw& thrown = crowd.throws.at(next_throw);
+    const double earliest = std::min(walls.next().time, thrown.time);
+    if (walls.window_end() <= earliest) {
+      walls.open(walls.window_end(), crowd.box, flight_of);
+      watched += walls.watched();
+      ++windows;
+    } else if (thrown.time <= walls.next().time) {
+      crowd.fly(thrown.grain, thrown.time).v = thrown.v;
+      walls.grain_changed(thrown.grain, flight_of(thrown.grain), thrown.time, crowd.box.at(thrown.time), crowd.box.top_acceleration());
+      ++next_throw;
+    } else if (!walls.next().certain) {
+      walls.refine(crowd.box, thrown.time);
+    } else {
+      const WallImpact hit{walls.next().time, walls.next().grain, walls.next().side};
+      impacts.push_back(hit);
+      const double jump = crowd.impact(hit);
+      walls.grain_changed(hit.grain, flight_of(hit.grain), hit.time, {crowd.box.x(), crowd.box.v()}, crowd.box.top_acceleration());
+      walls.box_kicked(hit.time, crowd.box, jump);
+    }
+  }
+  EXPECT_LE(walls.deepest_overlap(), 1e-15);
+  most_watched = windows > 0 ? watched / windows : crowd.flights.size();
+  return impacts;
+}
+
+/// The plain way: an exact root for every grain and side after every event.
+std::vector<WallImpact> impacts_by_brute_force(Crowd crowd, std::size_t count) {
+  std::vector<WallImpact> impacts;
+  double now = 0;
+  for (std::size_t next_throw = 0; impacts.size() < count;) {
+    WallImpact first{never, -1, 0};
+    const BoxMotion::Point at = crowd.box.at(now);
+    const double w = crowd.box.angular_frequency();
+    for (int i = 0; i < static_cast<int>(crowd.flights.size()); ++i) {
+      const EndWalls::Flight& flight = crowd.fly(i, now);
+      for (const int side : {1, -1}) {
+        const double time = now + first_wall_root({side * at.x, side * at.v / w, w, Crowd::room - side * flight.x, side * flight.v});
+        if (time < first.time) first = {time, i, side};
+      }
+    }
+    const Throw& thrown = crowd.throws.at(next_throw);
+    now = std::min(first.time, thrown.time);
+    if (thrown.time <= first.time) {
+      crowd.fly(thrown.grain, now).v = thrown.v;
+      ++next_throw;
+    } else {
+      crowd.impact(first);
+      impacts.push_back(first);
+    }
+  }
+  return impacts;
+}
+
+TEST(SameImpacts, AtEndWallsWatchedByAllThroughWindowsAndByBruteForce) {
+  const Crowd crowd(700);
+  const std::size_t count = 1000;
+  std::size_t of_all = 0, of_windows = 0;
+  const auto brute = impacts_by_brute_force(crowd, count), all = impacts_by_end_walls(crowd, true, count, of_all),
+             windows = impacts_by_end_walls(crowd, false, count, of_windows);
+  for (std::size_t n = 0; n < count; ++n)
+    for (const WallImpact& seen : {all[n], windows[n]}) {
+      ASSERT_NEAR(seen.time, brute[n].time, 1e-12) << n;  // second
+      ASSERT_EQ(seen.grain, brute[n].grain) << n;
+      ASSERT_EQ(seen.side, brute[n].side) << n;
+    }
+  std::printf("%zu impacts in %.3f s, %zu of 700 grains watched in a window\n", count, brute.back().time, of_windows);
+  EXPECT_LT(of_windows, 350u);
+}
+
+}  // namespace
