@@ -3,12 +3,9 @@
 
 #include <span>
 
-#ifdef WITH_HARDSPHERE
+#include "bullet_engine.hpp"
 #include "hard_engine.hpp"
-#endif
-#ifdef WITH_SOFTSPHERE
 #include "soft_engine.hpp"
-#endif
 
 namespace shakedown {
 
@@ -21,12 +18,9 @@ struct NamedEngine {
 
 std::span<const NamedEngine> engines() {
   static const std::vector<NamedEngine> list{
-#ifdef WITH_HARDSPHERE
       {"hard", make_hard_engine},
-#endif
-#ifdef WITH_SOFTSPHERE
       {"soft", [] { return make_soft_engine(); }},
-#endif
+      {"bullet", make_bullet_engine},
   };
   return list;
 }

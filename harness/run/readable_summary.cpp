@@ -102,7 +102,13 @@ std::string health_lines(const Ensemble& ensemble) {
                      line("momentum off by", fmt::format("{:.1e}", momentum), "of M Omega Delta0") +
                      line("deepest overlap", fmt::format("{:.1e}", overlap), "m") +
                      line("impacts made elastic", fmt::format("{:.0f}", rescues));
-  for (const std::string& note : notes) text += line("note", note);
+  // Notes may hold numbers of their run: a long ensemble would bury the rest under them.
+  constexpr std::size_t shown = 3;
+  std::size_t count = 0;
+  for (const std::string& note : notes)
+    if (count++ < shown) text += line("note", note);
+  if (notes.size() > shown)
+    text += line("note", fmt::format("... and {} more in summary.json", notes.size() - shown));
   return text;
 }
 

@@ -64,6 +64,7 @@ Outcome interrupted_program(const std::vector<std::string>& arguments, const std
   const Captured out;
   int terminal = -1, far_end = -1;
   EXPECT_EQ(::openpty(&terminal, &far_end, nullptr, nullptr, nullptr), 0);
+  if (terminal < 0) return {};
   const pid_t child = ::fork();
   if (child == 0) {
     ::dup2(out.descriptor, STDOUT_FILENO);
@@ -86,6 +87,14 @@ Outcome interrupted_program(const std::vector<std::string>& arguments, const std
   const int code = exit_code_of(child);
   EXPECT_TRUE(sent) << seen;
   return {code, contents(out.path), seen};
+}
+
+bool has_terminals() {
+  int terminal = -1, far_end = -1;
+  if (::openpty(&terminal, &far_end, nullptr, nullptr, nullptr) != 0) return false;
+  ::close(terminal);
+  ::close(far_end);
+  return true;
 }
 
 std::string contents(const fs::path& file) {

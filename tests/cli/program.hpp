@@ -15,6 +15,9 @@ struct Outcome {
 /// Runs `shakedown` with these arguments and no terminal.
 Outcome shakedown_program(const std::vector<std::string>& arguments);
 
+/// False where the machine has no pseudo terminals (some containers).
+bool has_terminals();
+
 /// Runs it with standard error on a terminal, sends SIGINT once `awaited` was printed there.
 Outcome interrupted_program(const std::vector<std::string>& arguments, const std::string& awaited);
 

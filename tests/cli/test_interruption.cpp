@@ -6,7 +6,13 @@
 
 using nlohmann::json;
 
-class Interruption : public WithFolder {};
+class Interruption : public WithFolder {
+ protected:
+  void SetUp() override {
+    WithFolder::SetUp();
+    if (!has_terminals()) GTEST_SKIP() << "no pseudo terminals here";
+  }
+};
 
 TEST_F(Interruption, KeepsThePartOfASingleRun) {
   const Outcome outcome = interrupted_program(
