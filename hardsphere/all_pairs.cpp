@@ -3,13 +3,14 @@
 
 namespace shakedown {
 
-AllPairs::AllPairs(const State& state, std::array<double, 2> half_width)
-    : size_(state.size()), padded_size_(std::max(padded(state.size()), lane_count)), half_width_(half_width) {
+AllPairs::AllPairs(const State& state, std::array<double, 2> half_width, double attraction_range)
+    : size_(state.size()), padded_size_(std::max(padded(state.size()), lane_count)), half_width_(half_width), range_(attraction_range) {
   for (AlignedVector<double>* array : {&x_, &y_, &z_, &vx_, &vy_, &vz_, &time_, &radius_, &mass_}) array->assign(padded_size_, 0.0);
   event_time_.assign(padded_size_, never);
   partner_.assign(padded_size_, no_partner);
   partner_count_.assign(padded_size_, 0);
   count_.assign(padded_size_, 0);
+  meeting_.assign(padded_size_, Meeting::touch);
   for (std::size_t i = 0; i < padded_size_; ++i) {
     if (i >= size_) {  // fills the last lanes: far away, at rest, never met
       x_[i] = 1e9 * static_cast<double>(i);
@@ -24,6 +25,23 @@ AllPairs::AllPairs(const State& state, std::array<double, 2> half_width)
     radius_[i] = state.radius[i];
     mass_[i] = state.mass[i];
   }
+  if (range_ == 0) return;
+  bond_.assign(size_ * padded_size_, 0.0);
+  for (std::size_t i = 0; i < size_; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if ((state.position[i] - state.position[j]).norm() < state.radius[i] + state.radius[j] + range_)
+        set_bond(static_cast<int>(i), static_cast<int>(j), true);
+}
+
+void AllPairs::set_bond(int i, int j, bool bond) {
+  const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+  bond_[a * padded_size_ + b] = bond_[b * padded_size_ + a] = bond ? 1.0 : 0.0;
+}
+
+int AllPairs::bonds() const {
+  double sum = 0;
+  for (const double bond : bond_) sum += bond;
+  return static_cast<int>(sum / 2);
 }
 
 Flight3 AllPairs::flight(int i) const {
@@ -47,7 +65,7 @@ void AllPairs::move_to(int i, const Flight3& flight) {
   time_[k] = flight.time;
 }
 
-template <int K>
+template <int K, bool Well>
 void AllPairs::predict_grains(const std::array<int, K>& who) {
   // The grains of an impact share every load of the others' states.
   std::array<Lanes, K> x, y, z, vx, vy, vz, radius, self, best, best_index;
@@ -73,9 +91,24 @@ void AllPairs::predict_grains(const std::array<int, K>& who) {
       const Lanes b = rx * wx + ry * wy + rz * wz, c = rx * rx + ry * ry + rz * rz - reach * reach;
       simd::where(index != self[g], smallest_room) = simd::min(smallest_room, c);
       const Lanes a = wx * wx + wy * wy + wz * wz, discriminant = b * b - a * c;
-      const auto meets = b < zero && discriminant >= zero;  // false for the grain itself, where b = 0
-      if (simd::none_of(meets)) continue;
-      const Lanes touch = simd::max(c, zero) / (simd::sqrt(simd::max(discriminant, zero)) - b);
+      auto meets = b < zero && discriminant >= zero;  // false for the grain itself, where b = 0
+      Lanes touch;
+      if constexpr (Well) {
+        // Outside the well its edge is met first; inside, a grain that does not touch comes to the edge from within.
+        const Lanes edge = reach + Lanes(range_), c_edge = rx * rx + ry * ry + rz * rz - edge * edge, d_edge = b * b - a * c_edge;
+        const auto inside = load(bond_, static_cast<std::size_t>(who[g]) * padded_size_ + j) > Lanes(0.5);
+        const Lanes root_edge = simd::sqrt(simd::max(d_edge, zero));
+        Lanes inner = (root_edge - b) / a;
+        simd::where(meets, inner) = simd::max(c, zero) / (simd::sqrt(simd::max(discriminant, zero)) - b);
+        touch = simd::max(c_edge, zero) / (root_edge - b);
+        simd::where(inside, touch) = inner;
+        meets = (inside && a > zero) || (!inside && b < zero && d_edge >= zero);
+        meets = meets && index != self[g];
+        if (simd::none_of(meets)) continue;
+      } else {
+        if (simd::none_of(meets)) continue;
+        touch = simd::max(c, zero) / (simd::sqrt(simd::max(discriminant, zero)) - b);
+      }
       const auto sooner = meets && touch < best[g];
       simd::where(sooner, best[g]) = touch;
       simd::where(sooner, best_index[g]) = index;
@@ -92,30 +125,56 @@ void AllPairs::predict_grains(const std::array<int, K>& who) {
       next.time = now + earliest;
       next.partner = static_cast<std::int32_t>(simd::hmin(index_of_best));
       next.partner_count = count_[static_cast<std::size_t>(next.partner)];
+      if constexpr (Well) next.meeting = meeting_of(who[g], next.partner);
     }
     event_time_[k] = next.time;
     partner_[k] = next.partner;
     partner_count_[k] = next.partner_count;
+    meeting_[k] = next.meeting;
   }
 }
 
-void AllPairs::predict(int i) { predict_grains<1>({i}); }
-void AllPairs::predict(int i, int j) { predict_grains<2>({i, j}); }
+/// What two grains in or out of each other's well meet next.
+Meeting AllPairs::meeting_of(int i, int j) const {
+  if (bond_[static_cast<std::size_t>(i) * padded_size_ + static_cast<std::size_t>(j)] == 0) return Meeting::capture;
+  const Flight3 self = flight(i);
+  Flight3 other = flight(j);
+  other.advance(self.time);
+  double a = 0, b = 0, c = -(radius(i) + radius(j)) * (radius(i) + radius(j));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double r = other.x[axis] - self.x[axis], w = other.v[axis] - self.v[axis];
+    a += w * w;
+    b += r * w;
+    c += r * r;
+  }
+  return b < 0 && b * b - a * c >= 0 ? Meeting::touch : Meeting::escape;
+}
+
+void AllPairs::predict(int i) {
+  if (range_ > 0) predict_grains<1, true>({i});
+  else predict_grains<1, false>({i});
+}
+void AllPairs::predict(int i, int j) {
+  if (range_ > 0) predict_grains<2, true>({i, j});
+  else predict_grains<2, false>({i, j});
+}
 
 void AllPairs::predict_all() {
   for (int i = 0; i < size(); ++i) predict(i);
 }
 
 GrainSums AllPairs::sums(double t) const {
-  Lanes mass(0.0), kinetic(0.0), moment(0.0), momentum(0.0);
+  Lanes mass(0.0), kinetic(0.0), moment(0.0), px(0.0), py(0.0), pz(0.0);
   for (std::size_t j = 0; j < padded_size_; j += lane_count) {
     const Lanes m = load(mass_, j), vx = load(vx_, j), vy = load(vy_, j), vz = load(vz_, j);
     mass += m;
     kinetic += m * (vx * vx + vy * vy + vz * vz);
     moment += m * (load(x_, j) + vx * (Lanes(t) - load(time_, j)));
-    momentum += m * vx;
+    px += m * vx;
+    py += m * vy;
+    pz += m * vz;
   }
-  return {simd::reduce(mass), simd::reduce(kinetic) / 2, simd::reduce(moment), simd::reduce(momentum)};
+  return {simd::reduce(mass), simd::reduce(kinetic) / 2, simd::reduce(moment), {simd::reduce(px), simd::reduce(py), simd::reduce(pz)}};
 }
 
 double AllPairs::deepest_overlap() const {

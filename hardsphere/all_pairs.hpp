@@ -18,7 +18,8 @@ class AllPairs {
   };
 
   /// `room`: half widths of the box along y and z; each grain's radius is taken off. Infinite: no side walls.
-  AllPairs(const State& state, std::array<double, 2> half_width);
+  /// `attraction_range`: how far a square well reaches beyond contact, m (0: none).
+  AllPairs(const State& state, std::array<double, 2> half_width, double attraction_range = 0);
 
   int size() const { return static_cast<int>(size_); }
   Flight3 flight(int i) const;
@@ -28,6 +29,11 @@ class AllPairs {
   void move_to(int i, const Flight3& flight);
   double radius(int i) const { return radius_[static_cast<std::size_t>(i)]; }
   double mass(int i) const { return mass_[static_cast<std::size_t>(i)]; }
+  /// The side walls are found elsewhere (EndWalls).
+  void forget_side_walls() { half_width_ = {never, never}; }
+  /// Whether two grains are in each other's well, and how many pairs are.
+  void set_bond(int i, int j, bool bond);
+  int bonds() const;
   std::array<double, 2> side_room(int i) const { return {half_width_[0] - radius(i), half_width_[1] - radius(i)}; }
 
   Next next() const {
@@ -36,7 +42,7 @@ class AllPairs {
   }
   GrainEvent event(int i) const {
     const std::size_t k = static_cast<std::size_t>(i);
-    return {event_time_[k], partner_[k], partner_count_[k]};
+    return {event_time_[k], partner_[k], partner_count_[k], meeting_[k]};
   }
   bool is_stale(const GrainEvent& event) const {
     return event.partner >= 0 && count_[static_cast<std::size_t>(event.partner)] != event.partner_count;
@@ -56,7 +62,8 @@ class AllPairs {
   double deepest_overlap() const;
 
  private:
-  template <int K>
+  Meeting meeting_of(int i, int j) const;
+  template <int K, bool Well>
   void predict_grains(const std::array<int, K>& who);
 
   std::size_t size_, padded_size_;
@@ -64,6 +71,9 @@ class AllPairs {
   AlignedVector<double> x_, y_, z_, vx_, vy_, vz_, time_, radius_, mass_, event_time_;
   std::vector<std::int32_t> partner_;
   std::vector<std::uint32_t> partner_count_, count_;
+  std::vector<Meeting> meeting_;
+  double range_ = 0;
+  AlignedVector<double> bond_;  // 1 or 0 for each pair, a padded row a grain; empty without attraction
   double smallest_room_ = 0;  // of r^2 - reach^2, m^2
 };
 

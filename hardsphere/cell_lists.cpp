@@ -72,7 +72,7 @@ void CellLists<Periodic>::move_to(int i, const Flight3& flight) {
 template <bool Periodic>
 GrainEvent CellLists<Periodic>::event(int i) const {
   const std::size_t k = static_cast<std::size_t>(i);
-  return {queue_.time(i), event_[k].partner, event_[k].partner_count};
+  return {queue_.time(i), event_[k].partner, event_[k].partner_count, Meeting::touch};
 }
 
 template <bool Periodic>
@@ -126,7 +126,7 @@ void CellLists<Periodic>::predict(int i) {
       partner = list[n];
     }
   }
-  GrainEvent next{now + earliest, partner, partner >= 0 ? lines_[static_cast<std::size_t>(partner)].count : 0};
+  GrainEvent next{now + earliest, partner, partner >= 0 ? lines_[static_cast<std::size_t>(partner)].count : 0, Meeting::touch};
   if (half_width_[0] < never) {
     const GrainEvent wall = next_side_wall(self, {half_width_[0] - own_radius, half_width_[1] - own_radius});
     if (wall.time < next.time) next = wall;
@@ -250,7 +250,9 @@ GrainSums CellLists<Periodic>::sums(double t) const {
     sums.mass += m;
     sums.kinetic += m / 2 * (line.vx * line.vx + line.vy * line.vy + line.vz * line.vz);
     sums.moment += m * (line.x + line.vx * (t - line.time));
-    sums.momentum += m * line.vx;
+    sums.momentum[0] += m * line.vx;
+    sums.momentum[1] += m * line.vy;
+    sums.momentum[2] += m * line.vz;
   }
   return sums;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calendar_queue.hpp"
+#include "errors.hpp"
 #include "grain_event.hpp"
 #include "initial_state.hpp"
 #include "lanes.hpp"
@@ -36,6 +37,9 @@ class CellLists {
   }
   void set_flight(int i, const Flight3& flight);
   void move_to(int i, const Flight3& flight);
+  void forget_side_walls() { half_width_ = {never, never}; }
+  void set_bond(int, int, bool) { EXPECT(false && "wells need AllPairs"); }
+  int bonds() const { return 0; }
   double radius(int i) const { return radius_[static_cast<std::size_t>(i)]; }
   double mass(int i) const { return mass_[static_cast<std::size_t>(i)]; }
   Next next() { return queue_.next(); }

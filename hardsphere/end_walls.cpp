@@ -1,45 +1,48 @@
 // SPDX-License-Identifier: MIT
 #include "end_walls.hpp"
 
-#include <algorithm>
-
 namespace shakedown {
 
-EndWalls::EndWalls(std::vector<double> room, bool always_watch_all)
-    : watch_all_(always_watch_all), room_(std::move(room)), slot_(room_.size(), -1) {
+EndWalls::EndWalls(std::vector<double> room, bool always_watch_all, double range)
+    : watch_all_(always_watch_all), range_(range), room_(std::move(room)), slot_(room_.size(), -1) {
   const std::size_t size = std::max(padded(room_.size()), lane_count);
-  for (AlignedVector<double>* array : {&x_, &v_, &time_}) array->assign(size, 0.0);
-  room_of_slot_.assign(size, 0.0);
+  for (AlignedVector<double>* array : {&x_, &v_, &time_, &room_of_slot_}) array->assign(size, 0.0);
   bound_.assign(size, never);
   grain_.assign(size, -1);
   side_.assign(size, 0);
+  meeting_.assign(size, Meeting::none);
+  if (range_ > 0) inside_.assign(2 * room_.size(), 0);
 }
 
-void EndWalls::start_window(double now, const BoxMotion& box) {
+void EndWalls::start_window(const Now& now) {
   if (watch_all_) return;
   // A grain costs about 8 times as much in the sweep over all as in the vectorised sweep over the watched.
   const double swept = static_cast<double>(kicks_) * static_cast<double>(count_), all = 8 * static_cast<double>(room_.size());
   if (planned_ == 0) planned_ = 1e-5;
   else planned_ = std::clamp(planned_ * (swept > all ? 0.8 : 1.25), 1e-9, 1.0);
-  if (now > window_start_) jump_rate_ = (jump_rate_ + jumps_ / (now - window_start_)) / 2;
-  const double tiny = 1e-9 * box.top_speed();
+  if (now.time > window_start_) jump_rate_ = (jump_rate_ + jumps_ / (now.time - window_start_)) / 2;
+  const double tiny = 1e-9 * now.top_speed;
   slack_ = 2 * (jump_rate_ + tiny / planned_) * planned_ * planned_;
-  window_start_ = now;
-  window_end_ = now + planned_;
+  window_start_ = now.time;
+  window_end_ = now.time + planned_;
   drift_ = jumps_ = 0;
   kicks_ = 0;
 }
 
-double EndWalls::bound_of(const Flight& flight, double room, double now, BoxMotion::Point point,
-                          double top_acceleration) const {
-  const double apart = point.x - (flight.x + flight.v * (now - flight.time)), rate = point.v - flight.v;
-  if (top_acceleration <= 0) {  // a box at rest for good: straight flight to a fixed wall
-    const double u = -rate;
-    if (u == 0) return never;
-    return now + std::max(0.0, (room + (u > 0 ? apart : -apart)) / std::abs(u));
+double EndWalls::bound_of(int grain, const Flight& flight, double room, const Now& now) const {
+  const double apart = now.point.x - (flight.x + flight.v * (now.time - flight.time)), rate = now.point.v - flight.v;
+  const double top = now.top_acceleration;
+  if (range_ == 0)
+    return now.time + std::min(earliest_possible_root(room + apart, rate, top), earliest_possible_root(room - apart, -rate, top));
+  double wait = never;
+  for (const int side : {1, -1}) {
+    const double gap = room + side * apart, opening = side * rate;
+    if (is_inside(grain, side))
+      wait = std::min({wait, earliest_possible_root(gap, opening, top), earliest_possible_root(range_ - gap, -opening, top)});
+    else
+      wait = std::min(wait, earliest_possible_root(gap - range_, opening, top));
   }
-  return now + std::min(earliest_possible_root(room + apart, rate, top_acceleration),
-                        earliest_possible_root(room - apart, -rate, top_acceleration));
+  return now.time + wait;
 }
 
 void EndWalls::watch(int i, const Flight& flight) {
@@ -50,19 +53,18 @@ void EndWalls::watch(int i, const Flight& flight) {
   time_[slot] = flight.time;
   room_of_slot_[slot] = room_[static_cast<std::size_t>(i)];
   grain_[slot] = i;
-  side_[slot] = 0;
+  meeting_[slot] = Meeting::none;
 }
 
-void EndWalls::bound_all(double now, const BoxMotion& box) {
-  const BoxMotion::Point point = box.at(now);
-  const double top = box.top_acceleration();
-  std::fill(side_.begin(), side_.begin() + static_cast<std::ptrdiff_t>(count_), std::int8_t{0});
-  if (top <= 0) {
+void EndWalls::bound_all(const Now& now) {
+  std::fill(meeting_.begin(), meeting_.begin() + static_cast<std::ptrdiff_t>(count_), Meeting::none);
+  for (std::size_t k = count_; k < padded(count_); ++k) bound_[k] = never;
+  if (now.top_acceleration <= 0 || range_ > 0) {  // walls at rest, or wells at the walls: grain by grain
     for (std::size_t k = 0; k < count_; ++k)
-      bound_[k] = bound_of({x_[k], v_[k], time_[k]}, room_of_slot_[k], now, point, 0);
-    for (std::size_t k = count_; k < padded(count_); ++k) bound_[k] = never;
+      bound_[k] = bound_of(grain_[k], {x_[k], v_[k], time_[k]}, room_of_slot_[k], now);
     return find_next();
   }
+  const double top = now.top_acceleration;
   const Lanes twice_top(2 * top), inverse_top(1 / top), zero(0.0);
   Lanes smallest_gap(smallest_gap_), earliest(never), earliest_slot(0.0), slot = lane_index();
   const auto first_touch = [&](const Lanes& gap, const Lanes& rate) {
@@ -72,9 +74,9 @@ void EndWalls::bound_all(double now, const BoxMotion& box) {
   };
   for (std::size_t k = 0; k < count_; k += lane_count, slot += static_cast<double>(lane_count)) {
     const Lanes room = load(room_of_slot_, k), v = load(v_, k);
-    const Lanes apart = Lanes(point.x) - (load(x_, k) + v * (Lanes(now) - load(time_, k))), rate = Lanes(point.v) - v;
+    const Lanes apart = Lanes(now.point.x) - (load(x_, k) + v * (Lanes(now.time) - load(time_, k))), rate = Lanes(now.point.v) - v;
     const Lanes upper = room + apart, lower = room - apart;
-    Lanes bound = Lanes(now) + simd::min(first_touch(upper, rate), first_touch(lower, -rate));
+    Lanes bound = Lanes(now.time) + simd::min(first_touch(upper, rate), first_touch(lower, -rate));
     const auto empty = slot >= Lanes(static_cast<double>(count_));
     simd::where(empty, bound) = never;
     store(bound_, k, bound);
@@ -89,68 +91,65 @@ void EndWalls::bound_all(double now, const BoxMotion& box) {
   if (first == never) return;
   Lanes slots_of_first(never);
   simd::where(earliest == Lanes(first), slots_of_first) = earliest_slot;
-  next_ = {first, grain_[static_cast<std::size_t>(simd::hmin(slots_of_first))], 0, false};
+  next_ = {first, grain_[static_cast<std::size_t>(simd::hmin(slots_of_first))], 0, Meeting::none};
 }
 
 void EndWalls::find_next() {
-  if (count_ == 0) {
-    next_ = {};
-    return;
-  }
+  next_ = {};
+  if (count_ == 0) return;
   const Smallest earliest = smallest(bound_, padded(count_));
   const std::size_t slot = static_cast<std::size_t>(earliest.index);
-  next_ = {earliest.value, grain_[slot], side_[slot], side_[slot] != 0};
+  if (earliest.value < never) next_ = {earliest.value, grain_[slot], side_[slot], meeting_[slot]};
 }
 
-void EndWalls::grain_changed(int i, const Flight& flight, double now, BoxMotion::Point point, double top) {
+void EndWalls::grain_changed(int i, const Flight& flight, const Now& now) {
   std::int32_t& slot = slot_[static_cast<std::size_t>(i)];
   const double room = room_[static_cast<std::size_t>(i)];
   if (slot < 0) {
-    if (can_sleep(flight, room, now, point, top)) return;
+    if (can_sleep(flight, room, now)) return;
     watch(i, flight);
-    const std::size_t last = static_cast<std::size_t>(slot);
-    for (std::size_t k = last + 1; k < padded(count_); ++k) bound_[k] = never;
+    for (std::size_t k = count_; k < padded(count_); ++k) bound_[k] = never;
   }
   const std::size_t k = static_cast<std::size_t>(slot);
   x_[k] = flight.x;
   v_[k] = flight.v;
   time_[k] = flight.time;
-  side_[k] = 0;
-  bound_[k] = bound_of(flight, room, now, point, top);
-  if (bound_[k] < next_.time) next_ = {bound_[k], i, 0, false};
+  meeting_[k] = Meeting::none;
+  bound_[k] = bound_of(i, flight, room, now);
+  if (bound_[k] < next_.time) next_ = {bound_[k], i, 0, Meeting::none};
   else if (next_.grain == i) find_next();
 }
 
-void EndWalls::box_kicked(double now, const BoxMotion& box, double jump) {
+void EndWalls::put_off(int i, double until) {
+  const std::size_t k = static_cast<std::size_t>(slot_[static_cast<std::size_t>(i)]);
+  meeting_[k] = Meeting::none;
+  bound_[k] = std::max(bound_[k], until);
+  find_next();
+}
+
+void EndWalls::set_inside(int i, int side, bool inside) {
+  inside_[static_cast<std::size_t>(2 * i + (side > 0))] = inside ? 1 : 0;
+}
+
+void EndWalls::kicked(const Now& now, double jump) {
   ++kicks_;
   if (!watch_all_) {
     jumps_ += std::abs(jump);
-    drift_ += std::abs(jump) * std::max(0.0, window_end_ - now);
-    if (drift_ > slack_) window_end_ = now;  // the sleepers' guarantee ends here
+    drift_ += std::abs(jump) * std::max(0.0, window_end_ - now.time);
+    if (drift_ > slack_) window_end_ = now.time;  // the sleepers' guarantee ends here
   }
-  bound_all(now, box);
+  bound_all(now);
 }
 
-void EndWalls::refine(const BoxMotion& box, double limit) {
-  const std::size_t k = static_cast<std::size_t>(slot_[static_cast<std::size_t>(next_.grain)]);
-  const Flight flight{x_[k], v_[k], time_[k]};
-  const double now = bound_[k], room = room_of_slot_[k];
-  const BoxMotion::Point point = box.at(now);
-  // A new bound from here is cheap; the root is sought only when the bound stays before the next event.
-  const double sharper = bound_of(flight, room, now, point, box.top_acceleration());
-  if (sharper > limit || box.top_acceleration() <= 0) {
-    bound_[k] = sharper;
-    if (box.top_acceleration() <= 0 && sharper < never) side_[k] = point.v - flight.v < 0 ? std::int8_t{1} : std::int8_t{-1};
-  } else {
-    const double w = box.angular_frequency(), x = flight.x + flight.v * (now - flight.time);
-    const auto root = [&](double s) {
-      return first_wall_root({s * point.x, s * point.v / w, w, room - s * x, s * flight.v});
-    };
-    const double upper = root(1), lower = root(-1);
-    bound_[k] = now + std::min(upper, lower);
-    side_[k] = upper <= lower ? std::int8_t{1} : std::int8_t{-1};
-  }
-  find_next();
+EndWalls::Root EndWalls::exact_root(const BoxMotion& box, int grain, const Flight& flight, double room, double from,
+                                    double horizon) const {
+  const double w = box.angular_frequency();
+  if (w == 0) return exact_root<BoxMotion>(box, grain, flight, room, from, horizon);  // a box at rest
+  const BoxMotion::Point point = box.at(from);
+  const double x = flight.x + flight.v * (from - flight.time);
+  const auto root = [&](double s) { return first_wall_root({s * point.x, s * point.v / w, w, room - s * x, s * flight.v}); };
+  const double upper = root(1), lower = root(-1);
+  return {from + std::min(upper, lower), upper <= lower ? 1 : -1, Meeting::touch};
 }
 
 }  // namespace shakedown

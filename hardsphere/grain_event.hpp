@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "wall_root.hpp"
+#include "end_walls.hpp"
 
 namespace shakedown {
 
@@ -21,9 +21,10 @@ struct Flight3 {
   }
 };
 
-/// Sums over all grains: mass, kinetic energy, first moment of x at a time, momentum along x.
+/// Sums over all grains: mass, kinetic energy, first moment of x at a time, momentum.
 struct GrainSums {
-  double mass = 0, kinetic = 0, moment = 0, momentum = 0;
+  double mass = 0, kinetic = 0, moment = 0;
+  std::array<double, 3> momentum{};
 };
 
 /// Partners that are not grains.
@@ -40,6 +41,7 @@ struct GrainEvent {
   double time = never;
   std::int32_t partner = no_partner;
   std::uint32_t partner_count = 0;  ///< impacts of the partner when this was predicted; it is stale once that has changed
+  Meeting meeting = Meeting::touch;
 };
 
 /// Time until two spheres touch: separation r, relative velocity w; b = r.w, c = r^2 - reach^2, a = w^2. Both forms of the quadratic's
@@ -61,7 +63,7 @@ inline GrainEvent next_side_wall(const Flight3& flight, const std::array<double,
     const int sign = v > 0 ? 1 : -1;
     const double gap = room[k - 1] - sign * flight.x[k];
     const double time = flight.time + (gap > 0 ? gap / std::abs(v) : 0.0);
-    if (time < next.time) next = {time, side_wall(axis, sign), 0};
+    if (time < next.time) next = {time, side_wall(axis, sign), 0, Meeting::touch};
   }
   return next;
 }

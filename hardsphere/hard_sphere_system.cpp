@@ -10,7 +10,8 @@
 
 namespace shakedown {
 
-using Loop = std::variant<EventLoop<AllPairs>, EventLoop<CellLists<false>>, EventLoop<CellLists<true>>>;
+using Loop = std::variant<EventLoop<AllPairs, BoxMotion>, EventLoop<CellLists<false>, BoxMotion>, EventLoop<CellLists<true>, BoxMotion>,
+                          EventLoop<AllPairs, DrivenBox>, EventLoop<CellLists<false>, DrivenBox>>;
 
 struct HardSphereSystem::Inside {
   Loop loop;
@@ -21,6 +22,8 @@ namespace {
 
 /// Up to this size testing every pair in vector lanes beats lists and queue.
 constexpr std::size_t all_pairs_up_to = 128;
+/// Square wells need a table of all pairs.
+constexpr std::size_t wells_up_to = 2000;
 
 double grain_volume(const State& state) {
   double volume = 0;
@@ -28,20 +31,40 @@ double grain_volume(const State& state) {
   return volume;
 }
 
+/// Whether anything acts besides linear spring and constant restitution: what costs only those who use it.
+bool is_driven(const Physics& physics) {
+  const BoxForces& box = physics.box;
+  const GrainForces& grains = physics.grains;
+  return physics.contact.has_friction() || physics.contact.has_attraction() || physics.spring_cubic != 0 || box.viscous != 0 ||
+         box.dry_friction != 0 || box.constant != 0 || !box.harmonics.empty() || !box.free.empty() || !grains.constant.isZero() ||
+         !grains.harmonics.empty() || grains.linear_drag != 0 || grains.quadratic_drag != 0 || !grains.free.empty() || grains.arc_length != 0;
+}
+
 Loop loop_for(const Setup& setup, const Physics& physics, const State& state) {
-  const double infinite = never;
   const std::array<double, 2> half_width{setup.box.width[0] / 2, setup.box.width[1] / 2};
   const std::array<double, 3> cell{setup.box.length, setup.box.width[0], setup.box.width[1]};
   const double fraction = grain_volume(state) / (cell[0] * cell[1] * cell[2]);
+  const bool driven = is_driven(physics);
+  if (driven && setup.domain != Domain::damper)
+    throw InputError({{{}, "domain.kind", "effects that drive box or grains, friction and attraction need a damper (other domains are for checks of the plain engine)",
+                       "take domain.kind = \"damper\" or leave the effects out"}});
   if (setup.domain == Domain::periodic) {
-    const CellListsPlan plan{cell, true, {infinite, infinite}, fraction, 0};
+    const CellListsPlan plan{cell, true, {never, never}, fraction, 0};
     return Loop(std::in_place_index<2>, state, physics, setup, CellLists<true>(state, plan));
   }
-  if (state.size() <= all_pairs_up_to)
-    return Loop(std::in_place_index<0>, state, physics, setup, AllPairs(state, half_width));
+  const bool wells = physics.contact.has_attraction();
+  if (wells && state.size() > wells_up_to)
+    throw InputError({{{}, "grain_cohesion", "is modelled by the hard engine up to " + std::to_string(wells_up_to) + " grains only (it keeps a table of pairs)",
+                       "take fewer grains or --engine soft"}});
+  if (state.size() <= all_pairs_up_to || wells) {
+    const AllPairs grains(state, half_width, wells ? physics.contact.attraction_range : 0);
+    return driven ? Loop(std::in_place_index<3>, state, physics, setup, grains) : Loop(std::in_place_index<0>, state, physics, setup, grains);
+  }
   // The grains of a damper lie in layers most of the time, whatever the box's mean filling.
   const CellListsPlan plan{cell, false, half_width, setup.domain == Domain::damper ? std::max(0.45, fraction) : fraction, 0};
-  return Loop(std::in_place_index<1>, state, physics, setup, CellLists<false>(state, plan));
+  CellLists<false> grains(state, plan);
+  return driven ? Loop(std::in_place_index<4>, state, physics, setup, std::move(grains))
+                : Loop(std::in_place_index<1>, state, physics, setup, std::move(grains));
 }
 
 }  // namespace

@@ -34,9 +34,10 @@ struct HarmonicGap {
 /// last place of t.
 double first_wall_root(const HarmonicGap& gap);
 
-/// A time before which no root can lie, whatever the phase: g(t) >= g + g' t - A t^2 / 2 with |g''| <= A (A > 0).
+/// A time before which no root can lie, whatever the phase: g(t) >= g + g' t - A t^2 / 2 with |g''| <= A. For A = 0 it is the root.
 inline double earliest_possible_root(double gap, double rate, double top_acceleration) {
   const double room = gap > 0 ? gap : 0;
+  if (top_acceleration <= 0) return rate < 0 ? room / -rate : never;
   const double root = std::sqrt(rate * rate + 2 * top_acceleration * room);
   // Two forms of the same root, each without cancellation.
   return rate >= 0 ? (rate + root) / top_acceleration : 2 * room / (root - rate);

@@ -4,6 +4,7 @@
 // The state is (x, v) at the last kick (physics: amplitude and phase are outputs), so no arctangent and no growing phase enters.
 #pragma once
 #include <cmath>
+#include <limits>
 
 namespace shakedown {
 
@@ -49,6 +50,8 @@ class BoxMotion {
   double amplitude() const { return amplitude_; }                              ///< m, of the present arc
   double top_speed() const { return amplitude_ * angular_frequency_; }         ///< m/s
   double top_acceleration() const { return top_speed() * angular_frequency_; } ///< m/s^2, bound of |x''|
+  /// Until when at() and the bounds hold without a restart, s: for ever.
+  static constexpr double valid_until() { return std::numeric_limits<double>::infinity(); }
   double x() const { return x_; }        ///< at the last kick
   double v() const { return v_; }        ///< after the last kick
   double time() const { return time_; }  ///< of the last kick

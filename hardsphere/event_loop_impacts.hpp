@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+// Part of event_loop.hpp: what happens when grains touch each other or a wall.
+#pragma once
+#include "event_loop.hpp"
+
+namespace shakedown {
+
+inline Vec3 vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+inline void add(std::array<double, 3>& to, const Vec3& what) {
+  for (std::size_t axis = 0; axis < 3; ++axis) to[axis] += what[static_cast<int>(axis)];
+}
+
+template <class Grains, class Motion>
+double EventLoop<Grains, Motion>::restitution(ContactClass contact, double closing, double elastic_below, std::int64_t& rescues) const {
+  const double law = contact_.restitution_at ? contact_.restitution_at(contact, closing) : contact_.restitution[static_cast<std::size_t>(contact)];
+  if (closing >= elastic_below || law >= 1) return law;
+  ++rescues;
+  return 1;
+}
+
+/// A predicted meeting turned out receding (rounding): look again a little later. 1 ns of a box's acceleration is 3e-18 m.
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::refuse(int i, Flight3 flight, EndWalls* walls) {
+  ++refused_;
+  grains_.move_to(i, flight);
+  grains_.predict(i);
+  after(i);
+  if (walls) walls->put_off(i, now_ + 1e-9);
+}
+
+/// Inelastic impact of two spheres: normal impulse mu (1 + eps) times the closing speed along the line of centres.
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::pair_impact(int i, int j) {
+  Flight3 a = grains_.flight(i), b = grains_.flight(j);
+  a.advance(now_);
+  b.advance(now_);
+  const auto r = grains_.separation(a, b);
+  const double distance = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+  const double closing = -(r[0] * (b.v[0] - a.v[0]) + r[1] * (b.v[1] - a.v[1]) + r[2] * (b.v[2] - a.v[2])) / distance;
+  if (closing <= 0) return refuse(i, a, nullptr);
+  const double e = restitution(ContactClass::grain_grain, closing, limits_.pair_speed, elastic_pairs_);
+  const double ma = grains_.mass(i), mb = grains_.mass(j), reduced = ma * mb / (ma + mb);
+  const double impulse = reduced * (1 + e) * closing;
+  double loss = reduced / 2 * (1 - e * e) * closing * closing;
+  if constexpr (driven)
+    if (contact_.friction[0] > 0 && e < 1) {
+      const Vec3 normal = vec(r) / distance, apart = vec(b.v) - vec(a.v);
+      const double ra = grains_.radius(i), rb = grains_.radius(j);
+      Vec3 &spin_a = spin_[static_cast<std::size_t>(i)], &spin_b = spin_[static_cast<std::size_t>(j)];
+      Vec3 slip = apart - (rb * spin_b + ra * spin_a).cross(normal);
+      slip -= slip.dot(normal) * normal;
+      const Friction friction = friction_impulse(slip, Vec3::Constant(reduced / 3.5), contact_.friction[0], contact_.tangential_restitution, impulse);
+      add(a.v, -friction.impulse / ma);
+      add(b.v, friction.impulse / mb);
+      spin_a += spin_change(normal, ra, ma, -friction.impulse);
+      spin_b += spin_change(-normal, rb, mb, friction.impulse);
+      loss += friction.loss;
+    }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double along = impulse * r[axis] / distance;
+    a.v[axis] -= along / ma;
+    b.v[axis] += along / mb;
+  }
+  lose(0, loss);
+  ++collisions_[0];
+  virial_ += impulse * distance;
+  grains_.set_flight(i, a);
+  grains_.set_flight(j, b);
+  grains_.predict(i, j);
+  after(i);
+  after(j);
+}
+
+/// The edge of the square well around a grain: depth attraction force times range, gained on capture and paid back on escape; too slow to
+/// pay, the grain is thrown back.
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::pair_well(int i, int j, Meeting meeting) {
+  Flight3 a = grains_.flight(i), b = grains_.flight(j);
+  a.advance(now_);
+  b.advance(now_);
+  const auto r = grains_.separation(a, b);
+  const double distance = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+  const double opening = (r[0] * (b.v[0] - a.v[0]) + r[1] * (b.v[1] - a.v[1]) + r[2] * (b.v[2] - a.v[2])) / distance;
+  const double ma = grains_.mass(i), mb = grains_.mass(j), reduced = ma * mb / (ma + mb);
+  const double depth = contact_.attraction_force * contact_.attraction_range;
+  double next = opening;
+  if (meeting == Meeting::capture) {
+    next = -std::sqrt(opening * opening + 2 * depth / reduced);
+    grains_.set_bond(i, j, true);
+    ++wells_;
+  } else if (reduced / 2 * opening * opening > depth) {
+    next = std::sqrt(opening * opening - 2 * depth / reduced);
+    grains_.set_bond(i, j, false);
+    --wells_;
+  } else {
+    next = -opening;
+  }
+  const double impulse = reduced * (next - opening);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    a.v[axis] -= impulse * r[axis] / distance / ma;
+    b.v[axis] += impulse * r[axis] / distance / mb;
+  }
+  grains_.set_flight(i, a);
+  grains_.set_flight(j, b);
+  grains_.predict(i, j);
+  after(i);
+  after(j);
+}
+
+/// Impact on a side wall at rest in the frame of the grains.
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::fixed_side_impact(int i, std::int32_t face) {
+  if constexpr (driven) return moving_side_impact(i, side_wall_axis(face), side_wall_sign(face));
+  Flight3 flight = grains_.flight(i);
+  flight.advance(now_);
+  const std::size_t axis = static_cast<std::size_t>(side_wall_axis(face));
+  const double closing = side_wall_sign(face) * flight.v[axis];
+  EXPECT(closing > 0);
+  const double e = restitution(ContactClass::side_wall, closing, limits_.wall_speed, elastic_walls_);
+  flight.v[axis] *= -e;
+  lose(2, grains_.mass(i) / 2 * (1 - e * e) * closing * closing);
+  ++collisions_[2];
+  grains_.set_flight(i, flight);
+  grains_.predict(i);
+  after(i);
+}
+
+/// The box takes `jump` at now_.
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::kick_box(double jump) {
+  const BoxMotion::Point box = box_now();
+  if constexpr (driven) account(now_);
+  else outer_impulse_ += box_.spring_impulse(now_);
+  box_.restart(now_, box.x, box.v + jump);
+  box_point_.v += jump;
+}
+
+/// Impact on an end wall: the box takes the opposite impulse (paper, Sec. II B, with v_Box' = v_Box + dp / M).
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::end_impact(int i, int side) {
+  Flight3 flight = grains_.flight(i);
+  flight.advance(now_);
+  const double wall = driven ? walls_across(0).at(now_).v : box_now().v;
+  const double closing = side * (flight.v[0] - wall);
+  if (closing <= 0) return refuse(i, flight, &end_walls_);
+  const double limit = std::max(limits_.wall_fraction * box_.top_speed(), limits_.wall_speed);
+  const double e = restitution(ContactClass::end_wall, closing, limit, elastic_walls_);
+  const double m = grains_.mass(i), reduced = has_spring_ ? m * box_.mass() / (m + box_.mass()) : m;
+  const double impulse = reduced * (1 + e) * closing;
+  double loss = reduced / 2 * (1 - e * e) * closing * closing;
+  if constexpr (driven) {
+    Vec3 on_grain(-side * impulse, 0, 0);
+    if (contact_.friction[1] > 0 && e < 1) {
+      const Vec3 normal(side, 0, 0);
+      Vec3& spin = spin_[static_cast<std::size_t>(i)];
+      Vec3 slip = vec(flight.v) + spin.cross(normal) * grains_.radius(i);
+      slip -= Vec3(0, walls_across(1).at(now_).v, walls_across(2).at(now_).v);
+      slip.x() = 0;
+      const Friction friction = friction_impulse(slip, Vec3::Constant(m / 3.5), contact_.friction[1], contact_.tangential_restitution, impulse);
+      add(flight.v, friction.impulse / m);
+      spin += spin_change(normal, grains_.radius(i), m, friction.impulse);
+      loss += friction.loss;
+      on_grain += friction.impulse;
+    }
+    if (forces_.arc_effect >= 0)  // the side walls' motion along z does work on what rubs on the end walls
+      ledger_.effect_loss[static_cast<std::size_t>(forces_.arc_effect)] -= on_grain.z() * (walls_across(2).at(now_).v + frame_.velocity(now_).z());
+    account(now_);
+    grain_momentum_ += on_grain;
+  }
+  flight.v[0] -= side * impulse / m;
+  lose(1, loss);
+  ++collisions_[1];
+  grains_.set_flight(i, flight);
+  const double jump = has_spring_ ? side * impulse / box_.mass() : 0;
+  if (has_spring_) kick_box(jump);
+  grains_.predict(i);
+  after(i);
+  if (has_spring_) renew_walls(jump);
+}
+
+/// Impact on a side wall that may move across (falling frame, arc) and along the axis (with the box, whom friction pulls).
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::moving_side_impact(int i, int axis, int side) {
+  if constexpr (driven) {
+    Flight3 flight = grains_.flight(i);
+    flight.advance(now_);
+    const auto k = static_cast<std::size_t>(axis);
+    const std::array<double, 3> wall{walls_across(0).at(now_).v, walls_across(1).at(now_).v, walls_across(2).at(now_).v};
+    const double closing = side * (flight.v[k] - wall[k]);
+    if (closing <= 0) return refuse(i, flight, side_walls_.empty() ? nullptr : &walls(axis));
+    const double e = restitution(ContactClass::side_wall, closing, limits_.wall_speed, elastic_walls_);
+    const double m = grains_.mass(i), impulse = m * (1 + e) * closing;
+    double loss = m / 2 * (1 - e * e) * closing * closing, jump = 0;
+    Vec3 on_grain = Vec3::Zero();
+    if (contact_.friction[2] > 0 && e < 1) {
+      Vec3 normal = Vec3::Zero();
+      normal[axis] = side;
+      Vec3& spin = spin_[static_cast<std::size_t>(i)];
+      Vec3 slip = vec(flight.v) - vec(wall) + spin.cross(normal) * grains_.radius(i);
+      slip[axis] = 0;
+      Vec3 mass = Vec3::Constant(m / 3.5);
+      if (has_spring_) mass.x() = 1 / (3.5 / m + 1 / box_.mass());
+      const Friction friction = friction_impulse(slip, mass, contact_.friction[2], contact_.tangential_restitution, impulse);
+      spin += spin_change(normal, grains_.radius(i), m, friction.impulse);
+      loss += friction.loss;
+      on_grain = friction.impulse;
+      if (has_spring_) jump = -friction.impulse.x() / box_.mass();
+    }
+    on_grain[axis] -= side * impulse;
+    if (forces_.arc_effect >= 0)  // in the lab only the arc moves the side walls: what they do on grains is its work
+      ledger_.effect_loss[static_cast<std::size_t>(forces_.arc_effect)] -= on_grain.z() * (wall[2] + frame_.velocity(now_).z());
+    account(now_);
+    grain_momentum_ += on_grain;
+    add(flight.v, on_grain / m);
+    lose(2, loss);
+    ++collisions_[2];
+    grains_.set_flight(i, flight);
+    if (jump != 0) kick_box(jump);
+    grains_.predict(i);
+    after(i);
+    if (jump != 0) renew_walls(jump);
+  }
+}
+
+/// The edge of a wall's square well, as pair_well.
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::wall_well(int i, int axis, int side, Meeting meeting, EndWalls& walls) {
+  if constexpr (driven) {
+    Flight3 flight = grains_.flight(i);
+    flight.advance(now_);
+    const auto k = static_cast<std::size_t>(axis);
+    const double opening = side * (walls_across(axis).at(now_).v - flight.v[k]);
+    if (meeting == Meeting::capture ? opening >= 0 : opening <= 0) return refuse(i, flight, &walls);
+    const double m = grains_.mass(i), M = box_.mass(), reduced = axis == 0 && has_spring_ ? m * M / (m + M) : m;
+    const double depth = contact_.attraction_force * contact_.attraction_range;
+    double next = -opening;
+    if (meeting == Meeting::capture) {
+      next = -std::sqrt(opening * opening + 2 * depth / reduced);
+      walls.set_inside(i, side, true);
+      ++wells_;
+    } else if (reduced / 2 * opening * opening > depth) {
+      next = std::sqrt(opening * opening - 2 * depth / reduced);
+      walls.set_inside(i, side, false);
+      --wells_;
+    }
+    const double impulse = reduced * (next - opening);  // opens the gap further when positive
+    account(now_);
+    grain_momentum_[axis] -= side * impulse;
+    if (axis == 2 && forces_.arc_effect >= 0)
+      ledger_.effect_loss[static_cast<std::size_t>(forces_.arc_effect)] += side * impulse * (walls_across(2).at(now_).v + frame_.velocity(now_).z());
+    flight.v[k] -= side * impulse / m;
+    grains_.set_flight(i, flight);
+    const double jump = axis == 0 && has_spring_ ? side * impulse / M : 0;
+    if (jump != 0) kick_box(jump);
+    grains_.predict(i);
+    after(i);
+    if (jump != 0) renew_walls(jump);
+  }
+}
+
+}  // namespace shakedown

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+#include "driven_box.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace shakedown {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t node_count = 8;
+
+/// Gauss-Legendre nodes and weights on [0, 1], and the matrix that turns values at the nodes into coefficients of a polynomial.
+struct Collocation {
+  std::array<double, node_count> node{}, weight{};
+  std::array<std::array<double, node_count>, node_count> coefficient{};
+
+  Collocation() {
+    std::array<long double, node_count> exact{};
+    constexpr int n = static_cast<int>(node_count);
+    for (int i = 0; i < n; ++i) {
+      long double z = std::cos(std::numbers::pi_v<long double> * (i + 0.75L) / (n + 0.5L)), slope = 1;
+      for (int iteration = 0; iteration < 50; ++iteration) {
+        long double p = 1, q = 0;
+        for (int k = 0; k < n; ++k) {
+          const long double r = q;
+          q = p;
+          p = ((2 * k + 1) * z * q - k * r) / (k + 1);
+        }
+        slope = n * (z * p - q) / (z * z - 1);
+        z -= p / slope;
+      }
+      const auto place = static_cast<std::size_t>(n - 1 - i);
+      exact[place] = (1 + z) / 2;
+      node[place] = static_cast<double>(exact[place]);
+      weight[place] = static_cast<double>(1 / ((1 - z * z) * slope * slope));
+    }
+    // Lagrange polynomials of the nodes, multiplied out.
+    for (std::size_t j = 0; j < node_count; ++j) {
+      std::array<long double, node_count> product{1};
+      for (std::size_t m = 0, degree = 0; m < node_count; ++m) {
+        if (m == j) continue;
+        const long double scale = 1 / (exact[j] - exact[m]);
+        for (std::size_t k = ++degree; k > 0; --k) product[k] = (product[k - 1] - exact[m] * product[k]) * scale;
+        product[0] *= -exact[m] * scale;
+      }
+      for (std::size_t k = 0; k < node_count; ++k) coefficient[k][j] = static_cast<double>(product[k]);
+    }
+  }
+};
+
+const Collocation& collocation() {
+  static const Collocation table;
+  return table;
+}
+
+double sign_of(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
+
+}  // namespace
+
+DrivenBox::DrivenBox(const Physics& physics, double x, double v, double time)
+    : mass_(physics.box_mass),
+      stiffness_(physics.stiffness),
+      angular_frequency_(std::sqrt(physics.stiffness / physics.box_mass)),
+      cubic_(physics.spring_cubic),
+      cubic_effect_(physics.spring_cubic_effect),
+      forces_(physics.box),
+      accounted_(time) {
+  const double damping = forces_.viscous / (2 * mass_), w2 = angular_frequency_ * angular_frequency_;
+  needs_dense_ = cubic_ != 0 || !forces_.free.empty() || damping >= 0.99 * angular_frequency_;
+  for (const Harmonic& harmonic : forces_.harmonics) {
+    const double drive = 2 * std::numbers::pi * harmonic.frequency, detuning = w2 - drive * drive;
+    const double width = 2 * damping * drive, size = detuning * detuning + width * width;
+    // Near an undamped resonance the closed form is a difference of large numbers.
+    if (size < 1e-4 * w2 * w2) needs_dense_ = true;
+    const double force = harmonic.amplitude / mass_;
+    if (size > 0) responses_.push_back({force * detuning / size, -force * width / size, drive, harmonic.phase});
+  }
+  const auto grow = [this](int effect) {
+    if (effect >= static_cast<int>(work_.size())) work_.resize(static_cast<std::size_t>(effect) + 1, 0.0);
+  };
+  for (const int effect : {forces_.viscous_effect, forces_.dry_friction_effect, forces_.constant_effect, cubic_effect_}) grow(effect);
+  for (const Harmonic& harmonic : forces_.harmonics) grow(harmonic.effect);
+  for (const FreeForce& force : forces_.free) grow(force.effect);
+  restart(time, x, v);
+}
+
+void DrivenBox::restart(double t, double x, double v) {
+  time_ = t;
+  x_ = x;
+  v_ = v;
+  begin();
+}
+
+void DrivenBox::go_on() {
+  const Point point = at(valid_until_);
+  account(valid_until_);
+  const bool turning = forces_.dry_friction > 0 && std::abs(point.v) <= 1e-12 * (top_speed() + 1e-6);
+  restart(valid_until_, point.x, turning ? 0.0 : point.v);
+}
+
+/// All forces on the box but dry friction and grains, N.
+double DrivenBox::smooth_force(double x, double v, double t) const {
+  double force = -stiffness_ * x * (1 + cubic_ * x * x) - forces_.viscous * v + forces_.constant;
+  for (const Harmonic& h : forces_.harmonics) force += h.amplitude * std::sin(2 * std::numbers::pi * h.frequency * t + h.phase);
+  for (const FreeForce& free : forces_.free) force += free.newton(x, v, t);
+  if (!std::isfinite(force))
+    throw PhysicsError("the force on the box is not finite at x = " + std::to_string(x) + " m, v = " + std::to_string(v) +
+                       " m/s, t = " + std::to_string(t) + " s; check the formulas of user_force");
+  return force;
+}
+
+void DrivenBox::begin() {
+  double friction = 0;
+  if (forces_.dry_friction > 0) {
+    const double pull = smooth_force(x_, v_, time_);
+    if (v_ == 0 && std::abs(pull) <= forces_.dry_friction) return begin_stuck();
+    friction = -forces_.dry_friction * sign_of(v_ != 0 ? v_ : pull);
+  }
+  if (needs_dense_) begin_dense(friction);
+  else begin_closed(friction);
+}
+
+void DrivenBox::begin_closed(double friction_force) {
+  piece_ = Piece::closed;
+  friction_ = friction_force;
+  decay_ = forces_.viscous / (2 * mass_);
+  const double w = angular_frequency_;
+  damped_frequency_ = std::sqrt(w * w - decay_ * decay_);
+  centre_ = (forces_.constant + friction_force) / stiffness_;
+  double x = x_ - centre_, v = v_, response_acceleration = 0, response_jerk = 0;
+  for (const Response& r : responses_) {
+    const double phase = r.frequency * time_ + r.phase, s = std::sin(phase), c = std::cos(phase);
+    x -= r.p * s + r.q * c;
+    v -= r.frequency * (r.p * c - r.q * s);
+    const double size = std::hypot(r.p, r.q) * r.frequency * r.frequency;
+    response_acceleration += size;
+    response_jerk += size * r.frequency;
+  }
+  a_ = x;
+  b_ = (v + decay_ * x) / damped_frequency_;
+  // Each derivative of exp((-g + i w_d) s) multiplies by a number of modulus w.
+  const double amplitude = std::hypot(a_, b_);
+  top_acceleration_ = w * w * amplitude + response_acceleration;
+  valid_until_ = forces_.dry_friction > 0 ? first_standstill(w * w * w * amplitude + response_jerk) : infinity;
+}
+
+void DrivenBox::begin_stuck() {
+  piece_ = Piece::stuck;
+  friction_ = -smooth_force(x_, 0, time_);
+  top_acceleration_ = 0;
+  valid_until_ = infinity;
+  if (forces_.harmonics.empty() && forces_.free.empty()) return;
+  // The pull changes with time: look again where it may first exceed friction, and at least once a millisecond.
+  double rate = 0;
+  for (const Harmonic& h : forces_.harmonics) rate += std::abs(h.amplitude) * 2 * std::numbers::pi * h.frequency;
+  const double margin = forces_.dry_friction - std::abs(friction_);
+  const double safe = forces_.free.empty() && rate > 0 ? margin / rate : 0;
+  valid_until_ = time_ + std::clamp(safe, 1e-5, 1.0);
+}
+
+/// First time after the start at which the box stands still, found from below with a bound on its jerk.
+double DrivenBox::first_standstill(double jerk_bound) const {
+  if (jerk_bound <= 0) return infinity;
+  const double direction = -sign_of(friction_);
+  double t = time_;
+  const double end = piece_ == Piece::dense ? time_ + length_ : infinity;
+  for (int iteration = 0; iteration < 1000; ++iteration) {
+    const double speed = std::max(0.0, direction * at(t).v), rate = direction * acceleration_at(t);
+    const double root = std::sqrt(rate * rate + 2 * jerk_bound * speed);
+    const double step = rate >= 0 ? (rate + root) / jerk_bound : 2 * speed / (root - rate);
+    t += step;
+    if (t >= end) return end;
+    if (step <= 1e-15 * std::max(t, 1e-3) && iteration > 0) break;
+  }
+  return t;
+}
+
+double DrivenBox::acceleration_at(double t) const {
+  if (piece_ == Piece::stuck) return 0;
+  const Point point = at(t);
+  return (smooth_force(point.x, point.v, t) + friction_) / mass_;
+}
+
+void DrivenBox::begin_dense(double friction_force) {
+  piece_ = Piece::dense;
+  friction_ = friction_force;
+  double length = std::min(planned_length_ * 1.5, 8e-3);
+  while (!try_dense(length, friction_force)) {
+    length /= 2;
+    if (length < 1e-9)
+      throw PhysicsError("the forces on the box change too fast near t = " + std::to_string(time_) + " s, x = " +
+                         std::to_string(x_) + " m; make the formula of user_force smoother");
+  }
+  planned_length_ = length_ = length;
+  double jerk = 0;
+  top_acceleration_ = 0;
+  for (std::size_t k = 0; k < nodes; ++k) {
+    top_acceleration_ += std::abs(acceleration_[k]);
+    jerk += static_cast<double>(k) * std::abs(acceleration_[k]) / length;
+  }
+  valid_until_ = time_ + length;
+  if (forces_.dry_friction > 0) valid_until_ = std::min(valid_until_, first_standstill(jerk));
+}
+
+/// Solves the collocation equations by fixed-point iteration; false when the piece is too long for the promised error.
+bool DrivenBox::try_dense(double length, double friction_force) {
+  const Collocation& table = collocation();
+  std::array<double, nodes> value;
+  value.fill((smooth_force(x_, v_, time_) + friction_force) / mass_);
+  double change = infinity;
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    for (std::size_t k = 0; k < nodes; ++k) {
+      double sum = 0;
+      for (std::size_t j = 0; j < nodes; ++j) sum += table.coefficient[k][j] * value[j];
+      acceleration_[k] = sum;
+    }
+    length_ = length;
+    double scale = 0;
+    change = 0;
+    for (std::size_t j = 0; j < nodes; ++j) {
+      const double t = time_ + length * table.node[j];
+      const Point point = at(t);
+      const double now = (smooth_force(point.x, point.v, t) + friction_force) / mass_;
+      change = std::max(change, std::abs(now - value[j]));
+      scale = std::max(scale, std::abs(now));
+      value[j] = now;
+    }
+    if (change <= 4e-16 * scale + 1e-18) break;
+  }
+  // The last coefficients bound what the next ones would add to the position.
+  const double last = std::max(std::abs(acceleration_[nodes - 1]), std::abs(acceleration_[nodes - 2]) / 8);
+  constexpr double promised = 1e-14;  // m
+  return last * length * length / (8 * 9) <= promised && change * length * length <= promised;
+}
+
+DrivenBox::Point DrivenBox::at(double t) const {
+  const double s = t - time_;
+  if (piece_ == Piece::stuck) return {x_, 0};
+  if (piece_ == Piece::closed) {
+    const double phase = damped_frequency_ * s, c = std::cos(phase), sn = std::sin(phase);
+    const double shrink = decay_ == 0 ? 1 : std::exp(-decay_ * s);
+    const double swing = shrink * (a_ * c + b_ * sn);
+    double x = centre_ + swing, v = shrink * damped_frequency_ * (b_ * c - a_ * sn) - decay_ * swing;
+    for (const Response& r : responses_) {
+      const double drive = r.frequency * t + r.phase, ds = std::sin(drive), dc = std::cos(drive);
+      x += r.p * ds + r.q * dc;
+      v += r.frequency * (r.p * dc - r.q * ds);
+    }
+    return {x, v};
+  }
+  const double u = s / length_;
+  double x = 0, v = 0;
+  for (std::size_t k = nodes; k-- > 0;) {
+    const double order = static_cast<double>(k);
+    x = x * u + acceleration_[k] / ((order + 1) * (order + 2));
+    v = v * u + acceleration_[k] / (order + 1);
+  }
+  return {x_ + v_ * s + length_ * length_ * u * u * x, v_ + length_ * u * v};
+}
+
+void DrivenBox::account(double t) {
+  const Collocation& table = collocation();
+  while (accounted_ < t) {
+    // 8 nodes on 10 ms of a motion of some hertz are exact to rounding; fast forcing gets shorter steps.
+    double longest = 1e-2;
+    for (const Harmonic& h : forces_.harmonics) longest = std::min(longest, 0.1 / std::max(h.frequency, 1e-3));
+    if (piece_ == Piece::dense) longest = std::min(longest, length_);
+    const double h = std::min(t - accounted_, longest);
+    for (std::size_t j = 0; j < nodes; ++j) {
+      const double time = accounted_ + h * table.node[j], weight = h * table.weight[j];
+      const Point p = at(time);
+      double total = 0;
+      const auto add = [&](double force, int effect) {
+        total += force;
+        if (effect >= 0) work_[static_cast<std::size_t>(effect)] += weight * force * p.v;
+      };
+      add(-stiffness_ * p.x, -1);
+      if (cubic_ != 0) add(-stiffness_ * cubic_ * p.x * p.x * p.x, cubic_effect_);
+      if (forces_.viscous != 0) add(-forces_.viscous * p.v, forces_.viscous_effect);
+      if (forces_.constant != 0) add(forces_.constant, forces_.constant_effect);
+      for (const Harmonic& harmonic : forces_.harmonics)
+        add(harmonic.amplitude * std::sin(2 * std::numbers::pi * harmonic.frequency * time + harmonic.phase), harmonic.effect);
+      for (const FreeForce& free : forces_.free) add(free.newton(p.x, p.v, time), free.effect);
+      if (forces_.dry_friction > 0) add(piece_ == Piece::stuck ? -smooth_force(p.x, 0, time) : friction_, forces_.dry_friction_effect);
+      impulse_ += weight * total;
+    }
+    accounted_ = h < t - accounted_ ? accounted_ + h : t;
+  }
+}
+
+}  // namespace shakedown

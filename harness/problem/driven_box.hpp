@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Flight of the box between kicks when more than its linear spring acts on it:
+//   M x'' = -k x (1 + b x^2) - c x' - F sgn x' + constant + sum of harmonics + free forces
+// Linear terms in closed form; dry friction as a sequence of closed forms from one turning point to the next, with sticking; the rest by
+// Gauss-Legendre collocation (8 nodes, a polynomial of degree 9 in time) on pieces short enough that the last term of the
+// acceleration's expansion moves the box by less than 1e-14 m.
+#pragma once
+#include <limits>
+#include <vector>
+
+#include "box_motion.hpp"
+#include "physics.hpp"
+
+namespace shakedown {
+
+class DrivenBox {
+ public:
+  using Point = BoxMotion::Point;
+
+  DrivenBox(const Physics& physics, double x, double v, double time = 0);
+
+  /// Position and velocity at time t, last kick <= t <= valid_until().
+  Point at(double t) const;
+  /// A kick: from time t on the box flies from (x, v). Work and impulse must have been accounted for up to t.
+  void restart(double t, double x, double v);
+  /// End of the present piece, s: a turning point under dry friction, the end of a polynomial; infinity when there is none.
+  double valid_until() const { return valid_until_; }
+  /// Begins the next piece at valid_until().
+  void go_on();
+  /// Bound of |x''| until valid_until(), m/s^2.
+  double top_acceleration() const { return top_acceleration_; }
+  /// Speed that the box would reach on its spring alone, m/s: the scale of the elastic limit at the walls.
+  double top_speed() const { return std::hypot(x_ * angular_frequency_, v_); }
+  double angular_frequency() const { return angular_frequency_; }
+  double mass() const { return mass_; }
+  double stiffness() const { return stiffness_; }
+  double x() const { return x_; }
+  double v() const { return v_; }
+  double time() const { return time_; }
+
+  /// Adds up work and impulse of all forces but the grains' from the last call to time t.
+  void account(double t);
+  double outer_impulse() const { return impulse_; }                      ///< N s, spring included
+  const std::vector<double>& effect_work() const { return work_; }       ///< J done on the box by each line of Setup::effects
+
+ private:
+  enum class Piece { closed, stuck, dense };
+  struct Response {  // to one harmonic force: p sin(w t + phase) + q cos(w t + phase)
+    double p, q, frequency, phase;
+  };
+  static constexpr std::size_t nodes = 8;
+
+  void begin();
+  void begin_closed(double friction_force);
+  void begin_stuck();
+  void begin_dense(double friction_force);
+  bool try_dense(double length, double friction_force);
+  double first_standstill(double jerk_bound) const;
+  double smooth_force(double x, double v, double t) const;
+  double acceleration_at(double t) const;
+
+  double mass_, stiffness_, angular_frequency_, cubic_;
+  int cubic_effect_;
+  BoxForces forces_;
+  bool needs_dense_;
+
+  double time_ = 0, x_ = 0, v_ = 0;  // at the start of the piece
+  double valid_until_ = std::numeric_limits<double>::infinity(), top_acceleration_ = 0;
+  Piece piece_ = Piece::closed;
+  double friction_ = 0;  // N, force of dry friction in this piece
+  // closed: centre + responses + exp(-g s) (a cos w s + b sin w s), s = t - time
+  double centre_ = 0, a_ = 0, b_ = 0, decay_ = 0, damped_frequency_ = 0;
+  std::vector<Response> responses_;
+  // dense: acceleration as a polynomial in u = s / length
+  std::array<double, nodes> acceleration_{};
+  double length_ = 0, planned_length_ = 2e-3;
+
+  double accounted_ = 0, impulse_ = 0;
+  std::vector<double> work_;
+};
+
+}  // namespace shakedown
