@@ -15,12 +15,12 @@ using namespace shakedown;
 
 namespace {
 
-EventLoop<AllPairs> with_all_pairs(const shakedown::Setup& setup, const State& state) {
+EventLoop<AllPairs, BoxMotion> with_all_pairs(const shakedown::Setup& setup, const State& state) {
   return {state, physics_of(setup), setup, AllPairs(state, {setup.box.width[0] / 2, setup.box.width[1] / 2})};
 }
 
 template <bool Periodic>
-EventLoop<CellLists<Periodic>> with_lists(const shakedown::Setup& setup, const State& state, double shell) {
+EventLoop<CellLists<Periodic>, BoxMotion> with_lists(const shakedown::Setup& setup, const State& state, double shell) {
   CellListsPlan plan{{setup.box.length, setup.box.width[0], setup.box.width[1]}, Periodic, {never, never}, 0.4, shell};
   if (!Periodic) plan.half_width = {setup.box.width[0] / 2, setup.box.width[1] / 2};
   return {state, physics_of(setup), setup, CellLists<Periodic>(state, plan)};
