@@ -138,28 +138,28 @@ struct Crowd {
 std::vector<WallImpact> impacts_by_end_walls(Crowd crowd, bool watch_all, std::size_t count, std::size_t& most_watched) {
   EndWalls walls(std::vector<double>(crowd.flights.size(), Crowd::room), watch_all);
   const auto flight_of = [&](int i) { return crowd.flights[static_cast<std::size_t>(i)]; };
-  walls.open(0, crowd.box, flight_of);
+  walls.open(EndWalls::now(crowd.box, 0), flight_of);
   std::vector<WallImpact> impacts;
   std::size_t windows = 0, watched = 0;
   for (std::size_t next_throw = 0; impacts.size() < count;) {
     const Throw& thrown = crowd.throws.at(next_throw);
     const double earliest = std::min(walls.next().time, thrown.time);
     if (walls.window_end() <= earliest) {
-      walls.open(walls.window_end(), crowd.box, flight_of);
+      walls.open(EndWalls::now(crowd.box, walls.window_end()), flight_of);
       watched += walls.watched();
       ++windows;
     } else if (thrown.time <= walls.next().time) {
       crowd.fly(thrown.grain, thrown.time).v = thrown.v;
-      walls.grain_changed(thrown.grain, flight_of(thrown.grain), thrown.time, crowd.box.at(thrown.time), crowd.box.top_acceleration());
+      walls.grain_changed(thrown.grain, flight_of(thrown.grain), EndWalls::now(crowd.box, thrown.time));
       ++next_throw;
-    } else if (!walls.next().certain) {
+    } else if (walls.next().meeting == Meeting::none) {
       walls.refine(crowd.box, thrown.time);
     } else {
       const WallImpact hit{walls.next().time, walls.next().grain, walls.next().side};
       impacts.push_back(hit);
       const double jump = crowd.impact(hit);
-      walls.grain_changed(hit.grain, flight_of(hit.grain), hit.time, {crowd.box.x(), crowd.box.v()}, crowd.box.top_acceleration());
-      walls.box_kicked(hit.time, crowd.box, jump);
+      walls.grain_changed(hit.grain, flight_of(hit.grain), EndWalls::now(crowd.box, hit.time));
+      walls.kicked(EndWalls::now(crowd.box, hit.time), jump);
     }
   }
   EXPECT_LE(walls.deepest_overlap(), 1e-15);
