@@ -18,6 +18,15 @@ double EventLoop<Grains, Motion>::restitution(ContactClass contact, double closi
   return 1;
 }
 
+/// m; some thousand units in the last place of a position, a tenth of the overlap that is promised.
+constexpr double lowest_bounce = 1e-13;
+
+/// A bounce on an accelerated wall lower than positions resolve would never end, so every rebound goes at least `lowest_bounce` far. What
+/// that takes is booked (a loss below zero, 1e-14 of E0).
+inline double resolved(double restitution, double closing, double wall_acceleration) {
+  return std::max(restitution, std::sqrt(2 * wall_acceleration * lowest_bounce) / closing);
+}
+
 /// A predicted meeting turned out receding (rounding): look again a little later. 1 ns of a box's acceleration is 3e-18 m.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::refuse(int i, Flight3 flight, EndWalls* walls) {
@@ -144,7 +153,8 @@ void EventLoop<Grains, Motion>::end_impact(int i, int side) {
   const double closing = side * (flight.v[0] - wall);
   if (closing <= 0) return refuse(i, flight, &end_walls_);
   const double limit = std::max(limits_.wall_fraction * box_.top_speed(), limits_.wall_speed);
-  const double e = restitution(ContactClass::end_wall, closing, limit, elastic_walls_);
+  const double e = resolved(restitution(ContactClass::end_wall, closing, limit, elastic_walls_), closing,
+                            driven ? walls_across(0).top_acceleration() : box_.top_acceleration());
   const double m = grains_.mass(i), reduced = has_spring_ ? m * box_.mass() / (m + box_.mass()) : m;
   const double impulse = reduced * (1 + e) * closing;
   double loss = reduced / 2 * (1 - e * e) * closing * closing;
@@ -188,7 +198,8 @@ void EventLoop<Grains, Motion>::moving_side_impact(int i, int axis, int side) {
     const std::array<double, 3> wall{walls_across(0).at(now_).v, walls_across(1).at(now_).v, walls_across(2).at(now_).v};
     const double closing = side * (flight.v[k] - wall[k]);
     if (closing <= 0) return refuse(i, flight, side_walls_.empty() ? nullptr : &walls(axis));
-    const double e = restitution(ContactClass::side_wall, closing, limits_.wall_speed, elastic_walls_);
+    const double e = resolved(restitution(ContactClass::side_wall, closing, limits_.wall_speed, elastic_walls_), closing,
+                              walls_across(axis).top_acceleration());
     const double m = grains_.mass(i), impulse = m * (1 + e) * closing;
     double loss = m / 2 * (1 - e * e) * closing * closing, jump = 0;
     Vec3 on_grain = Vec3::Zero();

@@ -122,11 +122,11 @@ std::vector<Vec3> sparsely_filled_cell(const Setup& setup, int run) {
   const Eigen::Vector3i cells = (room / constant).array().floor().cast<int>().max(1);
   std::vector<Vec3> sites = lattice_sites(cells, room);
   if (sites.size() < count || room.minCoeff() < constant) does_not_fit(setup, sites.size(), "random");
+  // Each site is kept with the odds of grains left to sites left; the order of the lattice stays, so neighbours are near in memory.
   Random random(setup.run.seed, static_cast<std::uint64_t>(run), Stream::packing);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double left = static_cast<double>(sites.size() - i);
-    std::swap(sites[i], sites[i + static_cast<std::size_t>(random.uniform() * left)]);
-  }
+  std::size_t kept = 0;
+  for (std::size_t site = 0; kept < count; ++site)
+    if (random.uniform() * static_cast<double>(sites.size() - site) < static_cast<double>(count - kept)) sites[kept++] = sites[site];
   sites.resize(count);
   return sites;
 }

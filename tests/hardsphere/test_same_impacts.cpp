@@ -197,7 +197,7 @@ std::vector<WallImpact> impacts_by_brute_force(Crowd crowd, std::size_t count) {
 
 TEST(SameImpacts, AtEndWallsWatchedByAllThroughWindowsAndByBruteForce) {
   const Crowd crowd(700);
-  const std::size_t count = 1000;
+  const std::size_t count = 600;
   std::size_t of_all = 0, of_windows = 0;
   const auto brute = impacts_by_brute_force(crowd, count), all = impacts_by_end_walls(crowd, true, count, of_all),
              windows = impacts_by_end_walls(crowd, false, count, of_windows);

@@ -125,7 +125,8 @@ TEST(SingleGrain, StaysWithTheHandWrittenSolutionAsLongAsChaosLetsIt) {
 /// impact at speed u0 impact k comes at closing speed u0 eps^(k-1) and, were there no limit, infinitely many in 2 eps u0 / (a (1 - eps)).
 class Bouncing : public ::testing::Test {
  protected:
-  static constexpr double eps = 0.76, first = 1e-4, mass = 1e-9;
+  static constexpr double eps = 0.76, mass = 1e-9;
+  double first = 1e-4;  // m/s
   const double w = 2 * std::numbers::pi * 1.23, acceleration = 0.1075 * w * w, top_speed = 0.1075 * w;
 
   HardSphereSystem system(double elastic_fraction) const {
@@ -142,7 +143,7 @@ class Bouncing : public ::testing::Test {
 TEST_F(Bouncing, ComesToRestInZenosTime) {
   HardSphereSystem grain = system(1e-9);
   const double zeno = 2 * eps * first / (acceleration * (1 - eps));
-  for (int k = 1; k <= 30; ++k) {
+  for (int k = 1; k <= 14; ++k) {
     grain.advance_impacts(1);
     EXPECT_NEAR(grain.time(), zeno * (1 - std::pow(eps, k - 1)), 1e-6 * zeno) << k;  // the wall's acceleration changes by 4e-7
   }
@@ -163,6 +164,22 @@ TEST_F(Bouncing, IsCutShortByTheElasticLimitAtItsCurrentTopSpeed) {
   EXPECT_EQ(grain.health().elastic_rescues, 20);
   EXPECT_NEAR(grain.time() - time, 20 * 2 * speed / acceleration, 1e-5 * (grain.time() - time));
   EXPECT_NEAR(grain.ledger().contact_loss[1], lost, 1e-5 * lost);
+}
+
+/// Bounces lower than a position's last digit must not hold time up. (Among 1e4 grains one such speed turns up every few million impacts.)
+TEST_F(Bouncing, DoesNotStickToTheWallAtSpeedsThatPositionsDoNotResolve) {
+  for (const double speed : {1e-16, 4e-10, 1e-8}) {
+    first = speed;
+    for (const double limit : {0.0, 0.02}) {
+      HardSphereSystem grain = system(limit);
+      grain.advance_to(0.001);
+      EXPECT_LT(grain.collisions()[1], 4000) << speed;  // of 0.36 us each
+      grain.observe();
+      EXPECT_LE(grain.health().ledger_error, 1e-12);
+      EXPECT_LE(grain.health().deepest_overlap, 1e-13);  // metre; rounding adds up while the bounces repeat: seen 8e-15
+      EXPECT_GT(grain.ledger().contact_loss[1], -1e-12 * grain.initial_energy());
+    }
+  }
 }
 
 }  // namespace
