@@ -72,13 +72,19 @@ TomlEntry& entry_of(TomlValue& table, std::string_view key, const SourcePlace& p
   return table.entries.emplace_back(TomlEntry{std::string(key), place, std::move(empty)});
 }
 
+/// A key below something that is no table makes it one, so that the reader sees and reports it.
+TomlValue& as_table(TomlValue& value, const SourcePlace& place) {
+  if (value.kind == TomlValue::Kind::table) return value;
+  value = TomlValue{};
+  value.place = place;
+  return value;
+}
+
 /// The table of an effect in the list `effect`, made when it is not there.
 TomlValue& effect_table(TomlValue& root, std::string_view name, const SourcePlace& place) {
   TomlValue& list = entry_of(root, "effect", place).value;
-  if (list.kind != TomlValue::Kind::array) {
-    list = TomlValue{};
-    list.kind = TomlValue::Kind::array;
-  }
+  if (list.kind != TomlValue::Kind::array && list.place.line > 0) return list;  // [effect] in the file: the reader reports it
+  list.kind = TomlValue::Kind::array;
   for (TomlValue& item : list.items)
     if (const TomlValue* found = item.find("name"); found != nullptr && found->text == name) return item;
   TomlValue item, text;
@@ -89,27 +95,40 @@ TomlValue& effect_table(TomlValue& root, std::string_view name, const SourcePlac
   return list.items.emplace_back(std::move(item));
 }
 
+/// The component of an array that .x, .y or .z names, or nullptr.
+TomlValue* component(TomlValue& array, std::string_view axis) {
+  if (array.kind != TomlValue::Kind::array || axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z') return nullptr;
+  const std::size_t index = static_cast<std::size_t>(axis[0] - 'x');
+  return index < array.items.size() ? &array.items[index] : nullptr;
+}
+
+void set(TomlEntry& entry, TomlValue value) {
+  entry.place = value.place;
+  entry.value = std::move(value);
+}
+
 void write_override(TomlValue& root, const Override& override, Known known) {
   TomlValue value = value_of(override);
   const SourcePlace place = value.place;
   std::string_view path = override.key;
-  const std::size_t dot = std::min(path.find('.'), path.size());
-  const std::string_view first = path.substr(0, dot);
-  path.remove_prefix(std::min(dot + 1, path.size()));
-  TomlValue* table = record_of(known, first) ? &effect_table(root, first, place) : &entry_of(root, first, place).value;
-  for (std::size_t next = path.find('.'); next != path.npos; next = path.find('.')) {
-    TomlValue& deeper = entry_of(*table, path.substr(0, next), place).value;
-    path.remove_prefix(next + 1);
-    const std::size_t axis = path == "x" ? 0 : path == "y" ? 1 : path == "z" ? 2 : 3;
-    if (deeper.kind == TomlValue::Kind::array && axis < deeper.items.size()) {
-      deeper.items[axis] = std::move(value);
+  const auto next_word = [&] {
+    const std::size_t dot = std::min(path.find('.'), path.size());
+    const std::string_view word = path.substr(0, dot);
+    path.remove_prefix(std::min(dot + 1, path.size()));
+    return word;
+  };
+  std::string_view word = next_word();
+  if (path.empty()) return set(entry_of(root, word, place), std::move(value));
+  TomlValue* table = record_of(known, word) ? &effect_table(root, word, place) : &as_table(entry_of(root, word, place).value, place);
+  for (word = next_word(); !path.empty(); word = next_word()) {
+    TomlEntry& deeper = entry_of(*table, word, place);
+    if (TomlValue* axis = component(deeper.value, path)) {
+      *axis = std::move(value);
       return;
     }
-    table = &deeper;
+    table = &as_table(deeper.value, place);
   }
-  TomlEntry& entry = path.empty() ? entry_of(root, first, place) : entry_of(*table, path, place);
-  entry.place = place;
-  entry.value = std::move(value);
+  set(entry_of(*table, word, place), std::move(value));
 }
 
 // ---- reading ----

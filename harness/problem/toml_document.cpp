@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "toml_document.hpp"
 
+// toml++ 3.3 asserts on some damaged files, "[[[1]]]" for one (its pull request 301), instead of reporting them; without assertions
+// the same places are undefined behaviour. So assertions stay on in every build, and throw.
+namespace {
+struct TomlAssertion {};
+[[noreturn]] void toml_assertion_failed() { throw TomlAssertion{}; }
+}  // namespace
+#undef NDEBUG
+#define TOML_ASSERT(condition) ((condition) ? void(0) : toml_assertion_failed())
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -59,6 +67,23 @@ TomlValue converted(const toml::node& node, const std::string& name) {
   return value;
 }
 
+/// The first line with which the file cannot be read, found by reading ever more lines.
+int line_of_assertion(std::string_view text) {
+  int line = 1;
+  for (std::size_t end = text.find('\n'); end != text.npos; end = text.find('\n', end + 1), ++line) {
+    try {
+      (void)toml::parse(text.substr(0, end));
+    } catch (const toml::parse_error&) {
+      continue;  // a value that goes on in the next line
+    } catch (const TomlAssertion&) {
+      break;
+    }
+  }
+  return line;
+}
+
+constexpr const char* syntax_remedy = "correct the syntax: a text stands in quotation marks, every key once, one key = value a line";
+
 }  // namespace
 
 const TomlValue* TomlValue::find(std::string_view key) const {
@@ -84,8 +109,9 @@ TomlValue parse_toml(std::string_view text, const std::string& name) {
   try {
     return converted(toml::parse(text, name), name);
   } catch (const toml::parse_error& error) {
-    throw InputError({{place_of(error.source(), name), "", "is not TOML (" + std::string(error.description()) + ")",
-                       "correct the syntax: a text stands in quotation marks, every key once, one key = value a line"}});
+    throw InputError({{place_of(error.source(), name), "", "is not TOML (" + std::string(error.description()) + ")", syntax_remedy}});
+  } catch (const TomlAssertion&) {
+    throw InputError({{{name, line_of_assertion(text), 1}, "", "is not TOML (the line cannot be read)", syntax_remedy}});
   }
 }
 

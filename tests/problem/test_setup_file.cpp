@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "initial_state.hpp"
+#include "random.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
 
@@ -52,6 +53,10 @@ TEST(SetupFile, EmptyTextIsThePapersDamper) {
   const shakedown::Setup setup = parsed("");
   EXPECT_EQ(write_setup(setup), write_setup(shakedown::Setup{}));
   EXPECT_EQ(digest(setup), digest(shakedown::Setup{}));
+}
+
+TEST(SetupFile, ByteOrderMarksAndCarriageReturnsDoNotMatter) {
+  EXPECT_EQ(parsed("\xef\xbb\xbf[box]\r\nlength = \"65 mm\"\r\n").box.length, 0.065);
 }
 
 TEST(SetupFile, ReadsQuantitiesWithUnits) {
@@ -250,6 +255,7 @@ TEST(SetupFile, SyntaxErrorsHaveAPlace) {
   EXPECT_TRUE(message.starts_with("s.toml:2:")) << message;
   EXPECT_NE(message.find("is not TOML"), message.npos);
   EXPECT_TRUE(complaint("[box]\nlength = \"40 mm\"\nlength = \"41 mm\"\n").starts_with("s.toml:3:"));
+  EXPECT_TRUE(complaint("[box]\nlength = \"40 mm\"\n[[[effect]]]\n").starts_with("s.toml:3:1: is not TOML"));
 }
 
 TEST(SetupFile, MissingFiles) {
@@ -303,6 +309,29 @@ TEST(SetupOverride, NamesItsOriginInMessages) {
   EXPECT_EQ(complaint("", {{"nothing", "65mm"}}).substr(0, 47), "--set: nothing: is not a section of a setup; se");
   EXPECT_THROW(parse_override("box.length"), InputError);
   EXPECT_EQ(parse_override("box.length = 65 mm").value, "65 mm");
+}
+
+TEST(SetupOverride, IsNeverLostSilently) {
+  for (const char* key : {"box.length.x", "box.width.x.y", "effect.name", "effect", "box", "grains.count.value", "test_drag", ".", "..", "box.", ".length"})
+    EXPECT_NE(complaint("[box]\nlength = \"40 mm\"\n", {{key, "1"}}), "") << key;
+  EXPECT_NE(complaint("[effect]\nname = \"test_drag\"\n", {{"test_drag.strength", "1 N s/m"}}), "");
+}
+
+TEST(SetupFile, DamagedTextIsRefusedOrReadNeverWorse) {
+  // Anything but InputError ends the test: toml++ itself asserts on some damaged files.
+  const std::string text = write_setup(parsed("[[effect]]\nname = \"test_wind\"\nvelocity = {x = \"1 m/s\"}\nconstants = {c = \"1 mm\"}\n"));
+  const std::string_view bytes = "\"[]{}=.,#\n 0123456789eEmgsN/^-+\\\t\xc2\xb5";
+  Random random(1, 0, Stream::other);
+  int refused = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string damaged = text;
+    const std::size_t at = random.bits() % damaged.size();
+    if (random.bits() % 2 == 0) damaged[at] = bytes[random.bits() % bytes.size()];
+    else damaged.erase(at, 1 + random.bits() % 5);
+    refused += complaint(damaged).empty() ? 0 : 1;
+  }
+  EXPECT_GT(refused, 1500);
+  EXPECT_LT(refused, 3000);
 }
 
 TEST(SetupNumber, SetsAndGetsInSi) {

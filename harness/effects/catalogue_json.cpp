@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "catalogue.hpp"
+#include "quantity.hpp"
+#include "setup_keys.hpp"
+
+namespace shakedown {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view name_of(ParameterKind kind) {
+  constexpr std::array<std::string_view, 5> names{"number", "vector", "choice", "text", "constants"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+Json json_of(const Parameter& parameter) {
+  const bool numeric = parameter.kind == ParameterKind::number || parameter.kind == ParameterKind::vector;
+  Json json{{"name", parameter.name}, {"kind", name_of(parameter.kind)}, {"meaning", parameter.sentence}, {"required", parameter.required}};
+  if (numeric) {
+    json["unit"] = parameter.unit;
+    const auto number = [&](const char* key, double value) { json[key] = std::isfinite(value) ? Json(value) : Json(); };
+    if (const auto* value = std::get_if<double>(&parameter.default_value)) number("default", *value);
+    if (const auto* vector = std::get_if<Vec3>(&parameter.default_value)) json["default"] = {vector->x(), vector->y(), vector->z()};
+    number("low", parameter.low);
+    number("high", parameter.high);
+    number("neutral", parameter.neutral);
+    number("typical", parameter.typical);
+  }
+  if (parameter.kind == ParameterKind::choice) {
+    json["choices"] = parameter.choices;
+    json["default"] = std::get<std::string>(parameter.default_value);
+  }
+  return json;
+}
+
+Json json_of(const Capability& capability) { return {{"fidelity", name_of(capability.fidelity)}, {"note", capability.note}}; }
+
+Json json_of(const EffectRecord& effect) {
+  Json parameters = Json::array();
+  for (const Parameter& parameter : effect.parameters) parameters.push_back(json_of(parameter));
+  return {{"name", effect.name},
+          {"acts_on", name_of(effect.acts_on)},
+          {"sentence", effect.sentence},
+          {"formula", effect.formula},
+          {"source", effect.source},
+          {"limits", effect.limits},
+          {"replaces", effect.claims},
+          {"dissipative", effect.dissipative},
+          {"parameters", parameters},
+          {"engines", {{"hard", json_of(effect.hard)}, {"soft", json_of(effect.soft)}, {"bullet", json_of(effect.bullet)}}},
+          {"example", example_of(effect)}};
+}
+
+// ---- schema ----
+
+/// A number and a unit; the two micro signs are bytes of their own.
+constexpr std::string_view quantity_pattern = "^\\s*[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?\\s*[A-Za-z%(/\u00b5\u03bc].*$";
+
+Json quantity_schema(std::string_view unit, double low, double high, bool low_excluded) {
+  if (!unit.empty())
+    return {{"type", "string"}, {"pattern", quantity_pattern}, {"examples", Json::array({"1 " + std::string(unit)})}};
+  Json json{{"type", "number"}};
+  if (std::isfinite(low)) json[low_excluded ? "exclusiveMinimum" : "minimum"] = low;
+  if (std::isfinite(high)) json["maximum"] = high;
+  return json;
+}
+
+Json schema_of(const SetupKey& key) {
+  Json json;
+  const auto choices = choices_of(key);
+  const Json one = quantity_schema(key.unit, key.low, key.high, key.low_excluded);
+  if (!choices.empty()) json = {{"enum", choices}};
+  else if (std::holds_alternative<Field<bool>>(key.field)) json = {{"type", "boolean"}};
+  else if (std::holds_alternative<Field<std::string>>(key.field)) json = {{"type", "string"}};
+  else if (std::holds_alternative<Field<std::array<double, 2>>>(key.field))
+    json = {{"oneOf", Json::array({one, {{"type", "array"}, {"items", one}, {"minItems", 2}, {"maxItems", 2}}})}};
+  else json = one;
+  if (std::holds_alternative<Field<int>>(key.field) || std::holds_alternative<Field<std::uint64_t>>(key.field)) json["type"] = "integer";
+  json["description"] = std::string(key.sentence) + (key.unit.empty() ? "" : " Unit as of: " + std::string(key.unit) + ".");
+  if (key.path != "release.initial_grains") json["default"] = Json::parse(toml_of(key, Setup{}));  // these TOML values are JSON too
+  return json;
+}
+
+Json schema_of(const Parameter& parameter) {
+  const Json one = quantity_schema(parameter.unit, parameter.low, parameter.high, false);
+  Json json;
+  switch (parameter.kind) {
+    case ParameterKind::number: json = one; break;
+    case ParameterKind::vector:
+      json = {{"oneOf", Json::array({{{"type", "array"}, {"items", one}, {"minItems", 3}, {"maxItems", 3}},
+                                     {{"type", "object"}, {"properties", {{"x", one}, {"y", one}, {"z", one}}}, {"additionalProperties", false}}})}};
+      break;
+    case ParameterKind::choice: json = {{"enum", parameter.choices}}; break;
+    case ParameterKind::text: json = {{"type", "string"}}; break;
+    case ParameterKind::constants: json = {{"type", "object"}, {"additionalProperties", {{"type", Json::array({"string", "number"})}}}}; break;
+  }
+  json["description"] = parameter.sentence;
+  return json;
+}
+
+Json schema_of(const EffectRecord& effect) {
+  Json properties{{"name", {{"const", effect.name}}}}, required = Json::array({"name"});
+  for (const Parameter& parameter : effect.parameters) {
+    properties[std::string(parameter.name)] = schema_of(parameter);
+    if (parameter.required) required.push_back(parameter.name);
+  }
+  return {{"type", "object"}, {"description", effect.sentence}, {"properties", properties}, {"required", required}, {"additionalProperties", false}};
+}
+
+}  // namespace
+
+std::string effects_json(std::span<const EffectRecord* const> effects) {
+  Json json = Json::array();
+  for (const EffectRecord* effect : effects) json.push_back(json_of(*effect));
+  return json.dump(2) + "\n";
+}
+
+std::string setup_schema(std::span<const EffectRecord* const> effects) {
+  Json properties = Json::object(), variants = Json::array();
+  for (const SetupKey& key : setup_keys()) {
+    Json& section = properties[std::string(key.section())];
+    if (section.is_null()) section = {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+    section["properties"][std::string(key.name())] = schema_of(key);
+  }
+  for (const EffectRecord* effect : effects) variants.push_back(schema_of(*effect));
+  properties["effect"] = {{"type", "array"}, {"items", {{"oneOf", variants}}}};
+  const Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                    {"title", "shakedown setup"},
+                    {"type", "object"},
+                    {"properties", properties},
+                    {"additionalProperties", false}};
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace shakedown
