@@ -23,7 +23,7 @@ extern const EffectRecord blade_mass{
                     .sentence = "Mass added to the box."}},
     .hard = {Fidelity::exact},
     .soft = {Fidelity::exact},
-    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .bullet = {Fidelity::exact},
     .apply = &apply};
 
 }  // namespace shakedown::effect

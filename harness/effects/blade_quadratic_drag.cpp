@@ -25,7 +25,7 @@ extern const EffectRecord blade_quadratic_drag{
                     .sentence = "Force divided by the square of the speed."}},
     .dissipative = true,
     .hard = {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"},
-    .soft = {Fidelity::exact},
+    .soft = {Fidelity::to_stated_error, "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply};
 

@@ -23,7 +23,7 @@ extern const EffectRecord blade_viscous_damping{
                     .sentence = "Force divided by the speed of the box."}},
     .dissipative = true,
     .hard = {Fidelity::exact},
-    .soft = {Fidelity::exact},
+    .soft = {Fidelity::to_stated_error, "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply};
 

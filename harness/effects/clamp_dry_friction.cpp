@@ -22,7 +22,7 @@ extern const EffectRecord clamp_dry_friction{
                     .sentence = "Friction force."}},
     .dissipative = true,
     .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"},
+    .soft = {Fidelity::to_stated_error, "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply};
 

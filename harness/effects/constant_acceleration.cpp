@@ -25,7 +25,7 @@ extern const EffectRecord constant_acceleration{
     .parameters = {{.name = "acceleration", .kind = ParameterKind::vector, .unit = "m/s^2", .default_value = Vec3(0, 0, 0), .required = true, .low = -100, .high = 100, .neutral = 0, .typical = 0.1,
                     .sentence = "Acceleration [x, y, z]."}},
     .hard = {Fidelity::exact},
-    .soft = {Fidelity::exact},
+    .soft = {Fidelity::to_stated_error, "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply,
     .applied_last = true};

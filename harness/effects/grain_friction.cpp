@@ -10,6 +10,12 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
   physics.contact.friction = {choice.number("grain_grain"), wall, wall};
   physics.contact.tangential_restitution = choice.number("tangential_restitution");
 }
+
+/// A spring with a dashpot turns the slip round; it cannot leave part of it in its old direction.
+Capability capability_of(const EffectChoice& choice, std::string_view engine, Capability general) {
+  if (engine != "soft" || choice.number("tangential_restitution") >= 0) return general;
+  return {Fidelity::not_modelled, "the soft engine takes a tangential_restitution from 0 to 1; use --engine hard"};
+}
 }  // namespace
 
 extern const EffectRecord grain_friction{
@@ -32,8 +38,10 @@ extern const EffectRecord grain_friction{
     .claims = "friction of grains",
     .dissipative = true,
     .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error, "tangential spring of 2/7 of the normal stiffness, stretched up to sliding; tangential_restitution 1 only"},
+    .soft = {Fidelity::to_stated_error, "tangential spring of 2/7 of the normal stiffness, stretched up to sliding, with a dashpot for "
+                                        "tangential_restitution from 0 to 1"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
-    .apply = &apply};
+    .apply = &apply,
+    .capability_of = &capability_of};
 
 }  // namespace shakedown::effect

@@ -27,7 +27,7 @@ extern const EffectRecord oscillating_acceleration{
                    {.name = "phase", .unit = "rad", .default_value = 0.0, .low = -10, .high = 10,
                     .sentence = "Phase at release."}},
     .hard = {Fidelity::exact},
-    .soft = {Fidelity::exact},
+    .soft = {Fidelity::to_stated_error, "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply,
     .applied_last = true};

@@ -22,7 +22,7 @@ extern const EffectRecord side_wall_restitution{
                     .sentence = "Coefficient of normal restitution of a grain and a side wall."}},
     .claims = "restitution of the side walls",
     .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"},
+    .soft = {Fidelity::to_stated_error, "restitution to second order in the time step, as at the other walls"},
     .bullet = {Fidelity::exact},
     .apply = &apply};
 

@@ -26,7 +26,7 @@ extern const EffectRecord spring_cubic{
                     .sentence = "Relative change of the stiffness force at the release displacement; of either sign."}},
     .claims = "spring force",
     .hard = {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"},
-    .soft = {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"},
+    .soft = {Fidelity::to_stated_error, "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply};
 

@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "catalogue.hpp"
 #include "effects.hpp"
 #include "physics.hpp"
 #include "setup_file.hpp"
+#include "toml_document.hpp"
 
 using namespace shakedown;
 
@@ -25,4 +27,12 @@ TEST(ExampleEffect, OneFileAndOneLineGiveKeysForceAndDocumentation) {
   EXPECT_NE(describe_effect(effect::eddy_brake).find("A magnet beside the track"), std::string::npos);
   EXPECT_NE(setup_schema(effects).find("eddy_brake"), std::string::npos);
   EXPECT_EQ(parse_setup(write_setup(setup), "again", effects).effects[0].number("width"), 0.012);
+}
+
+TEST(ExampleEffect, ReadmeShowsTheFileThatIsCompiled) {
+  const auto root = std::filesystem::path(PROJECT_ROOT);
+  const std::string readme = read_text_file(root / "harness/effects/README.md");
+  const std::string file = read_text_file(root / "tests/effects/eddy_brake.cpp");
+  const std::string code = file.substr(file.find("#include"));
+  EXPECT_NE(readme.find("```cpp\n" + code + "```"), std::string::npos) << "copy the file into the README";
 }
