@@ -42,7 +42,8 @@ void BoxFlow::rotate(double step, double& x, double& v) {
 /// State with the works done since the beginning of a piece.
 struct BoxFlow::Phase {
   double x = 0, v = 0;
-  std::vector<double> work;  // viscous, dry, constant, harmonics..., free...
+  double viscous_work = 0, dry_work = 0, constant_work = 0;
+  std::vector<double> other_work;  // harmonics, then formulas; empty, and so not allocated, for the usual forces
 };
 
 double BoxFlow::force(double t, double x, double v) const {
@@ -54,7 +55,10 @@ double BoxFlow::force(double t, double x, double v) const {
 }
 
 BoxFlow::Phase BoxFlow::integrate(double time, double step, double x, double v, double sliding) const {
-  Phase end{x, v, std::vector<double>(3 + forces_.harmonics.size() + forces_.free.size())};
+  Phase end;
+  end.x = x;
+  end.v = v;
+  end.other_work.resize(forces_.harmonics.size() + forces_.free.size());
   constexpr std::array<double, 4> nodes{0, 0.5, 0.5, 1}, weights{1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
   double slope_x = 0, slope_v = 0;
   for (std::size_t stage = 0; stage < 4; ++stage) {
@@ -65,11 +69,11 @@ BoxFlow::Phase BoxFlow::integrate(double time, double step, double x, double v, 
     slope_v = (force(ts, xs, vs) + dry) / mass_;
     end.x += share * slope_x;
     end.v += share * slope_v;
+    end.viscous_work -= share * forces_.viscous * vs * vs;
+    end.dry_work += share * dry * vs;
+    end.constant_work += share * forces_.constant * vs;
     std::size_t line = 0;
-    const auto add = [&](double newton) { end.work[line++] += share * newton * vs; };
-    add(-forces_.viscous * vs);
-    add(dry);
-    add(forces_.constant);
+    const auto add = [&](double newton) { end.other_work[line++] += share * newton * vs; };
     for (const Harmonic& harmonic : forces_.harmonics)
       add(harmonic.amplitude * std::sin(2 * std::numbers::pi * harmonic.frequency * ts + harmonic.phase));
     for (const FreeForce& free : forces_.free) add(free.newton(xs, vs, ts));
@@ -89,12 +93,12 @@ double BoxFlow::time_of_stop(double time, double step, double x, double v, doubl
 
 void BoxFlow::advance_with_effects(double time, double step, double& x, double& v, Accounts& accounts) const {
   const auto enter = [&](const Phase& phase) {
+    accounts.add_work(forces_.viscous_effect, phase.viscous_work);
+    accounts.add_work(forces_.dry_friction_effect, phase.dry_work);
+    accounts.add_work(forces_.constant_effect, phase.constant_work);
     std::size_t line = 0;
-    accounts.add_work(forces_.viscous_effect, phase.work[line++]);
-    accounts.add_work(forces_.dry_friction_effect, phase.work[line++]);
-    accounts.add_work(forces_.constant_effect, phase.work[line++]);
-    for (const Harmonic& harmonic : forces_.harmonics) accounts.add_work(harmonic.effect, phase.work[line++]);
-    for (const FreeForce& free : forces_.free) accounts.add_work(free.effect, phase.work[line++]);
+    for (const Harmonic& harmonic : forces_.harmonics) accounts.add_work(harmonic.effect, phase.other_work[line++]);
+    for (const FreeForce& free : forces_.free) accounts.add_work(free.effect, phase.other_work[line++]);
     x = phase.x;
     v = phase.v;
   };

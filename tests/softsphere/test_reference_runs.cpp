@@ -5,7 +5,9 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
+#include "observables.hpp"
 #include "soft_engine.hpp"
 
 using namespace shakedown;
@@ -71,4 +73,24 @@ TEST(SlowReferenceRuns, StayWithLammpsForTenSeconds) {
     squares += (run.x_box[k] - sample.x_box) * (run.x_box[k] - sample.x_box);
   }
   EXPECT_LE(std::sqrt(squares / static_cast<double>(samples.size())), 1e-3);
+}
+
+TEST(SlowReferenceRuns, ApproachTheHardLimitAsContactsGetShorter) {
+  // Slope of the peaks in mm/s from earlier measurements (8 seeds, +- 0.014); ours must agree within the scatter of both.
+  constexpr int runs = 8;
+  for (const auto& [contact_time, steps, wanted] : {std::tuple{1e-3, 50.0, -8.055}, {3e-4, 50.0, -8.14}, {1e-4, 20.0, -8.16}}) {
+    shakedown::Setup setup;
+    setup.release.packing = Packing::square;
+    setup.run.duration = 8.2;
+    setup.soft.contact_time = contact_time;
+    setup.soft.steps_per_contact = steps;
+    double mean = 0;
+    for (int run = 0; run < runs; ++run) {
+      RunOptions options;
+      options.run = run;
+      mean += observe(make_soft_engine()->run(setup, options), setup).slope * 1e3 / runs;
+    }
+    RecordProperty("slope_at_contact_time_" + std::to_string(contact_time), std::to_string(mean));
+    EXPECT_NEAR(mean, wanted, 0.06) << contact_time;  // 2.5 standard errors of the difference
+  }
 }

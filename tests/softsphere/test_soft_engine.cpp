@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "halving_check.hpp"
+
 using namespace shakedown;
 
 namespace {
@@ -93,4 +95,13 @@ TEST(SoftEngine, ClosedBoxConservesEnergyOfElasticGrains) {
   EXPECT_GT(result.collisions[0], 100);
   EXPECT_NEAR(result.total_energy.back() / result.initial_energy, 1, 5e-3);  // Verlet at twenty steps per contact
   EXPECT_EQ(result.x_box.back(), 0);
+}
+
+TEST(SoftEngine, HalvingTheStepChangesLittleAndEverLess) {
+  shakedown::Setup setup = short_run();
+  const HalvingCheck check = halving_check(setup, 0.03);
+  EXPECT_LT(check.change_of_box[0], 2e-6);  // metre
+  EXPECT_LT(check.change_of_box[1], check.change_of_box[0]);
+  EXPECT_NEAR(check.predicted_restitution_error, 3.1e-3, 2e-4);
+  EXPECT_NEAR(check.steps_per_contact, 20.1, 0.05);
 }
