@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// The momentum channel: which outside forces does the setup lack? Answered from the measured positions alone,
+// with no simulation, because whatever happens in the contacts, M x_box'' + N m x_com'' = -k x_box + F.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "experiment.hpp"
+#include "momentum_run.hpp"
+#include "momentum_terms.hpp"
+
+namespace shakedown {
+
+/// Goodness of one version of the balance. The p-value allows for the noise being known to 2 % of its
+/// variance only.
+struct BalanceFit {
+  double chi2 = 0, degrees = 0, p_value = 1;
+  double chi2_per_degree() const { return degrees > 0 ? chi2 / degrees : 0; }
+};
+
+/// A term that the data ask for.
+struct FoundTerm {
+  std::string effect, parameter, unit;
+  TermKind kind = TermKind::physics;
+  double value = 0, low = 0, high = 0;     ///< of the parameter, SI, 95 % interval
+  double gain = 0;                         ///< what chi2 loses without it
+  double frequency = 0, phase = 0;         ///< Hz, rad; oscillating_acceleration only
+  double differs_between_runs = 1;         ///< p-value of one strength for all runs
+  std::vector<std::string> look_alikes{};  ///< terms whose columns differ by less than the noise can tell
+};
+
+/// Every term alone, whether it is needed or not: the ranking.
+struct SingleTerm {
+  std::string effect;
+  double gain = 0, value = 0, error = 0;
+};
+
+struct RunBalance {
+  std::string run;
+  BalanceFit as_given, final_fit;
+  double missing_force = 0;        ///< N, rms of the force that the setup lacks, noise taken off
+  double missing_force_noise = 0;  ///< N, one standard deviation of a window's mean force
+};
+
+struct MomentumAudit {
+  bool possible = false;
+  std::string why_not;                                          ///< when there is no run with both positions
+  BalanceFit as_given;                                          ///< the setup as it is
+  BalanceFit refitted;                                          ///< with the spring frequency free
+  BalanceFit final_fit;                                         ///< with all terms found
+  double frequency = 0, frequency_low = 0, frequency_high = 0;  ///< Hz, of the empty box, in the final fit
+  std::vector<FoundTerm> terms;                                 ///< in the order added
+  std::vector<SingleTerm> ranking;  ///< each alone beside the free frequency, best first
+  std::vector<RunBalance> runs;
+  bool unexplained = false;  ///< no set of known terms brings the balance into order
+  bool only_moving = false;  ///< windows at rest left out, because a dry friction sticks there
+  std::vector<std::string> notes;
+};
+
+struct MomentumOptions {
+  double window_periods = 0.6;  ///< length of a window in periods of the empty box (0.5 s at 1.23 Hz)
+  double hop = 0.25;            ///< of a window
+  double accept_p = 0.01;       ///< below: not explained
+  int most_terms = 6;
+  int most_sines = 2;
+  double lowest_frequency = 0.1, highest_frequency = 10;  ///< Hz, scan for forcing
+};
+
+/// `setups`: one for each run of the experiment. The audit's packed layer tells a wrong mass from a wrong
+/// scale of x_com - x_box, which are the same thing to the balance.
+MomentumAudit audit_momentum(const Experiment& experiment, const Audit& audit,
+                             const std::vector<Setup>& setups, const MomentumOptions& options = {});
+MomentumAudit audit_momentum(const std::vector<MomentumRun>& runs, const PlateauSlope& plateau,
+                             double frequency, const MomentumOptions& options = {});
+
+}  // namespace shakedown

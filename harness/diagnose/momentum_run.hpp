@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// One measured run, made ready for the momentum balance M x_box'' + N m x_com'' = -k x_box + F.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "audit.hpp"
+#include "physics.hpp"
+
+namespace shakedown {
+
+/// A run on an even clock. Lost frames are filled by cubic interpolation so that integrals stay smooth; where
+/// a gap is longer than the interpolation is good for, the frame is not usable and no window of the weak form
+/// touches it.
+struct MomentumRun {
+  std::string name;
+  double box_mass = 0;          ///< kg, M
+  double grain_mass = 0;        ///< kg, N m; 0: empty box
+  double stiffness = 0;         ///< N/m, k
+  double displacement = 0;      ///< m, Delta0 of the setup
+  double interval = 0;          ///< s, between frames
+  Eigen::ArrayXd time;          ///< s
+  Eigen::ArrayXd x_box, x_com;  ///< m; x_com = x_box where the box is empty
+  Eigen::ArrayXd x_smooth,
+      v_smooth;  ///< m, m/s of the box, local cubic; forces take x_box itself, whose noise has no bias
+  Eigen::ArrayXd
+      model_force;  ///< N, on box and grains from the setup's own effects; drag between box and air cancels
+  Eigen::ArrayXd model_force_dx,
+      model_force_dv;               ///< N/m, N s/m, its derivatives by the box's position and velocity
+  std::vector<char> usable;         ///< frame measured or well interpolated
+  std::vector<char> filled;         ///< frame interpolated
+  double com_gain = 1;              ///< true (x_com - x_box) over recorded, by the setup's camera
+  NoiseFound box_noise, com_noise;  ///< of the recorded series
+};
+
+/// `setup` is this run's setup: its camera effects are taken out of the data, its forces go into model_force.
+/// Without x_com (and with grains) there is no balance: returns a run without frames.
+MomentumRun momentum_run(const RunAudit& audit, const MeasuredRun& run, const Setup& setup);
+
+/// Weights of a local cubic fit over 2 * half + 1 frames, for the value and for the derivative (per frame) at
+/// the centre.
+struct LocalCubic {
+  Eigen::VectorXd value, slope;
+};
+LocalCubic local_cubic(int half);
+int smoothing_half_width(double interval);
+
+/// Weights at the four known places for the value at `at`: Lagrange.
+Eigen::Vector4d cubic_weights(const Eigen::Vector4d& places, double at);
+
+}  // namespace shakedown

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "momentum_terms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace shakedown {
+
+namespace {
+
+/// The spring's stiffness larger by the fraction `strength`.
+ForceSamples spring_samples(const MomentumRun& run, double) {
+  ForceSamples s;
+  s.force = -run.stiffness * run.x_box;
+  return s;  // its noise is the balance's own k x_box, changed by the small fraction fitted: left out
+}
+
+Eigen::ArrayXd constant(const MomentumRun& run, double value) {
+  return Eigen::ArrayXd::Constant(run.time.size(), value);
+}
+
+ForceSamples acceleration_samples(const MomentumRun& run, double) {
+  ForceSamples s;
+  s.force = constant(run, run.box_mass + run.grain_mass);
+  return s;
+}
+
+ForceSamples viscous_samples(const MomentumRun& run, double) {
+  ForceSamples s;
+  s.potential = run.x_box;
+  s.potential_dx = constant(run, 1);
+  return s;
+}
+
+ForceSamples quadratic_samples(const MomentumRun& run, double) {
+  ForceSamples s;
+  s.force = -run.v_smooth * run.v_smooth.abs();
+  s.force_dv = -2 * run.v_smooth.abs();
+  return s;
+}
+
+/// sgn v, averaged over the frame in which v changes sign; the noise of the moment of change enters through
+/// force_dv.
+ForceSamples dry_samples(const MomentumRun& run, double) {
+  const Eigen::Index n = run.time.size();
+  ForceSamples s;
+  s.force.resize(n);
+  s.force_dv = constant(run, 0);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double step = run.v_smooth[std::min(i + 1, n - 1)] - run.v_smooth[std::max<Eigen::Index>(i - 1, 0)];
+    const double half_step = std::max(std::abs(step) / 4, 1e-9);
+    s.force[i] = -std::clamp(run.v_smooth[i] / half_step, -1.0, 1.0);
+    if (std::abs(run.v_smooth[i]) < half_step) s.force_dv[i] = -1 / half_step;
+  }
+  return s;
+}
+
+ForceSamples cubic_samples(const MomentumRun& run, double) {
+  const double scale = run.stiffness / (run.displacement * run.displacement);
+  ForceSamples s;
+  s.force = -scale * run.x_box.cube();
+  s.force_dx = -3 * scale * run.x_box.square();
+  return s;
+}
+
+ForceSamples blade_mass_samples(const MomentumRun& run, double) {
+  ForceSamples s;
+  s.inertia_box = constant(run, 1);
+  return s;
+}
+
+/// x_com = x_box + (1 + strength)(recorded difference): the balance lacks strength N m (x_com - x_box)''.
+ForceSamples com_bias_samples(const MomentumRun& run, double) {
+  ForceSamples s;
+  s.inertia_com = constant(run, run.grain_mass);
+  s.inertia_box = constant(run, -run.grain_mass);
+  return s;
+}
+
+/// The balance lacks N m (1/cos(1.5 x/l) - 1) (x_com - x_box)''; strength 1/l^2.
+ForceSamples camera_arc_samples(const MomentumRun& run, double strength) {
+  const Eigen::ArrayXd angle2 = (1.5 * run.x_box).square() * std::max(strength, 1e-6);
+  ForceSamples s;
+  s.inertia_com = run.grain_mass * (1 / angle2.min(1.0).sqrt().cos() - 1) / std::max(strength, 1e-6);
+  s.inertia_box = -s.inertia_com;
+  return s;
+}
+
+/// Recorded x_box = x + d t: the spring seems to lack the force k d t.
+ForceSamples drift_samples(const MomentumRun& run, double) {
+  ForceSamples s;
+  s.force = run.stiffness * run.time;
+  return s;
+}
+
+}  // namespace
+
+const std::vector<MomentumTerm>& momentum_terms() {
+  static const std::vector<MomentumTerm> terms{
+      {"spring.frequency", "spring.frequency", "", TermKind::refit, false, spring_samples},
+      {"constant_acceleration", "acceleration", "m/s^2", TermKind::physics, false, acceleration_samples},
+      {"blade_viscous_damping", "damping", "N s/m", TermKind::physics, true, viscous_samples},
+      {"blade_quadratic_drag", "drag", "N s^2/m^2", TermKind::physics, true, quadratic_samples},
+      {"clamp_dry_friction", "force", "N", TermKind::physics, true, dry_samples},
+      {"spring_cubic", "coefficient", "", TermKind::physics, false, cubic_samples},
+      {"blade_mass", "mass", "kg", TermKind::physics, true, blade_mass_samples},
+      {"camera_com_bias", "bias", "", TermKind::camera, false, com_bias_samples, true,
+       [](double strength) { return strength / (1 + strength); }},
+      {"camera_arc", "blade_length", "m", TermKind::camera, true, camera_arc_samples, false,
+       [](double strength) { return strength > 0 ? 1 / std::sqrt(strength) : 0.0; }},
+      {"camera_drift", "drift", "m/s", TermKind::camera, false, drift_samples},
+  };
+  return terms;
+}
+
+}  // namespace shakedown

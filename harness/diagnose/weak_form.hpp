@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The momentum balance in weak form: multiplied by a smooth bump phi and integrated by parts, so that no
+// measured series is differentiated. On a window of length T, u = 2 (t - centre) / T: phi = (1 - u^2)^5. With
+// F the force that the setup lacks,
+//   Int phi'' (M x_box + N m x_com) + Int phi (k x_box - F_setup) = Int phi F,
+// linear in every force of the form strength * g(x, v, t).
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "momentum_run.hpp"
+
+namespace shakedown {
+
+/// A force of unit strength, frame by frame, as the sum of whichever parts are present:
+/// force, N; minus d/dt of `potential` (a force -g(x) v has potential G, dG/dx = g: no velocity needed); and
+/// a wrong inertia,
+/// -(inertia_box x_box'' + inertia_com x_com'').
+struct ForceSamples {
+  Eigen::ArrayXd force, force_dx, force_dv;  ///< N, N/m, N s/m
+  Eigen::ArrayXd potential, potential_dx;    ///< N s, N s/m
+  Eigen::ArrayXd inertia_box, inertia_com;   ///< kg
+};
+/// samples += strength * added, part by part.
+void add_samples(ForceSamples& samples, const ForceSamples& added, double strength);
+
+class WeakForm {
+ public:
+  /// Windows of `length` seconds every `hop` seconds, those whose frames are all usable.
+  WeakForm(const MomentumRun& run, double length, double hop);
+
+  const MomentumRun& run() const { return *run_; }
+  Eigen::Index windows() const { return static_cast<Eigen::Index>(first_.size()); }
+  double centre(Eigen::Index window) const;  ///< s
+  double excursion(Eigen::Index window) const {
+    return excursion_[window];
+  }  ///< m, max x - min x of the box, halved
+  /// Keeps only the windows flagged.
+  void keep(const std::vector<char>& flags);
+
+  /// Left side: the impulse, N s, that no force of the setup explains.
+  Eigen::VectorXd impulse() const;
+  /// Right side for one force of unit strength.
+  Eigen::VectorXd column(const ForceSamples& samples) const;
+  /// The columns of sin and cos of unit force at a frequency, Hz.
+  Eigen::MatrixXd harmonic(double frequency) const;
+  /// Integral of phi, s: turns an impulse into a mean force.
+  double weight() const;
+  /// Covariance of the impulse from camera noise, when the forces of the fit so far are `fitted`.
+  Eigen::MatrixXd covariance(const ForceSamples& fitted) const;
+
+ private:
+  const MomentumRun* run_;
+  Eigen::Index frames_ = 0;  ///< of a window
+  Eigen::ArrayXd phi_, slope_,
+      curvature_;  ///< phi, phi', phi'' times the interval, on the frames of a window
+  std::vector<Eigen::Index> first_;
+  Eigen::ArrayXd excursion_;
+  std::vector<int> filled_before_;
+};
+
+}  // namespace shakedown

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What was measured: one experiment is several runs of one damper, each a table that nobody has touched.
+#pragma once
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "setup_file.hpp"
+
+namespace shakedown {
+
+/// One recorded run. Lab frame, x = 0 where the spring is relaxed, +x towards the release.
+struct MeasuredRun {
+  std::string name;  ///< file name without folder and ending; with "#2" ... where a file is used twice
+  std::string file;
+  double box_length = 0;                      ///< m
+  double frame_rate = 0;                      ///< Hz, as stated, else the inverse of the median interval
+  std::vector<Override> overrides;            ///< setup keys of this run, box.length among them
+  std::map<std::string, SourcePlace> places;  ///< where the experiment file gives each override
+
+  // One entry a frame, in the order of time.
+  std::vector<double>
+      time;  ///< s since release, strictly increasing; frames that were lost are simply absent
+  std::vector<double> x_box;  ///< m; NaN where the position is missing
+  std::vector<double> x_com;  ///< m, mass-weighted mean of the grains; NaN where missing; empty: not measured
+
+  // Declared standard deviation of one frame, m; NaN: not declared.
+  double box_uncertainty = std::numeric_limits<double>::quiet_NaN();
+  double com_uncertainty = std::numeric_limits<double>::quiet_NaN();
+
+  bool has_com() const { return !x_com.empty(); }
+};
+
+struct Experiment {
+  std::string title;
+  std::string file;
+  std::vector<MeasuredRun> runs;
+  std::vector<std::string> notes;  ///< what was assumed in reading, in words
+};
+
+}  // namespace shakedown

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: MIT
+#include "experiment_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "column_reading.hpp"
+#include "quantity.hpp"
+#include "suggestion.hpp"
+#include "toml_document.hpp"
+#include "value_reading.hpp"
+
+namespace shakedown {
+
+namespace {
+
+using Kind = TomlValue::Kind;
+using Violations = std::vector<Violation>;
+
+/// Values of one table of the file; what is wrong goes to `violations`, what nobody asked for is reported as
+/// unknown.
+class Reader {
+ public:
+  Reader(const TomlValue& table, std::string path, Violations& violations)
+      : table_(&table), path_(std::move(path)), violations_(&violations) {}
+
+  const TomlValue* find(std::string_view key) {
+    known_.emplace_back(key);
+    return table_->find(key);
+  }
+
+  std::string text(std::string_view key) {
+    const TomlValue* value = find(key);
+    if (!value) return {};
+    if (value->kind == Kind::text) return value->text;
+    report(*value, key, "is " + std::string(describe(value->kind)) + " where a text is due",
+           "write it in quotes");
+    return {};
+  }
+
+  double number(std::string_view key, std::string_view unit, double otherwise) {
+    const TomlValue* value = find(key);
+    if (!value) return otherwise;
+    const ValueOrProblem<double> result = number_in(*value, unit);
+    if (const double* number = std::get_if<double>(&result)) return *number;
+    report(*value, key, std::get<Problem>(result).problem, std::get<Problem>(result).remedy);
+    return otherwise;
+  }
+
+  double positive(std::string_view key, std::string_view unit, double otherwise) {
+    const double value = number(key, unit, otherwise);
+    if (value > 0 || !table_->find(key) || value == otherwise) return value;
+    report(*table_->find(key), key, "must be greater than 0", "");
+    return otherwise;
+  }
+
+  bool boolean(std::string_view key) {
+    const TomlValue* value = find(key);
+    if (!value) return false;
+    if (value->kind != Kind::boolean) report(*value, key, "is neither true nor false", "write true or false");
+    return value->boolean;
+  }
+
+  void report(const TomlValue& value, std::string_view key, const std::string& problem,
+              const std::string& remedy) {
+    violations_->push_back({value.place, path_ + std::string(key), problem, remedy});
+  }
+
+  void report_unknown() {
+    for (const TomlEntry& entry : table_->entries) {
+      if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+      const std::string_view near = nearest(entry.key, known_);
+      violations_->push_back({entry.place, path_ + entry.key, "is not a key of the experiment file",
+                              (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") +
+                                  "known here: " + listed(known_)});
+    }
+  }
+
+ private:
+  const TomlValue* table_;
+  std::string path_;
+  Violations* violations_;
+  std::vector<std::string_view> known_;
+};
+
+std::vector<std::string> track_names(Reader& reader) {
+  const TomlValue* value = reader.find("track");
+  if (!value) return {};
+  const auto name = [](const TomlValue& item) {
+    return item.kind == Kind::integer ? std::to_string(item.integer) : item.text;
+  };
+  std::vector<std::string> names;
+  if (value->kind != Kind::array) names.push_back(name(*value));
+  for (const TomlValue& item : value->items) names.push_back(name(item));
+  return names;
+}
+
+/// What [column.NAME] says, on top of what a wider table said before.
+ColumnChoice column_choice(const TomlValue& table, const std::string& path, ColumnChoice choice,
+                           double pixel_size, Violations& violations) {
+  Reader reader(table, path, violations);
+  choice.place = table.place;
+  if (reader.find("from")) choice.from = reader.text("from");
+  if (reader.find("unit")) choice.unit = reader.text("unit");
+  const auto length = [&](const char* key, double otherwise) {
+    const TomlValue* value = reader.find(key);
+    if (value && value->kind == Kind::text && value->text.ends_with("px") && pixel_size > 0)
+      return std::atof(value->text.c_str()) * pixel_size;
+    return reader.number(key, "mm", otherwise);
+  };
+  choice.uncertainty = length("uncertainty", choice.uncertainty);
+  if (choice.uncertainty < 0)
+    reader.report(table, "uncertainty", "is negative", "give one standard deviation");
+  choice.origin = length("origin", choice.origin);
+  if (reader.find("reversed")) choice.reversed = reader.boolean("reversed");
+  if (const auto tracks = track_names(reader); !tracks.empty()) choice.tracks = tracks;
+  if (reader.find("track_from")) choice.track_from = reader.text("track_from");
+  reader.report_unknown();
+  return choice;
+}
+
+constexpr std::array<std::string_view, 3> column_names_known{"time", "box_position", "grain_centre"};
+
+/// The [column.*] of the file, or of one run on top of those.
+RunColumns read_column_tables(const TomlValue* table, const std::string& path, RunColumns columns,
+                              double pixel_size, Violations& violations) {
+  if (!table) return columns;
+  for (const TomlEntry& entry : table->entries) {
+    const std::string below = path + entry.key + ".";
+    if (entry.key == "time")
+      columns.time =
+          column_choice(entry.value, below, columns.time.value_or(ColumnChoice{}), pixel_size, violations);
+    else if (entry.key == "box_position")
+      columns.box = column_choice(entry.value, below, columns.box, pixel_size, violations);
+    else if (entry.key == "grain_centre")
+      columns.com =
+          column_choice(entry.value, below, columns.com.value_or(ColumnChoice{}), pixel_size, violations);
+    else {
+      const std::string_view near = nearest(entry.key, column_names_known);
+      violations.push_back({entry.place, path + entry.key, "is not a column that shakedown knows",
+                            (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") +
+                                "known: " + listed(column_names_known)});
+    }
+  }
+  return columns;
+}
+
+/// A value of the file as an override of the setup would be written on the command line.
+std::string as_written(const TomlValue& value) {
+  if (value.kind == Kind::text) return toml_string(value.text);
+  if (value.kind == Kind::integer) return std::to_string(value.integer);
+  if (value.kind == Kind::boolean) return value.boolean ? "true" : "false";
+  if (value.kind == Kind::number) return write_quantity(value.number, "");
+  std::string list;
+  for (const TomlValue& item : value.items) list += (list.empty() ? "" : ", ") + as_written(item);
+  return "[" + list + "]";
+}
+
+void add_overrides(const TomlValue& table, const std::string& path, const std::string& file,
+                   MeasuredRun& run) {
+  for (const TomlEntry& entry : table.entries) {
+    const std::string key = path + entry.key;
+    if (entry.value.kind == Kind::table) {
+      add_overrides(entry.value, key + ".", file, run);
+      continue;
+    }
+    run.overrides.push_back({key, as_written(entry.value), file + ":" + std::to_string(entry.place.line)});
+    run.places[key] = entry.place;
+  }
+}
+
+const Override* find_override(const MeasuredRun& run, std::string_view key) {
+  for (const Override& override : run.overrides)
+    if (override.key == key) return &override;
+  return nullptr;
+}
+
+/// Keys of [[run]] that are not the setup's.
+constexpr std::array<std::string_view, 6> own_keys{"file",         "box_length",     "frame_rate",
+                                                   "release_time", "initial_grains", "column"};
+
+/// A bare word among the setup's dotted keys is a mistyped key of [[run]].
+void split_run_keys(const TomlValue& table, const std::string& file, MeasuredRun& run,
+                    Violations& violations) {
+  TomlValue rest;
+  for (const TomlEntry& entry : table.entries) {
+    if (std::find(own_keys.begin(), own_keys.end(), entry.key) != own_keys.end()) continue;
+    if (entry.value.kind == Kind::table) {
+      rest.entries.push_back(entry);
+      continue;
+    }
+    const std::string_view near = nearest(entry.key, own_keys);
+    violations.push_back({entry.place, "run." + entry.key, "is not a key of a run",
+                          (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") + "known: " +
+                              listed(own_keys) + ", and keys of the setup with a dot, e.g. grains.count"});
+  }
+  add_overrides(rest, "", file, run);
+}
+
+struct Defaults {
+  ClockAndScale scale;
+  RunColumns columns;
+};
+
+/// Without a declared time column and with an empty box there is nothing to miss.
+bool is_empty_box(const MeasuredRun& run) {
+  const Override* count = find_override(run, "grains.count");
+  return count && count->value == "0";
+}
+
+void take_length_and_grains(Reader& reader, const std::filesystem::path& folder, const std::string& file,
+                            MeasuredRun& run) {
+  const TomlValue* length = reader.find("box_length");
+  run.box_length = reader.positive("box_length", "mm", std::numeric_limits<double>::quiet_NaN());
+  const auto add = [&](const std::string& key, const std::string& value, const SourcePlace& place) {
+    run.overrides.push_back({key, value, file + ":" + std::to_string(place.line)});
+    run.places[key] = place;
+  };
+  if (length && std::isfinite(run.box_length))
+    add("box.length", toml_string(write_quantity(run.box_length, "m")), length->place);
+  if (const TomlValue* grains = reader.find("initial_grains"))
+    add("release.initial_grains", toml_string((folder / reader.text("initial_grains")).string()),
+        grains->place);
+}
+
+double typical_rate(const std::vector<double>& time) {
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < time.size(); ++i) intervals.push_back(time[i] - time[i - 1]);
+  if (intervals.empty()) return 0;
+  std::nth_element(intervals.begin(), intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2),
+                   intervals.end());
+  return 1 / intervals[intervals.size() / 2];
+}
+
+void append(Violations& violations, Violations more) {
+  violations.insert(violations.end(), std::make_move_iterator(more.begin()),
+                    std::make_move_iterator(more.end()));
+}
+
+void read_series(const Table& table, RunColumns columns, const ClockAndScale& scale, MeasuredRun& run,
+                 Experiment& experiment, Violations& violations) {
+  if (columns.com &&
+      (columns.com->from.empty() || (is_empty_box(run) && !find_column(table, columns.com->from))))
+    columns.com.reset();
+  if (is_empty_box(run)) columns.com.reset();
+  RunSeries series = read_columns(table, columns, scale);
+  append(violations, std::move(series.violations));
+  experiment.notes.insert(experiment.notes.end(), series.notes.begin(), series.notes.end());
+  run.time = std::move(series.time);
+  run.x_box = std::move(series.x_box);
+  run.x_com = std::move(series.x_com);
+  run.box_uncertainty = columns.box.uncertainty;
+  if (run.has_com() && columns.com) run.com_uncertainty = columns.com->uncertainty;
+  const double rate = typical_rate(run.time);
+  run.frame_rate = scale.frame_rate > 0 ? scale.frame_rate : rate;
+  if (columns.time && scale.frame_rate > 0 && rate > 0 && std::abs(rate / scale.frame_rate - 1) > 0.02) {
+    experiment.notes.push_back(run.file + ": frame_rate says " + write_quantity(scale.frame_rate, "Hz") +
+                               ", the table's clock runs at about " +
+                               write_quantity(std::round(rate * 100) / 100, "Hz") + ": the clock is used");
+    run.frame_rate = rate;
+  }
+}
+
+void read_run(const TomlValue& table, const std::filesystem::path& folder, const Defaults& defaults,
+              Experiment& experiment, Violations& violations) {
+  MeasuredRun run;
+  Reader reader(table, "run.", violations);
+  const std::string file = reader.text("file");
+  if (file.empty())
+    violations.push_back({table.place, "run.file", "is missing", "name the table of this run"});
+  ClockAndScale scale = defaults.scale;
+  scale.frame_rate = reader.positive("frame_rate", "Hz", scale.frame_rate);
+  scale.release_time = reader.number("release_time", "s", 0);
+  take_length_and_grains(reader, folder, experiment.file, run);
+  split_run_keys(table, experiment.file, run, violations);
+  const RunColumns columns =
+      read_column_tables(table.find("column"), "run.column.", defaults.columns, scale.pixel_size, violations);
+  if (columns.box.from.empty())
+    violations.push_back(
+        {table.place, "column.box_position.from", "is missing", "name the header of the box's position"});
+  if (file.empty() || columns.box.from.empty()) return;
+  run.file = (folder / file).string();
+  run.name = std::filesystem::path(file).stem().string();
+  const auto same =
+      std::count_if(experiment.runs.begin(), experiment.runs.end(), [&](const MeasuredRun& other) {
+        return std::filesystem::path(other.file).stem().string() == run.name;
+      });
+  if (same > 0) run.name += "#" + std::to_string(same + 1);
+  try {
+    read_series(read_table(run.file), columns, scale, run, experiment, violations);
+  } catch (const InputError& error) {
+    append(violations, error.violations);
+  }
+  experiment.runs.push_back(std::move(run));
+}
+
+}  // namespace
+
+Experiment parse_experiment(std::string_view text, const std::string& name,
+                            const std::filesystem::path& folder) {
+  const TomlValue root = parse_toml(text, name);
+  Experiment experiment;
+  experiment.file = name;
+  Violations violations;
+  Reader reader(root, "", violations);
+  experiment.title = reader.text("title");
+  Defaults defaults;
+  const TomlValue* runs = reader.find("run");
+  const TomlValue* columns = reader.find("column");
+  if (const TomlValue* camera = reader.find("camera")) {
+    Reader of_camera(*camera, "camera.", violations);
+    defaults.scale.frame_rate = of_camera.positive("frame_rate", "Hz", 0);
+    defaults.scale.pixel_size = of_camera.positive("pixel_size", "mm", 0);
+    of_camera.report_unknown();
+  }
+  defaults.columns = read_column_tables(columns, "column.", {}, defaults.scale.pixel_size, violations);
+  reader.report_unknown();
+  if (!runs || runs->kind != Kind::array || runs->items.empty())
+    violations.push_back(
+        {{name, 0, 0}, "run", "is missing (no run to compare with)", "add [[run]] with file and box_length"});
+  else
+    for (const TomlValue& run : runs->items) read_run(run, folder, defaults, experiment, violations);
+  if (!violations.empty()) throw InputError(std::move(violations));
+  if (experiment.title.empty()) experiment.title = std::filesystem::path(name).stem().string();
+  return experiment;
+}
+
+Experiment read_experiment(const std::filesystem::path& file) {
+  return parse_experiment(read_text_file(file), file.string(), file.parent_path());
+}
+
+Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known) {
+  return parse_setup(write_setup(setup), "setup of " + run.name, known, run.overrides);
+}
+
+std::vector<Setup> setups_of_runs(const Setup& setup, const Experiment& experiment,
+                                  std::span<const EffectRecord* const> known) {
+  std::vector<Setup> setups;
+  for (const MeasuredRun& run : experiment.runs) setups.push_back(setup_of_run(setup, run, known));
+  return setups;
+}
+
+}  // namespace shakedown

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// The experiment file: which table is which run, which column is what, in which unit. The tables themselves
+// stay untouched.
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include "experiment.hpp"
+
+namespace shakedown {
+
+/// Reads an experiment file and its tables. Throws InputError with every violation at once (those of the
+/// tables with their line), FileError when a file cannot be read. Paths of tables and initial_grains count
+/// from the experiment file's folder.
+///
+///   title                      text
+///   [camera]                   frame_rate "500 Hz", pixel_size "0.12 mm" (where positions are in px)
+///   [column.time]              from = header, unit ("s", "ms", "frame"); without it rows are frames
+///   [column.box_position]      from, unit ("m", "mm", "px"), uncertainty of one frame; origin (subtracted),
+///   reversed = true, [column.grain_centre]      track = "1" or ["1", "2"] (mean) and track_from for tables
+///   with one row a track and frame
+///   [[run]]                    file, box_length; frame_rate, release_time (on the table's clock),
+///   initial_grains, column.* of this
+///                              run alone (from = "": not measured), any key of the setup, e.g. grains.count
+///                              = 0
+Experiment read_experiment(const std::filesystem::path& file);
+
+/// The same from text; tables are looked for in `folder`, `name` stands for the file in messages.
+Experiment parse_experiment(std::string_view text, const std::string& name,
+                            const std::filesystem::path& folder);
+
+/// The setup of one run: the user's, with the run's own keys. Throws InputError that names the run's line for
+/// a key that does not exist or does not fit.
+Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known);
+std::vector<Setup> setups_of_runs(const Setup& setup, const Experiment& experiment,
+                                  std::span<const EffectRecord* const> known);
+
+}  // namespace shakedown

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "outliers.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "robust_statistics.hpp"
+
+namespace shakedown {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// Judges frames by their neighbours: two on the left, two on the right, one of each. A landing spoils one or
+/// two of these predictions, an outlier all three.
+class OutlierJudge {
+ public:
+  OutlierJudge(const std::vector<double>& time, const std::vector<double>& x, double deviation)
+      : time_(&time), deviation_(deviation), acceleration_(typical_acceleration(time, x)) {}
+
+  /// Smallest misfit in units of its own standard deviation; `kept` are the frames to judge by.
+  double misfit(const std::vector<double>& kept, std::size_t i, double value) const {
+    std::array<std::size_t, 2> left{}, right{};
+    const int lefts = neighbours_to(kept, i, -1, left), rights = neighbours_to(kept, i, +1, right);
+    double smallest = 1e300;
+    int predictions = 0;
+    const auto judge = [&](std::size_t a, std::size_t b) {
+      const double share = ((*time_)[i] - (*time_)[a]) / ((*time_)[b] - (*time_)[a]);
+      const double prediction = kept[a] + share * (kept[b] - kept[a]);
+      const double spread = deviation_ * std::sqrt(1 + (1 - share) * (1 - share) + share * share);
+      const double bend =
+          acceleration_ * std::abs(((*time_)[i] - (*time_)[a]) * ((*time_)[i] - (*time_)[b])) / 2;
+      smallest = std::min(smallest, std::max(0.0, std::abs(value - prediction) - bend) / spread);
+      ++predictions;
+    };
+    if (lefts > 0 && rights > 0) judge(left[0], right[0]);
+    if (lefts == 2) judge(left[0], left[1]);
+    if (rights == 2) judge(right[0], right[1]);
+    return predictions > 0 ? smallest : 0;
+  }
+
+ private:
+  const std::vector<double>* time_;
+  double deviation_, acceleration_;
+
+  int neighbours_to(const std::vector<double>& kept, std::size_t i, int step,
+                    std::array<std::size_t, 2>& found) const {
+    int count = 0;
+    for (auto j = static_cast<std::ptrdiff_t>(i) + step;
+         j >= 0 && j < static_cast<std::ptrdiff_t>(kept.size()) && count < 2; j += step) {
+      const auto at = static_cast<std::size_t>(j);
+      if (std::abs((*time_)[at] - (*time_)[i]) > 0.05) break;  // too far to predict
+      if (std::isfinite(kept[at])) found[static_cast<std::size_t>(count++)] = at;
+    }
+    return count;
+  }
+
+  /// Three times the usual acceleration, from 2nd differences over 20 ms.
+  static double typical_acceleration(const std::vector<double>& time, const std::vector<double>& x) {
+    const double interval = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+    const std::size_t step = std::max<std::size_t>(1, static_cast<std::size_t>(0.02 / interval));
+    std::vector<double> found;
+    for (std::size_t i = step; i + step < x.size(); ++i) {
+      const double difference = x[i - step] - 2 * x[i] + x[i + step],
+                   duration = (time[i + step] - time[i - step]) / 2;
+      if (std::isfinite(difference)) found.push_back(std::abs(difference) / (duration * duration));
+    }
+    return found.empty() ? 0 : 3 * median(found);
+  }
+};
+
+/// Distance from the local cubic through the frames kept within 20 ms (at least 5 frames) on either side, the
+/// frame itself left out, in units of its standard deviation; 0 where there are too few.
+double misfit_to_cubic(const std::vector<double>& time, const std::vector<double>& kept, std::size_t i,
+                       double value, double deviation, double interval) {
+  const auto half = static_cast<std::ptrdiff_t>(std::max(5.0, std::round(0.02 / interval)));
+  const double reach = static_cast<double>(half) * interval * 1.01;
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d right = Eigen::Vector4d::Zero();
+  int count = 0;
+  const auto first = std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(i) - half);
+  const auto last =
+      std::min(static_cast<std::ptrdiff_t>(kept.size()) - 1, static_cast<std::ptrdiff_t>(i) + half);
+  for (auto j = first; j <= last; ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    const double u = (time[at] - time[i]) / reach;
+    if (at == i || !std::isfinite(kept[at]) || std::abs(u) > 1) continue;
+    const Eigen::Vector4d row(1, u, u * u, u * u * u);
+    normal += row * row.transpose();
+    right += row * (kept[at] - value);
+    ++count;
+  }
+  if (count < 7) return 0;
+  const Eigen::Vector4d at_centre = normal.ldlt().solve(Eigen::Vector4d::Unit(0));
+  return std::abs(at_centre.dot(right)) / (deviation * std::sqrt(1 + at_centre[0]));
+}
+
+}  // namespace
+
+// What looks wrong beside an outlier is judged again without it, and what an outlier seemed to support too.
+std::vector<double> without_outliers(const std::vector<double>& time, const std::vector<double>& x,
+                                     double interval, double deviation) {
+  constexpr double certain = 5, doubtful = 1.5, off_the_cubic = 4;  // standard deviations
+  const OutlierJudge judge(time, x, deviation);
+  std::vector<double> kept = x;
+  for (int pass = 0; pass < 5; ++pass) {
+    std::vector<double> next = x;
+    bool same = true;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!std::isfinite(x[i])) continue;
+      const double misfit = judge.misfit(kept, i, x[i]);
+      // The cubic is sharper, but a landing bends away from it; there one side's neighbours support the
+      // frame.
+      if (misfit > certain || (pass > 0 && misfit > doubtful &&
+                               misfit_to_cubic(time, kept, i, x[i], deviation, interval) > off_the_cubic))
+        next[i] = nothing;
+      same = same && std::isfinite(next[i]) == std::isfinite(kept[i]);
+    }
+    kept = std::move(next);
+    if (same && pass > 0) break;
+  }
+  return kept;
+}
+
+}  // namespace shakedown

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "table.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "table_text.hpp"
+
+namespace shakedown {
+
+namespace {
+
+using Row = std::vector<std::string>;
+
+struct Line {
+  std::string_view text;
+  int number = 0;
+};
+
+bool is_comment(std::string_view text) {
+  return (text.starts_with('#') || text.starts_with('%') || text.starts_with("//")) &&
+         !text.starts_with("#N/A");
+}
+
+std::vector<Line> lines_of(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  std::vector<Line> lines;
+  int number = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    ++number;
+    if (!trimmed(text.substr(0, end)).empty()) lines.push_back({text.substr(0, end), number});
+    const bool two = end + 1 < text.size() && text[end] == '\r' && text[end + 1] == '\n';
+    text.remove_prefix(std::min(text.size(), end + (two ? 2 : 1)));
+  }
+  return lines;
+}
+
+/// The second half is data in every format we know, whatever stands above it.
+std::vector<std::string_view> sample_of(const std::vector<Line>& lines) {
+  std::vector<std::string_view> sample;
+  for (std::size_t i = lines.size() / 2; i < lines.size() && sample.size() < 200; ++i)
+    if (!is_comment(trimmed(lines[i].text))) sample.push_back(lines[i].text);
+  return sample;
+}
+
+bool has_decimal_comma(const std::vector<std::string_view>& sample, char delimiter) {
+  if (delimiter == ',') return false;
+  for (const std::string_view line : sample)
+    for (const std::string& cell : split_cells(line, delimiter))
+      if (!cell_number(cell, false) && cell.find(',') != std::string::npos && cell_number(cell, true))
+        return true;
+  return false;
+}
+
+std::size_t filled(const Row& row) {
+  return static_cast<std::size_t>(
+      std::count_if(row.begin(), row.end(), [](const std::string& cell) { return !cell.empty(); }));
+}
+
+bool is_data(const Row& row, std::size_t width, bool decimal_comma) {
+  std::size_t numbers = 0, words = 0;
+  for (const std::string& cell : row)
+    if (!is_blank_cell(cell)) ++(cell_number(cell, decimal_comma) ? numbers : words);
+  return numbers >= 1 && numbers >= words && 2 * row.size() >= width;
+}
+
+/// "x [mm]" and "x (mm)" into name and unit.
+std::pair<std::string, std::string> name_and_unit(const std::string& header) {
+  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
+    const std::size_t begin = header.rfind(open);
+    if (header.empty() || header.back() != close || begin == std::string::npos) continue;
+    return {std::string(trimmed(header.substr(0, begin))),
+            std::string(trimmed(header.substr(begin + 1, header.size() - begin - 2)))};
+  }
+  return {header, ""};
+}
+
+bool is_row_of_units(const Row& row) {
+  bool any = false;
+  for (const std::string& cell : row) {
+    if (cell.empty()) continue;
+    if (!name_and_unit(cell).first.empty() || name_and_unit(cell).second.empty()) return false;
+    any = true;
+  }
+  return any;
+}
+
+bool has_twins(const Row& row) {
+  std::set<std::string> seen;
+  for (const std::string& cell : row)
+    if (!cell.empty() && !seen.insert(cell).second) return true;
+  return false;
+}
+
+/// Names of tracks stand over the first column of each; the other columns of a track are blank.
+void put_track_before_names(const Row& tracks, Row& names) {
+  std::string track;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i < tracks.size() && !tracks[i].empty()) track = tracks[i];
+    if (!track.empty() && !names[i].empty()) names[i] = track + "." + names[i];
+  }
+}
+
+std::vector<TableColumn> columns_of(const std::vector<Row>& header, std::size_t width) {
+  std::vector<TableColumn> columns(width);
+  const auto names_row = std::max_element(header.begin(), header.end(), [](const Row& a, const Row& b) {
+    return filled(a) < filled(b);  // the first of the fullest rows
+  });
+  Row names = names_row == header.end() ? Row{} : *names_row;
+  if (names_row != header.end() && names_row != header.begin() && has_twins(names))
+    put_track_before_names(*std::prev(names_row), names);
+  for (std::size_t i = 0; i < width; ++i) {
+    std::tie(columns[i].name, columns[i].unit) = name_and_unit(i < names.size() ? names[i] : "");
+    if (columns[i].name.empty()) columns[i].name = "column " + std::to_string(i + 1);
+  }
+  if (names_row == header.end()) return columns;
+  for (auto row = std::next(names_row); row != header.end(); ++row)
+    for (std::size_t i = 0; is_row_of_units(*row) && i < std::min(width, row->size()); ++i)
+      if (columns[i].unit.empty()) columns[i].unit = name_and_unit((*row)[i]).second;
+  return columns;
+}
+
+void append_row(Table& table, Row cells, int line) {
+  const std::size_t width = table.columns.size();
+  while (cells.size() > width && cells.back().empty()) cells.pop_back();
+  if (cells.size() != width && table.violations.size() < 20)
+    table.violations.push_back({{table.file, line, 1},
+                                "",
+                                "has " + std::to_string(cells.size()) + " cells where the table has " +
+                                    std::to_string(width) + " columns (cut off, or a delimiter too many?)",
+                                "complete or delete the line"});
+  cells.resize(width);
+  for (std::size_t i = 0; i < width; ++i) {
+    const std::optional<double> number = cell_number(cells[i], table.decimal_comma);
+    if (!number && !is_blank_cell(cells[i])) table.columns[i].not_numbers.push_back({table.rows(), cells[i]});
+    table.columns[i].value.push_back(number.value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  table.line.push_back(line);
+}
+
+std::size_t commonest_width(const std::vector<std::string_view>& sample, char delimiter) {
+  std::map<std::size_t, int> of_width;
+  for (const std::string_view line : sample) {
+    ++of_width[split_cells(line, delimiter).size()];
+  }
+  return std::max_element(of_width.begin(), of_width.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+/// A column that has neither a name nor a number is the shadow of a delimiter at the end of each line.
+void drop_shadow_columns(Table& table) {
+  while (!table.columns.empty() && table.columns.back().name.starts_with("column ") &&
+         table.columns.back().not_numbers.empty() &&
+         std::all_of(table.columns.back().value.begin(), table.columns.back().value.end(),
+                     [](double value) { return value != value; }))
+    table.columns.pop_back();
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& problem, const std::string& remedy) {
+  throw InputError({{{name, 1, 1}, "", problem, remedy}});
+}
+
+}  // namespace
+
+Table parse_table(std::string_view text, const std::string& name) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    refuse(name, "is UTF-16 text (a spreadsheet's \"Unicode text\")", "save it as CSV UTF-8");
+  const std::vector<Line> lines = lines_of(text);
+  const std::vector<std::string_view> sample = sample_of(lines);
+  if (sample.empty()) refuse(name, "holds no data", "give a table with at least one row");
+  Table table;
+  table.file = name;
+  table.delimiter = find_delimiter(sample);
+  table.decimal_comma = has_decimal_comma(sample, table.delimiter);
+  const std::size_t width = commonest_width(sample, table.delimiter);
+
+  std::vector<Row> header;
+  Row last_comment;
+  std::size_t first = 0;
+  for (; first < lines.size(); ++first) {
+    const std::string_view line = trimmed(lines[first].text);
+    if (is_comment(line)) {
+      last_comment =
+          split_cells(line.substr(std::min(line.find_first_not_of("#%/"), line.size())), table.delimiter);
+      continue;
+    }
+    Row cells = split_cells(lines[first].text, table.delimiter);
+    if (is_data(cells, width, table.decimal_comma)) break;
+    header.push_back(std::move(cells));
+  }
+  if (first == lines.size()) refuse(name, "holds no row of numbers", "export the table as text with numbers");
+  if (header.empty() && last_comment.size() == width) header.push_back(last_comment);
+  table.header_lines = lines[first].number - 1;
+  table.columns = columns_of(header, width);
+  for (std::size_t i = first; i < lines.size(); ++i)
+    if (!is_comment(trimmed(lines[i].text)))
+      append_row(table, split_cells(lines[i].text, table.delimiter), lines[i].number);
+  drop_shadow_columns(table);
+  return table;
+}
+
+Table read_table(const std::filesystem::path& file) {
+  std::ifstream input(file, std::ios::binary);
+  std::stringstream text;
+  if (!std::filesystem::is_directory(file)) text << input.rdbuf();
+  if (!input || std::filesystem::is_directory(file))
+    throw FileError(file.string() + ": cannot be read; check the path and its permissions");
+  return parse_table(text.str(), file.string());
+}
+
+const TableColumn* find_column(const Table& table, std::string_view name) {
+  for (const TableColumn& column : table.columns)
+    if (column.name == name || (!column.unit.empty() && (column.name + " [" + column.unit + "]" == name ||
+                                                         column.name + " (" + column.unit + ")" == name)))
+      return &column;
+  return nullptr;
+}
+
+std::vector<std::string> column_names(const Table& table) {
+  std::vector<std::string> names;
+  for (const TableColumn& column : table.columns) names.push_back(column.name);
+  return names;
+}
+
+}  // namespace shakedown

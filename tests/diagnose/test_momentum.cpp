@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "momentum.hpp"
+#include "pushed_box.hpp"
+#include "random.hpp"
+
+namespace shakedown {
+namespace {
+
+MomentumAudit audited(const Experiment& experiment, const std::vector<Setup>& setups) {
+  return audit_momentum(experiment, audit(experiment), setups);
+}
+MomentumAudit audited(const Experiment& experiment) { return audited(experiment, pushed_setups(experiment)); }
+MomentumAudit audited(const PushedBox& what, std::uint64_t seed = 1) {
+  return audited(pushed_box(what, seed));
+}
+
+std::string names(const MomentumAudit& audit) {
+  std::string text;
+  for (const FoundTerm& term : audit.terms) text += (text.empty() ? "" : " ") + term.effect;
+  return text;
+}
+
+/// One term, this one, its value within the interval widened to 4 standard errors.
+void expect_found(const MomentumAudit& audit, const std::string& effect, double value) {
+  ASSERT_EQ(names(audit), effect);
+  const FoundTerm& term = audit.terms[0];
+  EXPECT_NEAR(term.value, value, 2.1 * (term.high - term.low) / 2) << effect;
+  EXPECT_GT(audit.final_fit.p_value, 1e-3) << audit.final_fit.chi2_per_degree();
+  EXPECT_FALSE(audit.unexplained);
+}
+
+TEST(Momentum, NothingHiddenNothingFound) {
+  double sum = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const MomentumAudit audit = audited(PushedBox{}, seed);
+    EXPECT_EQ(names(audit), "") << seed;
+    EXPECT_GT(audit.as_given.p_value, 1e-4);
+    EXPECT_NEAR(audit.frequency, 1.23, 3e-4);
+    sum += audit.as_given.chi2_per_degree() / 12;
+  }
+  EXPECT_NEAR(sum, 1, 0.06);  // 12 x 280 windows: 0.025
+}
+
+TEST(Momentum, EachForceFromOutsideIsNamedAndMeasured) {
+  PushedBox what;
+  what.viscous = 0.02;
+  expect_found(audited(what), "blade_viscous_damping", 0.02);
+  what = {};
+  what.acceleration = -0.05;
+  expect_found(audited(what), "constant_acceleration", -0.05);
+  what = {};
+  what.cubic = -0.03;
+  expect_found(audited(what), "spring_cubic", -0.03);
+  what = {};
+  what.force = [](double, double v, double) { return -0.1 * v * std::abs(v); };
+  expect_found(audited(what), "blade_quadratic_drag", 0.1);
+  what = {};
+  what.extra_mass = 0.01;
+  const MomentumAudit mass = audited(what);
+  ASSERT_EQ(names(mass), "blade_mass");
+  EXPECT_NEAR(mass.terms[0].value, 0.01, 1.2 * (mass.terms[0].high - mass.terms[0].low));
+  EXPECT_EQ(mass.terms[0].look_alikes, std::vector<std::string>{"camera_com_bias"});
+}
+
+TEST(Momentum, DryFrictionIsJudgedWhereTheBoxMoves) {
+  PushedBox what;
+  what.dry_friction = 0.02;
+  const MomentumAudit audit = audited(what);
+  expect_found(audit, "clamp_dry_friction", 0.02);
+  EXPECT_TRUE(audit.only_moving);
+}
+
+TEST(Momentum, ForcingIsFoundAtItsFrequency) {
+  PushedBox what;
+  const double mass = 0.434 + 37 * 4.04e-3;
+  what.force = [=](double, double, double t) {
+    return mass * 0.01 * std::sin(2 * std::numbers::pi * 3.3 * t + 0.7);
+  };
+  const MomentumAudit audit = audited(what);
+  expect_found(audit, "oscillating_acceleration", 0.01);
+  EXPECT_NEAR(audit.terms[0].frequency, 3.3, 0.01);
+  EXPECT_NEAR(audit.terms[0].phase, 0.7, (audit.terms[0].high - audit.terms[0].low) / audit.terms[0].value);
+}
+
+TEST(Momentum, TwoForcesAtOnce) {
+  PushedBox what;
+  what.viscous = 0.03;
+  what.cubic = 0.05;
+  const MomentumAudit audit = audited(what);
+  ASSERT_EQ(audit.terms.size(), 2u) << names(audit);
+  for (const FoundTerm& term : audit.terms)
+    EXPECT_NEAR(term.value, term.effect == "spring_cubic" ? 0.05 : 0.03, 1.2 * (term.high - term.low))
+        << term.effect;
+}
+
+TEST(Momentum, CameraErrorsAreNotForces) {
+  Experiment experiment = pushed_box({}, 2);
+  for (MeasuredRun& run : experiment.runs)
+    for (std::size_t i = 0; i < run.time.size(); ++i)
+      run.x_com[i] = run.x_box[i] + 0.95 * (run.x_com[i] - run.x_box[i]);
+  expect_found(audited(experiment), "camera_com_bias", 0.05);
+  experiment = pushed_box({}, 3);
+  for (MeasuredRun& run : experiment.runs)
+    for (std::size_t i = 0; i < run.time.size(); ++i)
+      run.x_box[i] += 1e-3 * run.time[i], run.x_com[i] += 1e-3 * run.time[i];
+  expect_found(audited(experiment), "camera_drift", 1e-3);
+  experiment = pushed_box({}, 4);
+  for (MeasuredRun& run : experiment.runs)
+    for (std::size_t i = 0; i < run.time.size(); ++i)
+      run.x_com[i] = run.x_box[i] + std::cos(1.5 * run.x_box[i] / 0.59) * (run.x_com[i] - run.x_box[i]);
+  const MomentumAudit arc = audited(experiment);
+  ASSERT_EQ(names(arc), "camera_arc");
+  EXPECT_NEAR(arc.terms[0].value, 0.59, 0.05);
+}
+
+TEST(Momentum, GapsOutliersAndColouredNoiseDoNotConvict) {
+  PushedBox what;
+  what.colour = 0.5;
+  EXPECT_EQ(names(audited(what, 5)), "");
+  EXPECT_NEAR(audited(what, 5).as_given.chi2_per_degree(), 1, 0.2);
+  Experiment experiment = pushed_box({}, 6);
+  Random random(7, 0, Stream::other);
+  for (MeasuredRun& run : experiment.runs)
+    for (std::size_t i = 0; i < run.time.size(); ++i) {
+      if (random.uniform() < 0.02) run.x_box[i] = NAN;
+      if (random.uniform() < 0.02) run.x_com[i] = NAN;
+      if (random.uniform() < 0.05) run.x_box[i] += 0.03 * (random.uniform() - 0.5);
+      if (i > 1000 && i < 1020) run.x_com[i] = NAN;  // 80 ms: too long to fill
+    }
+  const MomentumAudit audit = audited(experiment);
+  EXPECT_EQ(names(audit), "");
+  EXPECT_GT(audit.as_given.p_value, 1e-4) << audit.as_given.chi2_per_degree();
+}
+
+TEST(Momentum, EmptyBoxAndMissingGrains) {
+  PushedBox what;
+  what.grains = false;
+  what.viscous = 0.02;
+  expect_found(audited(what), "blade_viscous_damping", 0.02);
+  Experiment experiment = pushed_box({}, 8);
+  std::vector<shakedown::Setup> setups = pushed_setups(experiment);
+  for (MeasuredRun& run : experiment.runs) run.x_com.clear();
+  EXPECT_FALSE(audited(experiment, setups).possible);
+}
+
+TEST(Momentum, AForceInNoListIsNotExplained) {
+  PushedBox what;
+  what.force = [](double x, double v, double) {
+    return -0.4 * v * std::exp(-std::pow((x - 0.045) / 0.012, 2));
+  };
+  EXPECT_TRUE(audited(what).unexplained);
+}
+
+TEST(Momentum, AWrongFrequencyIsARefitNotAForce) {
+  const Experiment experiment = pushed_box({}, 9);
+  std::vector<shakedown::Setup> setups = pushed_setups(experiment);
+  for (shakedown::Setup& setup : setups) setup.spring.frequency = 1.21;
+  const MomentumAudit audit = audited(experiment, setups);
+  EXPECT_EQ(names(audit), "");
+  EXPECT_LT(audit.as_given.p_value, 1e-10);
+  EXPECT_GT(audit.refitted.p_value, 1e-3);
+  EXPECT_LT(audit.frequency_low, 1.23);
+  EXPECT_GT(audit.frequency_high, 1.23);
+}
+
+TEST(Momentum, WhatTheSetupHasIsNotMissed) {
+  static const EffectRecord damping = [] {
+    EffectRecord record;
+    record.name = "damping_of_this_test";
+    record.apply = [](const EffectChoice& choice, int, Physics& physics) {
+      physics.box.viscous += choice.number("damping");
+    };
+    return record;
+  }();
+  PushedBox what;
+  what.viscous = 0.05;
+  const Experiment experiment = pushed_box(what, 10);
+  std::vector<shakedown::Setup> setups = pushed_setups(experiment);
+  for (shakedown::Setup& setup : setups) setup.effects.push_back({&damping, {{"damping", 0.05}}, {}});
+  const MomentumAudit audit = audited(experiment, setups);
+  EXPECT_EQ(names(audit), "");
+  EXPECT_GT(audit.as_given.p_value, 1e-3) << audit.as_given.chi2_per_degree();
+}
+
+}  // namespace
+}  // namespace shakedown

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "audit.hpp"
+#include "random.hpp"
+
+namespace shakedown {
+namespace {
+
+/// A swinging box with kinks where a layer lands, seen by a camera with first-order noise of correlation r.
+MeasuredRun recorded(double rate, double noise, double r, std::uint64_t seed, double bias = 0,
+                     double length = 0.04) {
+  Random random(seed, 0, Stream::camera);
+  MeasuredRun run;
+  run.name = "run";
+  run.box_length = length;
+  run.box_uncertainty = noise;
+  double error = noise * random.normal(), grain_error = 2.5 * noise * random.normal();
+  for (int i = 0; i < static_cast<int>(20 * rate); ++i) {
+    const double t = i / rate, phase = std::fmod(t * 2.1, 1.0);
+    error = r * error + std::sqrt(1 - r * r) * noise * random.normal();
+    grain_error = r * grain_error + std::sqrt(1 - r * r) * 2.5 * noise * random.normal();
+    const double x = 0.1075 * std::exp(-t / 10) * std::cos(6.6 * t) + 0.004 * std::abs(phase - 0.5);
+    const double side = std::clamp(4 * std::cos(6.6 * t), -1.0, 1.0);  // packed at one end or the other
+    run.time.push_back(t);
+    run.x_box.push_back(x + error);
+    run.x_com.push_back(x + (1 - bias) * side * (length / 2 - 0.008) + grain_error);
+  }
+  return run;
+}
+
+TEST(Audit, FindsWhiteNoise) {
+  for (const double rate : {250.0, 500.0}) {
+    const RunAudit audit = audit_run(recorded(rate, 2e-4, 0, 1));
+    EXPECT_NEAR(audit.box.standard_deviation, 2e-4, 0.08 * 2e-4) << rate;
+    EXPECT_EQ(audit.box.correlation[0], 0);
+    EXPECT_EQ(audit.box.outliers, 0);
+    EXPECT_NEAR(audit.frame_interval, 1 / rate, 1e-12);
+  }
+}
+
+TEST(Audit, FindsTheColour) {
+  for (const double r : {-0.3, 0.2, 0.5}) {
+    const RunAudit audit = audit_run(recorded(500, 2e-4, r, 2));
+    EXPECT_NEAR(audit.box.correlation[0], r, 0.03);
+    EXPECT_NEAR(audit.box.standard_deviation, 2e-4, 0.1 * 2e-4);
+  }
+}
+
+TEST(Audit, TakesOutOutliersOnly) {
+  MeasuredRun run = recorded(500, 2e-4, 0, 3);
+  Random random(4, 0, Stream::other);
+  int wrong = 0;
+  for (double& x : run.x_box)
+    if (random.uniform() < 0.02)
+      x += (random.uniform() < 0.5 ? -1 : 1) * (0.003 + 0.02 * random.uniform()), ++wrong;
+  const RunAudit audit = audit_run(run);
+  EXPECT_NEAR(audit.box.outliers, wrong, 0.05 * wrong);
+  EXPECT_NEAR(audit.box.standard_deviation, 2e-4, 0.1 * 2e-4);
+}
+
+TEST(Audit, CountsGaps) {
+  MeasuredRun run = recorded(500, 2e-4, 0, 5);
+  for (std::size_t i = 1000; i < 1010; ++i) run.x_box[i] = NAN;
+  for (auto* series : {&run.time, &run.x_box, &run.x_com})
+    series->erase(series->begin() + 2000, series->begin() + 2005);
+  const RunAudit audit = audit_run(run);
+  EXPECT_EQ(audit.box.missing, 15);
+  EXPECT_NEAR(audit.box.longest_gap, 0.02, 1e-9);
+  EXPECT_EQ(audit.com.missing, 5);
+}
+
+TEST(Audit, ReleaseOfTheBox) {
+  const RunAudit audit = audit_run(recorded(500, 2e-4, 0, 6));
+  EXPECT_NEAR(audit.release.displacement, 0.1095, 5 * audit.release.displacement_error);
+}
+
+TEST(Audit, PixelSteps) {
+  MeasuredRun run = recorded(500, 1e-5, 0, 7);
+  for (double& x : run.x_box) x = std::round(x / 1e-3) * 1e-3;
+  const RunAudit audit = audit_run(run);
+  EXPECT_NEAR(audit.box.quantum, 1e-3, 1e-6);
+  EXPECT_EQ(audit_run(recorded(500, 2e-4, 0, 8)).box.quantum, 0);
+}
+
+TEST(Audit, PlateauSlopeTellsABias) {
+  for (const double bias : {0.0, 0.08}) {
+    Experiment experiment;
+    std::uint64_t seed = 10;
+    for (const double length : {0.04, 0.065, 0.085, 0.104})
+      experiment.runs.push_back(recorded(500, 2e-4, 0, seed++, bias, length));
+    const Audit result = audit(experiment);
+    EXPECT_NEAR(result.plateau.slope, (1 - bias) / 2, 4 * result.plateau.error);
+    EXPECT_LT(result.plateau.error, 0.01);
+  }
+}
+
+TEST(Audit, WarnsWhenTheDeclaredNoiseIsWrong) {
+  Experiment experiment;
+  experiment.runs.push_back(recorded(500, 2e-4, 0, 9));
+  const std::vector<std::string> none = audit(experiment).warnings;
+  EXPECT_TRUE(none.empty()) << none.front();
+  experiment.runs[0].box_uncertainty = 5e-5;
+  ASSERT_EQ(audit(experiment).warnings.size(), 1u);
+  EXPECT_NE(audit(experiment).warnings[0].find("0.05 mm"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace shakedown

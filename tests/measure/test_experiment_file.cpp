@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "effects.hpp"
+#include "experiment_file.hpp"
+#include "measured_file.hpp"
+
+namespace shakedown {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ExperimentFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() /
+              ("shakedown_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "_" +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  Experiment parse(const std::string& text) { return parse_experiment(text, "experiment.toml", folder_); }
+  std::string message_of(const std::string& text) {
+    try {
+      parse(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+  const std::string columns_ =
+      "[column.time]\nfrom = \"t_s\"\nunit = \"s\"\n[column.box_position]\nfrom = \"x\"\nunit = "
+      "\"mm\"\nuncertainty = \"0.2 mm\"\n";
+  const std::string centre_ =
+      "[column.grain_centre]\nfrom = \"c\"\nunit = \"mm\"\nuncertainty = \"0.5 mm\"\n";
+  const std::string good_ =
+      "t_s,x,c\n0,107,118\n0.002,106,117\n0.004,,116\n0.008,104,115\n0.01,103,\n0.012,102,113\n";
+};
+
+TEST_F(ExperimentFile, SeveralRunsWithTheirOwnKeys) {
+  write("a.csv", good_);
+  write("b.csv", "t_s,x\n0,107\n0.004,106\n0.008,105\n0.012,104\n0.016,103\n");
+  const Experiment experiment =
+      parse("title = \"two runs\"\n" + columns_ + centre_ +
+            "[[run]]\nfile = \"a.csv\"\nbox_length = \"40 mm\"\ninitial_grains = \"init.csv\"\n"
+            "[[run]]\nfile = \"b.csv\"\nbox_length = \"65 mm\"\ngrains.count = 0\nrelease.displacement = "
+            "\"90 mm\"\n");
+  ASSERT_EQ(experiment.runs.size(), 2u);
+  EXPECT_EQ(experiment.title, "two runs");
+  const MeasuredRun &a = experiment.runs[0], &b = experiment.runs[1];
+  EXPECT_EQ(a.name, "a");
+  EXPECT_DOUBLE_EQ(a.box_length, 0.04);
+  EXPECT_DOUBLE_EQ(a.x_box[0], 0.107);
+  EXPECT_TRUE(std::isnan(a.x_box[2]) && std::isnan(a.x_com[4]));
+  EXPECT_EQ(a.time.size(), 6u);  // the frame lost at 0.006 s stays lost
+  EXPECT_DOUBLE_EQ(a.box_uncertainty, 2e-4);
+  EXPECT_DOUBLE_EQ(a.com_uncertainty, 5e-4);
+  EXPECT_FALSE(b.has_com());
+  EXPECT_NEAR(b.frame_rate, 250, 1e-9);
+  const shakedown::Setup setup = setup_of_run(shakedown::Setup{}, b, all_effects());
+  EXPECT_DOUBLE_EQ(setup.box.length, 0.065);
+  EXPECT_EQ(setup.grains.count, 0);
+  EXPECT_DOUBLE_EQ(setup.release.displacement, 0.09);
+  EXPECT_EQ(a.overrides[1].key, "release.initial_grains");
+}
+
+TEST_F(ExperimentFile, EveryDefectOfATableIsNamedWithItsLine) {
+  const std::string run = columns_ + "[[run]]\nfile = \"a.csv\"\nbox_length = \"40 mm\"\n";
+  write("a.csv", "t_s,x\n0,107\n0.004,106\n0.002,105\n0.002,105\n0.006,1O4\n,103\n0.010,102\n");
+  const std::string message = message_of(run);
+  for (const char* part : {"a.csv:4", "runs backwards", "a.csv:5", "stands twice", "a.csv:6",
+                           "'1O4' is not a number", "a.csv:7", "the time is missing"})
+    EXPECT_NE(message.find(part), std::string::npos) << part << "\n" << message;
+}
+
+TEST_F(ExperimentFile, MissingColumnsFilesAndUnits) {
+  write("a.csv", "t_s,x_box,c\n0,107,1\n0.002,106,1\n0.004,105,1\n0.006,105,1\n0.008,105,1\n");
+  const std::string run = "[[run]]\nfile = \"a.csv\"\nbox_length = \"40 mm\"\n";
+  EXPECT_NE(message_of(columns_ + run).find("there is no column 'x'"), std::string::npos);
+  const std::string typo =
+      "[column.time]\nfrom = \"t_s\"\nunit = \"s\"\n[column.box_position]\nfrom = \"x_bax\"\nunit = \"mm\"\n";
+  EXPECT_NE(message_of(typo + run).find("did you mean 'x_box'?"), std::string::npos);
+  const std::string pixels =
+      "[column.time]\nfrom = \"t_s\"\nunit = \"frame\"\n[column.box_position]\nfrom = \"x_box\"\nunit = "
+      "\"px\"\n";
+  EXPECT_NE(message_of(pixels + run).find("camera.pixel_size"), std::string::npos);
+  EXPECT_NE(message_of(pixels + run).find("camera.frame_rate"), std::string::npos);
+  EXPECT_NE(message_of("[column.box_position]\nfrom = \"x_box\"\nunit = \"mm\"\n" + run).find("no clock"),
+            std::string::npos);
+  EXPECT_THROW(parse(columns_ + "[[run]]\nfile = \"none.csv\"\n"), FileError);
+}
+
+TEST_F(ExperimentFile, UnknownKeysAreSuggested) {
+  write("a.csv", good_);
+  const std::string message = message_of("titel = \"x\"\n[camera]\nframerate = \"500 Hz\"\n" + columns_ +
+                                         "[[run]]\nfile = \"a.csv\"\nbox_lenght = \"40 mm\"\n");
+  for (const char* part : {"titel", "'title'", "'frame_rate'", "'box_length'"})
+    EXPECT_NE(message.find(part), std::string::npos) << part << "\n" << message;
+  EXPECT_NE(message_of(columns_).find("run: is missing"), std::string::npos);
+  const Experiment experiment =
+      parse(columns_ + "[[run]]\nfile = \"a.csv\"\nbox_length = \"40 mm\"\ngrains.cuont = 5\n");
+  try {
+    setup_of_run(shakedown::Setup{}, experiment.runs[0], all_effects());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("experiment.toml:11"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(ExperimentFile, TracksOfLongTables) {
+  fs::copy_file(std::string(TEST_DATA) + "/tables/trackmate_spots.csv", folder_ / "spots.csv");
+  const Experiment experiment = parse(
+      "[column.time]\nfrom = \"POSITION_T\"\n[column.box_position]\nfrom = \"POSITION_X\"\ntrack = \"0\"\n"
+      "[column.grain_centre]\nfrom = \"POSITION_X\"\ntrack = [1, 2]\n[[run]]\nfile = \"spots.csv\"\n");
+  const MeasuredRun& run = experiment.runs[0];
+  ASSERT_EQ(run.time.size(), 6u);
+  EXPECT_NEAR(run.x_box[0], 0.1075, 1e-12);
+  EXPECT_NEAR(run.x_com[0], 0.1195, 1e-12);
+  EXPECT_TRUE(std::isnan(run.x_com[4]));  // one of its two tracks is lost there
+  EXPECT_TRUE(std::isnan(run.box_length));
+}
+
+TEST_F(ExperimentFile, PixelsFramesOriginAndDirection) {
+  fs::copy_file(std::string(TEST_DATA) + "/tables/trackpy.csv", folder_ / "trackpy.csv");
+  const Experiment experiment = parse(
+      "[camera]\nframe_rate = \"50 Hz\"\npixel_size = \"0.2 mm\"\n[column.time]\nfrom = \"frame\"\nunit = "
+      "\"frame\"\n"
+      "[column.box_position]\nfrom = \"x\"\nunit = \"px\"\ntrack = \"0\"\norigin = \"900 px\"\nreversed = "
+      "true\nuncertainty = \"0.5 px\"\n"
+      "[[run]]\nfile = \"trackpy.csv\"\nrelease_time = \"20 ms\"\n");
+  const MeasuredRun& run = experiment.runs[0];
+  EXPECT_NEAR(run.x_box[0], -0.1075, 1e-12);
+  EXPECT_NEAR(run.time[0], -0.02, 1e-12);
+  EXPECT_NEAR(run.box_uncertainty, 1e-4, 1e-15);
+}
+
+TEST_F(ExperimentFile, WrittenSeriesAreReadBack) {
+  write("a.csv", good_);
+  Experiment experiment =
+      parse(columns_ + centre_ +
+            "[[run]]\nfile = \"a.csv\"\nbox_length = \"40 mm\"\nrelease.displacement = \"90 mm\"\n");
+  write_measured_run(folder_ / "again.csv", experiment.runs[0]);
+  experiment.runs[0].name = "again";
+  write_experiment(folder_ / "again.toml", experiment);
+  const Experiment again = read_experiment(folder_ / "again.toml");
+  EXPECT_EQ(again.runs[0].time.size(), experiment.runs[0].time.size());
+  EXPECT_EQ(again.runs[0].x_box[1], experiment.runs[0].x_box[1]);
+  EXPECT_TRUE(std::isnan(again.runs[0].x_com[4]));
+  EXPECT_EQ(again.runs[0].overrides.size(), 2u);
+  EXPECT_EQ(again.runs[0].box_uncertainty, 2e-4);
+}
+
+}  // namespace
+}  // namespace shakedown
