@@ -60,7 +60,7 @@ class BulletRun {
   BulletRun(const Setup& setup, const RunOptions& options, const Physics& physics)
       : setup_(setup), options_(options), physics_(physics), held_(setup.domain != Domain::damper),
         untouched_(setup.bullet.defaults), fields_(has_fields(physics.grains)),
-        model_{physics.contact, held_ ? 0.0 : physics.box_mass, setup.box.length, setup.box.width},
+        model_{physics.contact, setup.soft.contact_time, held_ ? 0.0 : physics.box_mass, setup.box.length, setup.box.width},
         bodies_(bodies_of(initial_state(setup, options.run), model_.box_mass)), box_(physics),
         world_(setup, physics, model_.box_mass, bodies_),
         record_(setup, "bullet", model_.box_mass, [this](double x) { return box_.spring_energy(x); }) {

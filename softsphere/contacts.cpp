@@ -71,7 +71,7 @@ void begin_touch(const ContactModel& model, double rate, double step, Contact& c
   contact.touching = true;
   contact.closing_speed = std::max(rate, 0.0);
   contact.spring = spring_dashpot(restitution_of(model.law, contact.kind, contact.closing_speed), contact.reduced_mass,
-                                  model.law.contact_time);
+                                  model.contact_time);
   contact.dashpot = 2 * part_of_step_inside(contact.overlap, rate, step);
   contact.stretch.setZero();
   ++accounts.collisions[static_cast<std::size_t>(contact.kind)];

@@ -33,6 +33,7 @@ struct Contact {
 /// What contacts of one run share.
 struct ContactModel {
   ContactLaw law;
+  double contact_time = 0;  ///< s
   double box_mass = 0;      ///< kg; 0: held still
   double length = 0;        ///< m, inner size of the box
   std::array<double, 2> width{};

@@ -10,7 +10,7 @@ namespace shakedown {
 namespace {
 double tangential_damping(const ContactModel& model, const Contact& contact) {
   const double restitution = std::clamp(model.law.tangential_restitution, 1e-4, 1.0);
-  return -2 * (2.0 / 7) * contact.reduced_mass * std::log(restitution) / model.law.contact_time;
+  return -2 * (2.0 / 7) * contact.reduced_mass * std::log(restitution) / model.contact_time;
 }
 }  // namespace
 

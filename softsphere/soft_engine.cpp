@@ -56,7 +56,7 @@ class SoftRun {
  public:
   SoftRun(const Setup& setup, const RunOptions& options, PairSearch search)
       : setup_(setup), options_(options), physics_(physics_of(setup)), held_(setup.domain != Domain::damper),
-        model_{physics_.contact, held_ ? 0.0 : physics_.box_mass, setup.box.length, setup.box.width},
+        model_{physics_.contact, setup.soft.contact_time, held_ ? 0.0 : physics_.box_mass, setup.box.length, setup.box.width},
         bodies_(bodies_of(initial_state(setup, options.run), model_.box_mass)), box_(physics_),
         neighbours_(bodies_, model_.law.has_attraction() ? model_.law.attraction_range : 0.0,
                     search == PairSearch::every_step ? 0.0 : skin_in_diameters * setup.grains.diameter),

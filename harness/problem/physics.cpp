@@ -17,7 +17,6 @@ Physics physics_of(const Setup& setup) {
   physics.soft_contact_time = setup.soft.contact_time;
   const double wall = setup.restitution.grain_wall;
   physics.contact.restitution = {setup.restitution.grain_grain, wall, wall};
-  physics.contact.contact_time = setup.soft.contact_time;
   for (const bool last : {false, true})
     for (std::size_t i = 0; i < setup.effects.size(); ++i)
       if (setup.effects[i].record->applied_last == last)

@@ -23,8 +23,6 @@ struct ContactLaw {
   /// Soft engine's own normal force (push), N, repulsive positive, from overlap > 0 (m), its rate (m/s) and the closing speed at
   /// first touch; empty: linear spring-dashpot that gives the restitution above at that speed.
   std::function<double(ContactClass, double overlap, double overlap_rate, double closing_speed, double reduced_mass)> push;
-  /// How long a soft contact should last, s: sets the stiffness of the soft engine's contacts and of a `push`.
-  double contact_time = 3e-4;
   /// Elastic energy stored by `push` at this overlap, J.
   std::function<double(ContactClass, double overlap, double closing_speed, double reduced_mass)> stored_energy;
 
