@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "force_formula.hpp"
 #include "momentum_fit.hpp"
 #include "momentum_selection.hpp"
 #include "robust_statistics.hpp"
@@ -12,6 +13,8 @@
 namespace shakedown {
 
 namespace {
+
+constexpr double price_of_the_unlisted = 10;
 
 /// The noise is estimated from the frames: its variance has an error of about 2 %, which widens chi2 like so
 /// many degrees fewer.
@@ -72,7 +75,7 @@ std::vector<std::string> look_alikes(const SelectionProblem& p, const Selection&
   const Eigen::MatrixXd columns = columns_of(p, others);
   const Regression without = regress(p.problem.impulse(), columns);
   const Eigen::MatrixXd basis = orthonormal_basis(columns);
-  for (std::size_t term = 1; term < p.terms.size(); ++term) {
+  for (std::size_t term = 1; term < momentum_terms().size(); ++term) {
     if (std::any_of(selection.chosen.begin(), selection.chosen.end(),
                     [&](const ChosenTerm& c) { return c.term == static_cast<int>(term); }))
       continue;
@@ -115,7 +118,7 @@ FoundTerm term_found(const SelectionProblem& p, const Selection& selection, std:
 
 std::vector<SingleTerm> ranking_of(const SelectionProblem& p, const Selection& refitted) {
   std::vector<SingleTerm> ranking;
-  for (std::size_t term = 1; term < p.terms.size(); ++term) {
+  for (std::size_t term = 1; term < momentum_terms().size(); ++term) {
     const Gain gain = gain_of_term(p, refitted, static_cast<int>(term));
     ranking.push_back({p.terms[term].name, gain.gain, gain.strength, gain.error});
   }
@@ -160,7 +163,8 @@ void settle_mass_or_bias(SelectionProblem& p, const PlateauSlope& plateau, Selec
 
 bool has_dry_friction(const Selection& selection) {
   return std::any_of(selection.chosen.begin(), selection.chosen.end(), [](const ChosenTerm& c) {
-    return c.term >= 0 && momentum_terms()[static_cast<std::size_t>(c.term)].effect == "clamp_dry_friction";
+    return c.term >= 0 && c.term < static_cast<int>(momentum_terms().size()) &&
+           momentum_terms()[static_cast<std::size_t>(c.term)].effect == "clamp_dry_friction";
   });
 }
 
@@ -173,11 +177,12 @@ void describe(const SelectionProblem& p, const Selection& selection, double freq
   Eigen::Index column = 1;
   for (std::size_t which = 1; which < selection.chosen.size(); ++which) {
     const bool sine = selection.chosen[which].term < 0;
+    const bool formula = selection.chosen[which].term >= static_cast<int>(momentum_terms().size());
     if (sine)
       audit.terms.push_back(sine_found(selection.chosen[which].frequency, selection.fit.strength[column],
                                        selection.fit.strength[column + 1],
                                        selection.fit.error.segment(column, 2).maxCoeff()));
-    else
+    else if (!formula)
       audit.terms.push_back(term_found(p, selection, which, column));
     column += sine ? 2 : 1;
   }
@@ -230,10 +235,29 @@ MomentumAudit audit_momentum(const std::vector<MomentumRun>& runs, const Plateau
     selection.chosen.push_back({-1, sine->frequency});
     selection = fit_terms(p, selection.chosen);
   }
+  if (selection.chosen.size() > 1 || balance_of(selection.fit).p_value < options.accept_p) {
+    // Known terms have the advantage: a formula must be better by more than the price of its parameters.
+    FormulaFit formulas = fit_formulas(p, options);
+    audit.unlisted =
+        !formulas.formulas.empty() && formulas.cost < cost_of(p, selection) - price_of_the_unlisted;
+    if (audit.unlisted) {
+      audit.formulas = std::move(formulas.formulas);
+      p = std::move(formulas.problem);
+      selection = std::move(formulas.selection);
+    }
+    if (audit.unlisted || balance_of(selection.fit).p_value < options.accept_p)
+      audit.curves = std::move(formulas.curves);
+  }
   describe(p, selection, frequency, audit);
-  if (sine)
+  if (sine && !audit.unlisted)
     audit.terms.back() =
         sine_found(sine->frequency, sine->sine, sine->cosine, sine->error);  // better seen there
+  if (!audit.unlisted && !audit.terms.empty()) {
+    const auto alike = formulas_like_known_terms(p, selection);
+    for (std::size_t i = 0; i < audit.terms.size(); ++i)
+      audit.terms[i].look_alikes.insert(audit.terms[i].look_alikes.end(), alike[i + 1].begin(),
+                                        alike[i + 1].end());
+  }
   audit.unexplained = audit.final_fit.p_value < options.accept_p;
   return audit;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiment.hpp"
+#include "force_shapes.hpp"
 #include "momentum_run.hpp"
 #include "momentum_terms.hpp"
 
@@ -36,6 +37,27 @@ struct SingleTerm {
   double gain = 0, value = 0, error = 0;
 };
 
+struct FormulaConstant {
+  std::string name, unit;
+  double value = 0, low = 0, high = 0;  ///< SI, 95 % interval
+};
+
+/// A force ready for user_force on the box.
+struct ForceFormula {
+  std::string formula, sentence;
+  std::vector<FormulaConstant> constants;  ///< the strength first
+  double gain = 0;                         ///< what chi2 loses without it
+  std::vector<std::string> look_alikes;    ///< formulas that fit as well, within the noise
+};
+
+/// The force that the known terms leave, as a curve s g(argument) (see ShapeOf) with standard errors.
+struct ForceCurve {
+  ShapeOf of = ShapeOf::position;
+  std::vector<double> argument, value, error;
+  double gain = 0;        ///< fall of chi2
+  double parameters = 0;  ///< effective number
+};
+
 struct RunBalance {
   std::string run;
   BalanceFit as_given, final_fit;
@@ -53,8 +75,13 @@ struct MomentumAudit {
   std::vector<FoundTerm> terms;                                 ///< in the order added
   std::vector<SingleTerm> ranking;  ///< each alone beside the free frequency, best first
   std::vector<RunBalance> runs;
-  bool unexplained = false;  ///< no set of known terms brings the balance into order
-  bool only_moving = false;  ///< windows at rest left out, because a dry friction sticks there
+  /// A force in no list closes the balance much better than any set of known terms: `formulas` say which,
+  /// `terms` what else.
+  bool unlisted = false;
+  std::vector<ForceFormula> formulas;
+  std::vector<ForceCurve> curves;  ///< where something is unlisted or unexplained, best first
+  bool unexplained = false;        ///< no set of known terms brings the balance into order
+  bool only_moving = false;        ///< windows at rest left out, because a dry friction sticks there
   std::vector<std::string> notes;
 };
 

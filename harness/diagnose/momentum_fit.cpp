@@ -42,6 +42,8 @@ Eigen::MatrixXd BandFactor::whiten(const Eigen::MatrixXd& values) const {
   return out;
 }
 
+double BandFactor::log_determinant() const { return 2 * rows_.row(band_).array().log().sum(); }
+
 Eigen::VectorXd BandFactor::deviations() const { return rows_.colwise().norm().transpose(); }
 
 MomentumProblem::MomentumProblem(const std::vector<MomentumRun>& runs, double window, double hop) {
@@ -73,7 +75,17 @@ void MomentumProblem::set_covariance(const std::vector<ForceSamples>& fitted) {
     if (covariance.rows() > 0) covariance.diagonal() *= 1 + 1e-9;
     factor_.emplace_back(covariance);
   }
+  if (fitted.empty()) {
+    log_determinant_at_start_ = 0;
+    log_determinant_at_start_ = noise_penalty();
+  }
   restack();
+}
+
+double MomentumProblem::noise_penalty() const {
+  double sum = -log_determinant_at_start_;
+  for (const BandFactor& factor : factor_) sum += factor.log_determinant();
+  return sum;
 }
 
 void MomentumProblem::restack() {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "force_shapes.hpp"
 #include "weak_form.hpp"
 
 namespace shakedown {
@@ -13,8 +14,9 @@ namespace shakedown {
 struct PreparedTerm {
   std::string name;
   bool never_negative = false;
-  double price = 0;  ///< added to the gain that it must reach: look-elsewhere, shape parameters
   std::vector<ForceSamples> samples;  ///< of each run
+  const ForceShape* shape = nullptr;  ///< of a formula that no effect describes; nullptr: a known term
+  ShapeValues shape_values{};
 };
 
 /// Lower Cholesky factor of a covariance in which only neighbouring windows are dependent: n b^2 instead of
@@ -24,6 +26,7 @@ class BandFactor {
   /// `covariance` with everything further than `band` off the diagonal equal to zero.
   explicit BandFactor(const Eigen::MatrixXd& covariance);
   Eigen::MatrixXd whiten(const Eigen::MatrixXd& values) const;  ///< L^-1 values
+  double log_determinant() const;                               ///< of the covariance
   Eigen::VectorXd deviations() const;                           ///< square roots of the covariance's diagonal
 
  private:
@@ -51,6 +54,9 @@ class MomentumProblem {
   /// covariance.
   void set_covariance(const std::vector<ForceSamples>& fitted);
 
+  /// -2 ln likelihood is chi2 plus this: to compare fits whose noise differs. Relative to the covariance
+  /// without fitted forces.
+  double noise_penalty() const;
   const Eigen::VectorXd& impulse() const { return impulse_; }  ///< whitened
   Eigen::VectorXd column(const PreparedTerm& term) const;      ///< whitened
   Eigen::MatrixXd harmonic(
@@ -67,6 +73,7 @@ class MomentumProblem {
   std::vector<std::size_t> source_;  ///< index of the run among those given
   std::vector<BandFactor> factor_;   ///< of each run's covariance
   std::vector<Eigen::Index> begin_;
+  double log_determinant_at_start_ = 0;
   Eigen::VectorXd impulse_;
 
   void restack();

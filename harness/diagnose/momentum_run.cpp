@@ -60,6 +60,7 @@ void smooth(MomentumRun& run) {
   const int half = smoothing_half_width(run.interval);
   const LocalCubic weights = local_cubic(half);
   const Eigen::Index n = run.x_box.size();
+  run.v_noise = run.box_noise.standard_deviation * weights.slope.norm() / run.interval;
   run.x_smooth = run.v_smooth = Eigen::ArrayXd::Zero(n);
   // Beyond the ends the series is continued by its point reflection, which keeps value and slope.
   const auto at = [&](Eigen::Index i) {
@@ -72,12 +73,6 @@ void smooth(MomentumRun& run) {
       run.x_smooth[i] += weights.value[j + half] * at(i + j);
       run.v_smooth[i] += weights.slope[j + half] * at(i + j) / run.interval;
     }
-}
-
-/// sgn v averaged over each frame: the frame in which v changes sign counts in part.
-double sign_over_frame(double v, double acceleration, double interval) {
-  const double half_step = std::abs(acceleration) * interval / 2;
-  return half_step > 0 ? std::clamp(v / half_step, -1.0, 1.0) : (v > 0) - (v < 0);
 }
 
 void add_model_forces(const Physics& physics, int grains, MomentumRun& run) {
@@ -96,20 +91,31 @@ void add_model_forces(const Physics& physics, int grains, MomentumRun& run) {
       force += grains * f.newton(x, v, t);  // each grain near the box: no better known
     return force;
   };
+  const Eigen::ArrayXd sign = known_sign(run).sign;
   constexpr double dx = 1e-5, dv = 1e-4;  // below the noise of x and v, far above rounding
   for (Eigen::Index i = 0; i < n; ++i) {
     const double x = run.x_box[i], v = run.v_smooth[i], t = run.time[i];
-    const double next = run.v_smooth[std::min(i + 1, n - 1)],
-                 last = run.v_smooth[std::max<Eigen::Index>(i - 1, 0)];
-    run.model_force[i] =
-        smooth_force(x, v, t) -
-        box.dry_friction * sign_over_frame(v, (next - last) / (2 * run.interval), run.interval);
+    run.model_force[i] = smooth_force(x, v, t) - box.dry_friction * sign[i];
     run.model_force_dx[i] = (smooth_force(x + dx, v, t) - smooth_force(x - dx, v, t)) / (2 * dx);
     run.model_force_dv[i] = (smooth_force(x, v + dv, t) - smooth_force(x, v - dv, t)) / (2 * dv);
   }
 }
 
 }  // namespace
+
+KnownSign known_sign(const MomentumRun& run) {
+  const Eigen::Index n = run.time.size();
+  KnownSign known{Eigen::ArrayXd(n), Eigen::ArrayXd(n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double next = run.v_smooth[std::min(i + 1, n - 1)],
+                 last = run.v_smooth[std::max<Eigen::Index>(i - 1, 0)];
+    const double width = std::hypot(run.v_noise, (next - last) / (2 * std::sqrt(12.0))) + 1e-9;
+    const double u = run.v_smooth[i] / (std::numbers::sqrt2 * width);
+    known.sign[i] = std::erf(u);
+    known.slope[i] = std::sqrt(2 / std::numbers::pi) / width * std::exp(-u * u);
+  }
+  return known;
+}
 
 int smoothing_half_width(double interval) {
   return std::max(3, static_cast<int>(std::lround(smoothing_half_time / interval)));

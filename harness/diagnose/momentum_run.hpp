@@ -22,14 +22,14 @@ struct MomentumRun {
   double interval = 0;          ///< s, between frames
   Eigen::ArrayXd time;          ///< s
   Eigen::ArrayXd x_box, x_com;  ///< m; x_com = x_box where the box is empty
-  Eigen::ArrayXd x_smooth,
-      v_smooth;  ///< m, m/s of the box, local cubic; forces take x_box itself, whose noise has no bias
-  Eigen::ArrayXd
-      model_force;  ///< N, on box and grains from the setup's own effects; drag between box and air cancels
-  Eigen::ArrayXd model_force_dx,
-      model_force_dv;               ///< N/m, N s/m, its derivatives by the box's position and velocity
-  std::vector<char> usable;         ///< frame measured or well interpolated
-  std::vector<char> filled;         ///< frame interpolated
+  /// Of the box, local cubic, m and m/s; forces take x_box itself, whose noise has no bias.
+  Eigen::ArrayXd x_smooth, v_smooth;
+  double v_noise = 0;  ///< m/s, standard deviation of v_smooth
+  /// N, on box and grains from the setup's own effects; drag between box and air cancels.
+  Eigen::ArrayXd model_force;
+  Eigen::ArrayXd model_force_dx, model_force_dv;  ///< N/m, N s/m, by the box's position and velocity
+  std::vector<char> usable;                       ///< frame measured or well interpolated
+  std::vector<char> filled;                       ///< frame interpolated
   double com_gain = 1;              ///< true (x_com - x_box) over recorded, by the setup's camera
   NoiseFound box_noise, com_noise;  ///< of the recorded series
 };
@@ -37,6 +37,13 @@ struct MomentumRun {
 /// `setup` is this run's setup: its camera effects are taken out of the data, its forces go into model_force.
 /// Without x_com (and with grains) there is no balance: returns a run without frames.
 MomentumRun momentum_run(const RunAudit& audit, const MeasuredRun& run, const Setup& setup);
+
+/// The sign of the box's velocity, frame by frame, as far as it is known: its mean over the noise of v and
+/// over the frame's length, erf(v / (sqrt(2) width)); and the derivative by v.
+struct KnownSign {
+  Eigen::ArrayXd sign, slope;
+};
+KnownSign known_sign(const MomentumRun& run);
 
 /// Weights of a local cubic fit over 2 * half + 1 frames, for the value and for the derivative (per frame) at
 /// the centre.

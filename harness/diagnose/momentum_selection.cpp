@@ -12,6 +12,9 @@ namespace {
 
 constexpr double price_of_a_term = 6;  // beside ln n: about 4e-4 false alarms a term
 
+/// Lines beyond are formulas.
+bool is_known(int term) { return term < static_cast<int>(momentum_terms().size()); }
+
 bool is_chosen(const std::vector<ChosenTerm>& chosen, int term) {
   return std::any_of(chosen.begin(), chosen.end(), [&](const ChosenTerm& c) { return c.term == term; });
 }
@@ -39,7 +42,8 @@ void bend_terms(SelectionProblem& p, const Selection& selection) {
   for (const ChosenTerm& c : selection.chosen) {
     const double strength = selection.fit.strength[column];
     column += c.term < 0 ? 2 : 1;
-    if (c.term < 0 || momentum_terms()[static_cast<std::size_t>(c.term)].linear) continue;
+    if (c.term < 0 || !is_known(c.term) || momentum_terms()[static_cast<std::size_t>(c.term)].linear)
+      continue;
     for (std::size_t run = 0; run < p.runs->size(); ++run)
       if ((*p.runs)[run].time.size())
         p.terms[static_cast<std::size_t>(c.term)].samples[run] =
@@ -107,7 +111,7 @@ Candidate best_candidate(const SelectionProblem& p, const Selection& selection,
   if (sines_in(selection) < options.most_sines)
     best = best_sine(p, selection, basis, options.lowest_frequency,
                      std::min(options.highest_frequency, p.highest_frequency));
-  for (int term = 0; term < static_cast<int>(p.terms.size()); ++term) {
+  for (int term = 0; is_known(term); ++term) {
     if (is_chosen(selection.chosen, term)) continue;
     const PreparedTerm& prepared = p.terms[static_cast<std::size_t>(term)];
     const Gain gain =
@@ -122,7 +126,7 @@ Candidate best_candidate(const SelectionProblem& p, const Selection& selection,
 bool swap_terms(SelectionProblem& p, Selection& selection) {
   for (std::size_t out = 1; out < selection.chosen.size(); ++out) {
     if (selection.chosen[out].term < 0) continue;
-    for (int term = 1; term < static_cast<int>(p.terms.size()); ++term) {
+    for (int term = 1; is_known(term); ++term) {
       if (is_chosen(selection.chosen, term)) continue;
       std::vector<ChosenTerm> others = selection.chosen;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(out));
@@ -132,33 +136,16 @@ bool swap_terms(SelectionProblem& p, Selection& selection) {
       const Gain gain = gain_of(without.residual, orthonormal_basis(columns), p.problem.column(prepared),
                                 prepared.never_negative);
       if (gain.gain == 0 || without.chi2 - gain.gain > selection.fit.chi2 - 2) continue;
-      const double before = selection.fit.chi2;
+      const double before = selection.objective;
       std::vector<ChosenTerm> swapped = selection.chosen;
       swapped[out] = {term, 0};
       Selection trial = fit_terms(p, swapped);
-      if (trial.fit.chi2 < before - 2) {
+      if (trial.objective < before - 2) {
         selection = std::move(trial);
         return true;
       }
       selection = fit_terms(p, selection.chosen);  // the covariance must follow the fit that stays
     }
-  }
-  return false;
-}
-
-bool drop_needless(SelectionProblem& p, Selection& selection) {
-  const double price = std::log(static_cast<double>(p.problem.size())) + price_of_a_term;
-  Eigen::Index column = 1;
-  for (std::size_t out = 1; out < selection.chosen.size(); ++out) {
-    const ChosenTerm c = selection.chosen[out];
-    const double ratio = selection.fit.strength[column] / std::max(selection.fit.error[column], 1e-300);
-    column += c.term < 0 ? 2 : 1;
-    if (c.term < 0) continue;
-    const bool forbidden = p.terms[static_cast<std::size_t>(c.term)].never_negative && ratio < 0;
-    if (ratio * ratio > price && !forbidden) continue;
-    selection.chosen.erase(selection.chosen.begin() + static_cast<std::ptrdiff_t>(out));
-    selection = fit_terms(p, selection.chosen);
-    return true;
   }
   return false;
 }
@@ -171,7 +158,7 @@ SelectionProblem selection_problem(const std::vector<MomentumRun>& runs, double 
   // Above 1.2/T a window averages a sine away to less than half.
   SelectionProblem p{MomentumProblem(runs, window, window * options.hop), {}, &runs, 1.2 / window};
   for (const MomentumTerm& term : momentum_terms()) {
-    PreparedTerm prepared{term.effect, term.never_negative, 0, {}};
+    PreparedTerm prepared{term.effect, term.never_negative, {}};
     for (const MomentumRun& run : runs)
       prepared.samples.push_back(run.time.size() ? term.samples(run, 0) : ForceSamples{});
     p.terms.push_back(std::move(prepared));
@@ -196,9 +183,9 @@ Eigen::MatrixXd columns_of(const SelectionProblem& p, const std::vector<ChosenTe
 }
 
 Selection fit_terms(SelectionProblem& p, std::vector<ChosenTerm> chosen) {
-  Selection selection{std::move(chosen), {}};
+  Selection selection{std::move(chosen), {}, 0};
   const bool bent = std::any_of(selection.chosen.begin(), selection.chosen.end(), [](const ChosenTerm& c) {
-    return c.term >= 0 && !momentum_terms()[static_cast<std::size_t>(c.term)].linear;
+    return c.term >= 0 && is_known(c.term) && !momentum_terms()[static_cast<std::size_t>(c.term)].linear;
   });
   for (int iteration = 0; iteration < (bent ? 4 : 2); ++iteration) {
     selection.fit = regress(p.problem.impulse(), columns_of(p, selection.chosen));
@@ -206,7 +193,32 @@ Selection fit_terms(SelectionProblem& p, std::vector<ChosenTerm> chosen) {
     p.problem.set_covariance(fitted_forces(p, selection));
   }
   selection.fit = regress(p.problem.impulse(), columns_of(p, selection.chosen));
+  selection.objective = selection.fit.chi2 + p.problem.noise_penalty();
   return selection;
+}
+
+bool drop_needless(SelectionProblem& p, Selection& selection) {
+  const double price = std::log(static_cast<double>(p.problem.size())) + price_of_a_term;
+  Eigen::Index column = 1;
+  for (std::size_t out = 1; out < selection.chosen.size(); ++out) {
+    const ChosenTerm c = selection.chosen[out];
+    const double ratio = selection.fit.strength[column] / std::max(selection.fit.error[column], 1e-300);
+    column += c.term < 0 ? 2 : 1;
+    if (c.term < 0) continue;
+    const bool forbidden = p.terms[static_cast<std::size_t>(c.term)].never_negative && ratio < 0;
+    if (ratio * ratio > price && !forbidden) continue;
+    selection.chosen.erase(selection.chosen.begin() + static_cast<std::ptrdiff_t>(out));
+    selection = fit_terms(p, selection.chosen);
+    return true;
+  }
+  return false;
+}
+
+std::optional<KnownCandidate> best_known(const SelectionProblem& p, const Selection& selection,
+                                         const MomentumOptions& options) {
+  const Candidate best = best_candidate(p, selection, options);
+  if (best.gain == 0) return std::nullopt;
+  return KnownCandidate{best.term, best.surplus()};
 }
 
 Selection select_terms(SelectionProblem& p, const MomentumOptions& options) {

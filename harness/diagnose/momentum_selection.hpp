@@ -18,6 +18,7 @@ struct ChosenTerm {
 struct Selection {
   std::vector<ChosenTerm> chosen;  ///< the spring's frequency first
   Regression fit;                  ///< columns in the order of `chosen`, two for a harmonic
+  double objective = 0;            ///< -2 ln likelihood: chi2 and the noise that the fitted forces let in
 };
 
 /// What the selection works on; the covariance of `problem` follows the fit.
@@ -48,6 +49,17 @@ struct FastSine {
 };
 std::optional<FastSine> find_fast_sine(SelectionProblem& shorter, const std::vector<ChosenTerm>& chosen,
                                        double lowest, double highest);
+
+/// Drops the first term that is no longer worth its price; false when there is none.
+bool drop_needless(SelectionProblem& p, Selection& selection);
+
+/// The known term or sine that is most worth adding: its gain less its price.
+struct KnownCandidate {
+  ChosenTerm term;
+  double surplus = 0;
+};
+std::optional<KnownCandidate> best_known(const SelectionProblem& p, const Selection& selection,
+                                         const MomentumOptions& options);
 
 /// Fall of chi2 when a line of momentum_terms() joins (or, for one of the chosen, when it is there).
 Gain gain_of_term(const SelectionProblem& p, const Selection& selection, int term);

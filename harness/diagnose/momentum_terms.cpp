@@ -8,15 +8,16 @@ namespace shakedown {
 
 namespace {
 
+Eigen::ArrayXd constant(const MomentumRun& run, double value) {
+  return Eigen::ArrayXd::Constant(run.time.size(), value);
+}
+
 /// The spring's stiffness larger by the fraction `strength`.
 ForceSamples spring_samples(const MomentumRun& run, double) {
   ForceSamples s;
   s.force = -run.stiffness * run.x_box;
-  return s;  // its noise is the balance's own k x_box, changed by the small fraction fitted: left out
-}
-
-Eigen::ArrayXd constant(const MomentumRun& run, double value) {
-  return Eigen::ArrayXd::Constant(run.time.size(), value);
+  s.force_dx = constant(run, -run.stiffness);
+  return s;
 }
 
 ForceSamples acceleration_samples(const MomentumRun& run, double) {
@@ -39,19 +40,12 @@ ForceSamples quadratic_samples(const MomentumRun& run, double) {
   return s;
 }
 
-/// sgn v, averaged over the frame in which v changes sign; the noise of the moment of change enters through
-/// force_dv.
+/// The noise of the moment of change enters through force_dv.
 ForceSamples dry_samples(const MomentumRun& run, double) {
-  const Eigen::Index n = run.time.size();
+  const KnownSign known = known_sign(run);
   ForceSamples s;
-  s.force.resize(n);
-  s.force_dv = constant(run, 0);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double step = run.v_smooth[std::min(i + 1, n - 1)] - run.v_smooth[std::max<Eigen::Index>(i - 1, 0)];
-    const double half_step = std::max(std::abs(step) / 4, 1e-9);
-    s.force[i] = -std::clamp(run.v_smooth[i] / half_step, -1.0, 1.0);
-    if (std::abs(run.v_smooth[i]) < half_step) s.force_dv[i] = -1 / half_step;
-  }
+  s.force = -known.sign;
+  s.force_dv = -known.slope;
   return s;
 }
 

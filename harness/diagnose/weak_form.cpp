@@ -161,6 +161,22 @@ Eigen::VectorXd WeakForm::column(const ForceSamples& samples) const {
   return out;
 }
 
+Eigen::MatrixXd WeakForm::node_columns(const Eigen::ArrayXd& place, const Eigen::ArrayXd& factor,
+                                       Eigen::Index nodes, bool is_potential) const {
+  const Eigen::ArrayXd& weight = is_potential ? slope_ : phi_;
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(windows(), nodes);
+  for (Eigen::Index w = 0; w < windows(); ++w) {
+    const Eigen::Index at = first_[static_cast<std::size_t>(w)];
+    for (Eigen::Index i = 0; i < frames_; ++i) {
+      const auto node = static_cast<Eigen::Index>(place[at + i]);
+      const double share = place[at + i] - static_cast<double>(node), value = weight[i] * factor[at + i];
+      out(w, node) += (1 - share) * value;
+      out(w, node + 1) += share * value;
+    }
+  }
+  return out;
+}
+
 Eigen::MatrixXd WeakForm::harmonic(double frequency) const {
   // phi is even, so Int phi cos(w (t - centre)) is all there is: each window is a rotation of it.
   const double angular = 2 * std::numbers::pi * frequency;

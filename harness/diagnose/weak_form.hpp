@@ -42,6 +42,10 @@ class WeakForm {
   Eigen::VectorXd impulse() const;
   /// Right side for one force of unit strength.
   Eigen::VectorXd column(const ForceSamples& samples) const;
+  /// A column for each node of a grid: hats at `place` (in nodes, frame by frame), times `factor`, as force
+  /// or as potential.
+  Eigen::MatrixXd node_columns(const Eigen::ArrayXd& place, const Eigen::ArrayXd& factor, Eigen::Index nodes,
+                               bool is_potential) const;
   /// The columns of sin and cos of unit force at a frequency, Hz.
   Eigen::MatrixXd harmonic(double frequency) const;
   /// Integral of phi, s: turns an impulse into a mean force.

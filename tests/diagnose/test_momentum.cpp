@@ -93,6 +93,7 @@ TEST(Momentum, TwoForcesAtOnce) {
   what.cubic = 0.05;
   const MomentumAudit audit = audited(what);
   ASSERT_EQ(audit.terms.size(), 2u) << names(audit);
+  EXPECT_FALSE(audit.unlisted);
   for (const FoundTerm& term : audit.terms)
     EXPECT_NEAR(term.value, term.effect == "spring_cubic" ? 0.05 : 0.03, 1.2 * (term.high - term.low))
         << term.effect;
@@ -148,12 +149,47 @@ TEST(Momentum, EmptyBoxAndMissingGrains) {
   EXPECT_FALSE(audited(experiment, setups).possible);
 }
 
-TEST(Momentum, AForceInNoListIsNotExplained) {
+TEST(Momentum, AForceInNoListIsWrittenAsAFormula) {
   PushedBox what;
   what.force = [](double x, double v, double) {
     return -0.4 * v * std::exp(-std::pow((x - 0.045) / 0.012, 2));
   };
-  EXPECT_TRUE(audited(what).unexplained);
+  MomentumAudit audit = audited(what);
+  EXPECT_TRUE(audit.unlisted);
+  EXPECT_FALSE(audit.unexplained);
+  EXPECT_EQ(names(audit), "");
+  ASSERT_EQ(audit.formulas.size(), 1u);
+  EXPECT_EQ(audit.formulas[0].formula, "-c*v*exp(-((x-x0)/w)^2)");
+  const std::vector<double> truth{0.4, 0.045, 0.012};
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const FormulaConstant& constant = audit.formulas[0].constants[i];
+    EXPECT_NEAR(constant.value, truth[i], 1.1 * (constant.high - constant.low)) << constant.name;
+  }
+  EXPECT_EQ(audit.curves.front().of, ShapeOf::damping_at_x);
+
+  what.force = [](double x, double v, double) { return -20 * v * x * x; };
+  audit = audited(what, 2);
+  ASSERT_EQ(audit.formulas.size(), 1u);
+  EXPECT_EQ(audit.formulas[0].formula, "-c*v*x^2");
+  EXPECT_NEAR(audit.formulas[0].constants[0].value, 20, 0.2);
+
+  what.force = [](double x, double, double) { return x > 0.06 ? -15 * (x - 0.06) : 0; };
+  audit = audited(what, 3);
+  ASSERT_EQ(audit.formulas.size(), 1u);
+  EXPECT_EQ(audit.formulas[0].formula, "-k*max(0,x-x0)");
+  EXPECT_NEAR(audit.formulas[0].constants[1].value, 0.06, 0.003);
+}
+
+TEST(Momentum, AWeakForceInNoListSaysWhatItCannotTell) {
+  PushedBox what;
+  what.force = [](double x, double v, double) { return -0.025 * v * x * x; };  // about 6 standard errors
+  const MomentumAudit audit = audited(what, 4);
+  if (audit.unlisted) {
+    EXPECT_GE(audit.formulas[0].look_alikes.size(), 2u);
+  } else {
+    ASSERT_LE(audit.terms.size(), 1u);
+    for (const FoundTerm& term : audit.terms) EXPECT_GE(term.look_alikes.size(), 1u);
+  }
 }
 
 TEST(Momentum, AWrongFrequencyIsARefitNotAForce) {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// When no effect of the library closes the momentum balance: which formula does, and which others would do as
+// well?
+#pragma once
+#include <string>
+#include <vector>
+
+#include "force_map.hpp"
+#include "momentum_selection.hpp"
+
+namespace shakedown {
+
+/// The balance explained with formulas among its terms.
+struct FormulaFit {
+  Selection selection;  ///< lines of `problem.terms` beyond momentum_terms() are formulas
+  SelectionProblem problem;
+  std::vector<ForceFormula> formulas;  ///< in the order of the selection
+  std::vector<ForceCurve>
+      curves;       ///< what the known terms leave, as curves of position, velocity and time, best first
+  double cost = 0;  ///< chi2 plus the price of each term; smaller is better
+};
+
+/// Forward selection over known terms and formulas together. A formula costs more than a known term, and its
+/// shape parameters too.
+FormulaFit fit_formulas(SelectionProblem problem, const MomentumOptions& options);
+
+/// For each term of a selection: formulas that would do as well in its place, chi2 at most 4 higher.
+std::vector<std::vector<std::string>> formulas_like_known_terms(const SelectionProblem& problem,
+                                                                const Selection& selection);
+
+/// chi2 plus prices of a selection, to be compared with FormulaFit::cost.
+double cost_of(const SelectionProblem& problem, const Selection& selection);
+
+}  // namespace shakedown
