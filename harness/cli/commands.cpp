@@ -7,6 +7,7 @@ std::vector<Command> add_commands(CLI::App& program) {
   return {
       add_run_command(program),
       add_theory_command(program),
+      add_import_command(program),
       add_effects_command(program),
       add_schema_command(program),
   };

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// shakedown import: an experiment file for tables as a tracking program wrote them.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "import_tables.hpp"
+#include "json_output.hpp"
+#include "output_file.hpp"
+
+namespace shakedown {
+
+namespace {
+
+struct ImportArguments {
+  std::vector<std::string> files;
+  std::string out = "experiment.toml";
+  bool replace = false;
+  JsonOutput json;
+};
+
+std::string as_json(const ImportedTables& imported, const std::string& out) {
+  nlohmann::ordered_json document{{"schema_version", 1},
+                                  {"experiment", out},
+                                  {"columns", nlohmann::json::array()},
+                                  {"open_questions", imported.open_questions}};
+  for (const GuessedColumn& column : imported.columns)
+    document["columns"].push_back({{"role", column.role},
+                                   {"from", column.from},
+                                   {"unit", column.unit},
+                                   {"track", column.track},
+                                   {"reason", column.reason},
+                                   {"certain", column.certain}});
+  return document.dump(2) + "\n";
+}
+
+int import_files(const ImportArguments& arguments) {
+  const std::filesystem::path out = arguments.out;
+  if (std::filesystem::exists(out) && !arguments.replace)
+    throw InputError({{{},
+                       "--out",
+                       out.string() + " exists already (it may hold what you filled in)",
+                       "name another file, or add --replace"}});
+  arguments.json.check();
+  const ImportedTables imported =
+      import_tables({arguments.files.begin(), arguments.files.end()}, out.parent_path());
+  write_file(out, imported.experiment);
+  fmt::print(arguments.json.for_people(), "{}\nwrote {}\n", imported.preview, out.string());
+  if (!imported.open_questions.empty()) fmt::print(arguments.json.for_people(), "Please fill in:\n");
+  for (const std::string& question : imported.open_questions)
+    fmt::print(arguments.json.for_people(), "  {}\n", question);
+  arguments.json.write(as_json(imported, out.string()));
+  return exit_done;
+}
+
+}  // namespace
+
+Command add_import_command(CLI::App& program) {
+  CLI::App& command = *program.add_subcommand(
+      "import", "write an experiment file for tables as a tracking program wrote them");
+  const auto arguments = std::make_shared<ImportArguments>();
+  command
+      .add_option("files", arguments->files,
+                  "tables of one layout: CSV, tabs, Tracker, TrackMate, trackpy, ImageJ, spreadsheets")
+      ->required();
+  command.add_option("--out", arguments->out, "the experiment file to write")->capture_default_str();
+  command.add_flag("--replace", arguments->replace, "overwrite it");
+  add_json_option(command, arguments->json);
+  return {&command, [arguments] { return import_files(*arguments); }};
+}
+
+}  // namespace shakedown

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// From bare tables to an experiment file: which column is what, in which unit, as far as names and numbers
+// tell.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "table.hpp"
+
+namespace shakedown {
+
+/// What a column seems to be.
+struct GuessedColumn {
+  std::string role;     ///< "time", "box_position", "grain_centre"
+  std::string from;     ///< header; empty: nothing suitable
+  std::string unit;     ///< as it will stand in the experiment file
+  std::string track;    ///< of tables with one row a track and frame
+  std::string reason;   ///< why, in words
+  bool certain = true;  ///< false: look at it
+};
+
+struct ImportedTables {
+  std::string experiment;  ///< text of an experiment file
+  std::string preview;     ///< what was found, for people
+  std::vector<GuessedColumn> columns;
+  std::vector<std::string> open_questions;  ///< what the user must fill in before the file can be used
+};
+
+/// Guesses one layout for all tables (of one camera and one tracker). `relative_to`: folder in which the
+/// experiment file will stand. Throws InputError when a table cannot be read or lacks a column of the first
+/// one's layout, FileError.
+ImportedTables import_tables(const std::vector<std::filesystem::path>& files,
+                             const std::filesystem::path& relative_to);
+
+}  // namespace shakedown
