@@ -31,5 +31,7 @@ Command add_theory_command(CLI::App& program);
 Command add_effects_command(CLI::App& program);
 Command add_import_command(CLI::App& program);
 Command add_schema_command(CLI::App& program);
+Command add_crosscheck_command(CLI::App& program);
+Command add_check_command(CLI::App& program);
 
 }  // namespace shakedown

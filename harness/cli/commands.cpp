@@ -10,6 +10,8 @@ std::vector<Command> add_commands(CLI::App& program) {
       add_import_command(program),
       add_effects_command(program),
       add_schema_command(program),
+      add_crosscheck_command(program),
+      add_check_command(program),
   };
 }
 

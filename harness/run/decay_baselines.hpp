@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The file of stored intervals for the check on the linear decay.
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "linear_decay.hpp"
+
+namespace shakedown {
+
+/// harness/run/baselines/linear_decay.json of the source that this program was built from.
+std::filesystem::path default_decay_baselines();
+
+/// Throws FileError for a file that cannot be read, InputError for contents that are not such baselines.
+std::vector<DecayBaseline> read_decay_baselines(const std::filesystem::path& file);
+
+/// Throws FileError.
+void write_decay_baselines(const std::filesystem::path& file, const std::vector<DecayBaseline>& baselines);
+
+/// The entry of this engine and length, or nullptr.
+const DecayBaseline* find_baseline(const std::vector<DecayBaseline>& baselines, const std::string& engine,
+                                   double length);
+
+/// `fresh` in place of the entries of the same engine and length; sorted by engine, then length.
+std::vector<DecayBaseline> updated(std::vector<DecayBaseline> baselines,
+                                   const std::vector<DecayBaseline>& fresh);
+
+/// {schema_version, passed, checks: [{engine, length_mm, check, passed, value, allowed, remark}]}
+std::string decay_checks_json(const std::vector<DecayCheck>& checks);
+
+}  // namespace shakedown

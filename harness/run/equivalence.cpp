@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "equivalence.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "errors.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// P(|T| < sqrt(nu) tan(angle)): with t = sqrt(nu) tan(a) the density is c cos(a)^(nu - 1). Simpson's rule.
+double probability_within(double angle, double nu) {
+  constexpr int steps = 400;
+  const auto density = [&](double a) { return std::pow(std::cos(a), nu - 1); };
+  double sum = density(0) + density(angle);
+  for (int i = 1; i < steps; ++i) sum += (i % 2 == 1 ? 4 : 2) * density(angle * i / steps);
+  const double norm =
+      std::exp(std::lgamma((nu + 1) / 2) - std::lgamma(nu / 2)) / std::sqrt(std::numbers::pi);
+  return 2 * norm * sum * angle / (3.0 * steps);
+}
+
+/// Welch and Satterthwaite; the two numbers are the squared standard errors of the means.
+double welch_degrees_of_freedom(double first, int first_n, double second, int second_n) {
+  const double sum = first + second;
+  return sum * sum / (first * first / (first_n - 1) + second * second / (second_n - 1));
+}
+
+Verdict verdict_of(const Equivalence& found) {
+  if (found.low >= -found.margin && found.high <= found.margin) return Verdict::equivalent;
+  if (found.low > found.margin || found.high < -found.margin) return Verdict::differ;
+  return Verdict::cannot_tell;
+}
+
+}  // namespace
+
+const char* to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::equivalent: return "equivalent";
+    case Verdict::differ: return "differ";
+    case Verdict::cannot_tell: return "cannot tell";
+    case Verdict::no_number: return "no such number";
+  }
+  EXPECT(!"a verdict");
+  return "";
+}
+
+double student_95(double degrees_of_freedom) {
+  EXPECT(degrees_of_freedom >= 1);
+  // t is at most 12.71 (one degree of freedom), so the angle lies below 15 / sqrt(nu).
+  double low = 0, high = std::min(1.5, 15 / std::sqrt(degrees_of_freedom));
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (probability_within(middle, degrees_of_freedom) < 0.95 ? low : high) = middle;
+  }
+  return std::sqrt(degrees_of_freedom) * std::tan(low);
+}
+
+Equivalence equivalence_of(const Statistic& first, const Statistic& second, double margin) {
+  EXPECT(margin >= 0);
+  Equivalence found;
+  found.margin = margin;
+  if (first.n == 0 && second.n == 0) return found;
+  found.verdict = Verdict::cannot_tell;
+  found.difference = first.mean - second.mean;
+  if (first.n < 2 || second.n < 2) return found;
+  const double a = first.sd * first.sd / first.n, b = second.sd * second.sd / second.n;
+  found.standard_error = std::sqrt(a + b);
+  double half = 0;
+  if (a + b > 0)
+    half = found.standard_error *
+           student_95(std::clamp(welch_degrees_of_freedom(a, first.n, b, second.n), 1.0, 1e6));
+  found.low = found.difference - half;
+  found.high = found.difference + half;
+  found.verdict = verdict_of(found);
+  const double room = std::abs(margin - std::abs(found.difference));
+  if (found.verdict == Verdict::cannot_tell && room > 0)
+    found.runs_needed = std::ceil(std::min(first.n, second.n) * std::pow(half / room, 2));
+  return found;
+}
+
+std::string in_words(const Equivalence& found) {
+  switch (found.verdict) {
+    case Verdict::differ:
+      if (found.standard_error > 0)
+        return fmt::format("differ by {:.1f} standard errors",
+                           std::abs(found.difference) / found.standard_error);
+      return "differ (no spread over the runs)";
+    case Verdict::cannot_tell:
+      if (found.runs_needed > 0 && found.runs_needed < 1e5)
+        return fmt::format("cannot tell: more runs (about {:.0f})", found.runs_needed);
+      return "cannot tell: more runs";
+    default: return to_string(found.verdict);
+  }
+}
+
+}  // namespace shakedown
