@@ -73,8 +73,9 @@ std::vector<DecayBaseline> read_decay_baselines(const std::filesystem::path& fil
   if (!stream)
     throw FileError(file.string() + ": cannot be read; name the baselines with --baselines, or make them with --update");
   try {
+    const Json json = Json::parse(stream);
     std::vector<DecayBaseline> baselines;
-    for (const Json& entry : Json::parse(stream).at("baselines")) baselines.push_back(baseline_from(entry));
+    for (const Json& entry : json.at("baselines")) baselines.push_back(baseline_from(entry));
     return baselines;
   } catch (const Json::exception& error) {
     throw InputError({{{file.string()},

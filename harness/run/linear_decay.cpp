@@ -40,7 +40,7 @@ DecayCheck against(const DecayMeasurement& measured, const char* name, const Sta
 /// Says whether the decay is straight: a curvature that is not zero is a finding, not a failure.
 std::string curvature_finding(const Statistic& curvature) {
   const double error = curvature.sd / std::sqrt(curvature.n);
-  if (!(std::abs(curvature.mean) > 3 * error)) return ", straight within 3 standard errors";
+  if (!(std::abs(curvature.mean) > 3 * error)) return ", no curvature beyond 3 standard errors";
   return fmt::format(", {:.0f} standard errors from straight: the decay {}",
                      std::abs(curvature.mean) / error, curvature.mean > 0 ? "slows down" : "speeds up");
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "decay_baselines.hpp"
+#include "engines.hpp"
 
 using namespace shakedown;
 
@@ -52,7 +53,7 @@ TEST(LinearDecay, WithoutABaselineSlopeAndCurvatureFail) {
 TEST(LinearDecay, ACurvatureIsStated) {
   const DecayBaseline baseline = baseline_of(measurement(-0.018, 6e-4), "1", "abc");
   EXPECT_NE(checks_of(measurement(-0.018, 6e-4), &baseline)[2].remark.find("slows down"), std::string::npos);
-  EXPECT_NE(checks_of(measurement(-0.018, 1e-5), &baseline)[2].remark.find("straight within"),
+  EXPECT_NE(checks_of(measurement(-0.018, 1e-5), &baseline)[2].remark.find("no curvature"),
             std::string::npos);
 }
 
@@ -91,4 +92,17 @@ TEST(LinearDecay, BadBaselinesAreTheUsersInput) {
   EXPECT_THROW(read_decay_baselines(file), FileError);
   std::ofstream(file) << "{\"baselines\": [{}]}";
   EXPECT_THROW(read_decay_baselines(file), InputError);
+}
+
+// An ensemble of the engine itself against the intervals in the repository.
+TEST(SlowLinearDecay, TheHardEngineKeepsItsBaselines) {
+  const std::vector<DecayBaseline> baselines = read_decay_baselines(default_decay_baselines());
+  for (const double length : {0.040, 0.065, 0.085, 0.104}) {
+    EnsembleOptions options;
+    options.runs = 16;
+    const DecayMeasurement measured = measure_decay(*engine_named("hard"), length, 2, options);
+    const std::vector<DecayCheck> checks = checks_of(measured, find_baseline(baselines, "hard", length));
+    EXPECT_TRUE(checks[1].passed) << readable(checks[1]);
+    EXPECT_TRUE(checks[2].passed) << readable(checks[2]);
+  }
 }
