@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "features.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace shakedown {
+
+namespace {
+
+/// The variance of a weighted sum of frames whose noise is correlated over a few frames.
+double noise_of(const FeaturePlan::Reading& reading, const NoiseFound& noise) {
+  double variance = 0;
+  for (std::size_t i = 0; i < reading.weight.size(); ++i) {
+    variance += reading.weight[i] * reading.weight[i];
+    for (std::size_t lag = 1; lag <= colour_lags && i + lag < reading.weight.size(); ++lag)
+      variance += 2 * noise.correlation[lag - 1] * reading.weight[i] * reading.weight[i + lag];
+  }
+  return noise.standard_deviation * std::sqrt(std::max(variance, 0.0));
+}
+
+/// Weights that give the value at the middle of a parabola through the frames (least squares).
+std::vector<double> level_weights(const std::vector<double>& time, double middle) {
+  Eigen::MatrixXd basis(static_cast<Eigen::Index>(time.size()), 3);
+  const double half = std::max(1e-9, (time.back() - time.front()) / 2);
+  for (Eigen::Index i = 0; i < basis.rows(); ++i) {
+    const double u = (time[static_cast<std::size_t>(i)] - middle) / half;
+    basis.row(i) << 1, u, u * u;
+  }
+  const Eigen::Matrix3d normal = basis.transpose() * basis;
+  const Eigen::VectorXd weight = basis * normal.ldlt().solve(Eigen::Vector3d(1, 0, 0));
+  return {weight.data(), weight.data() + weight.size()};
+}
+
+/// Until when a run moves: the last frame beyond `rest` about where the box comes to rest (which a steady force may shift).
+double end_of_motion(const MeasuredRun& run, const std::vector<double>& x_box, double rest) {
+  double end = 0, sum = 0, count = 0;
+  for (std::size_t i = 0; i < run.time.size(); ++i)
+    if (run.time[i] > run.time.back() - 2 && std::isfinite(x_box[i])) sum += x_box[i], ++count;
+  const double middle = count > 0 ? sum / count : 0;
+  for (std::size_t i = 0; i < run.time.size(); ++i)
+    if (std::abs(x_box[i] - middle) > rest) end = run.time[i];
+  return std::min(end + 1.0, run.time.empty() ? 0.0 : run.time.back());
+}
+
+void add_features(Observable observable, const std::vector<double>& time, const std::vector<double>& x, const NoiseFound& noise, double end,
+                  double bin, std::size_t frames_of_a_bin, FeaturePlan& plan) {
+  std::size_t i = 0;
+  for (int k = 0; (k + 1) * bin <= end + 1e-9; ++k) {
+    const double middle = (k + 0.5) * bin;
+    FeaturePlan::Reading reading;
+    for (; i < time.size() && time[i] < (k + 1) * bin - 1e-9; ++i)
+      if (time[i] >= k * bin - 1e-9 && std::isfinite(x[i])) reading.time.push_back(time[i]);
+    const bool spans = !reading.time.empty() && reading.time.front() < middle - bin / 5 && reading.time.back() > middle + bin / 5;
+    if (reading.time.size() < std::max<std::size_t>(4, frames_of_a_bin / 2) || !spans) continue;
+    reading.weight = level_weights(reading.time, middle);
+    plan.features.push_back({observable, middle, noise_of(reading, noise)});
+    plan.readings.push_back(std::move(reading));
+  }
+}
+
+}  // namespace
+
+FeaturePlan plan_features(const MeasuredRun& run, const RunAudit& audit, double rest, double bin) {
+  FeaturePlan plan;
+  plan.end = end_of_motion(run, audit.x_box, rest);
+  const double interval = audit.frame_interval > 0 ? audit.frame_interval : 1 / run.frame_rate;
+  // Slow cameras get wider bins, so that a bin has frames enough for a parabola.
+  const double width = std::max(bin, 8 * interval);
+  const auto frames = static_cast<std::size_t>(width / interval);
+  add_features(Observable::box, run.time, audit.x_box, audit.box, plan.end, width, frames, plan);
+  if (run.has_com()) add_features(Observable::centre, run.time, audit.x_com, audit.com, plan.end, width, frames, plan);
+  return plan;
+}
+
+Eigen::VectorXd measured_features(const FeaturePlan& plan, const RunAudit& audit, const MeasuredRun& run) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(plan.features.size()));
+  for (std::size_t f = 0; f < plan.features.size(); ++f) {
+    const std::vector<double>& x = plan.features[f].observable == Observable::box ? audit.x_box : audit.x_com;
+    const FeaturePlan::Reading& reading = plan.readings[f];
+    std::size_t frame = static_cast<std::size_t>(std::lower_bound(run.time.begin(), run.time.end(), reading.time.front()) - run.time.begin());
+    double sum = 0;
+    for (std::size_t i = 0; i < reading.time.size(); ++i) {
+      while (run.time[frame] < reading.time[i]) ++frame;
+      sum += reading.weight[i] * x[frame];
+    }
+    values[static_cast<Eigen::Index>(f)] = sum;
+  }
+  return values;
+}
+
+Eigen::VectorXd simulated_features(const FeaturePlan& plan, const Recording& recording) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(plan.features.size()));
+  const double start = recording.time.front();
+  const double rate = static_cast<double>(recording.time.size() - 1) / (recording.time.back() - start);
+  for (std::size_t f = 0; f < plan.features.size(); ++f) {
+    const std::vector<double>& x = plan.features[f].observable == Observable::box ? recording.x_box : recording.x_com;
+    const FeaturePlan::Reading& reading = plan.readings[f];
+    double sum = 0;
+    for (std::size_t i = 0; i < reading.time.size(); ++i) {
+      const double place = std::clamp((reading.time[i] - start) * rate, 0.0, static_cast<double>(x.size() - 1));
+      const auto k = std::min(static_cast<std::size_t>(place), x.size() - 2);
+      const double part = place - static_cast<double>(k);
+      sum += reading.weight[i] * (part == 0 ? x[k] : x[k] + part * (x[k + 1] - x[k]));
+    }
+    values[static_cast<Eigen::Index>(f)] = sum;
+  }
+  return values;
+}
+
+}  // namespace shakedown

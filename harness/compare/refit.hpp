@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Parameters of a model from an experiment, through emulators: generalised least squares with the covariance of the chaos, the camera's
+// noise and the emulator's own error. Whether what remains is within the model's spread is told by pseudo-experiments drawn from
+// simulations that the covariance has not seen.
+#pragma once
+#include <vector>
+
+#include "emulator.hpp"
+
+namespace shakedown {
+
+struct FittedValue {
+  std::string key;
+  double value = 0, low = 0, high = 0;  ///< 95 % interval
+  double error = 0;                     ///< standard error
+  bool at_bound = false;
+};
+
+/// How one measured run compares with the model at the fit.
+struct RunComparison {
+  std::string run;
+  double error_box = 0, error_centre = 0;  ///< m, rms of measured less mean of the model
+  double floor_box = 0, floor_centre = 0;  ///< m, what noise and chaos from run to run make
+  double chi2 = 0;
+  Eigen::VectorXd residual;                ///< m, each feature
+  Eigen::VectorXd spread;                  ///< m, its expected standard deviation
+};
+
+struct Refit {
+  std::vector<Knob> knobs;
+  std::vector<FittedValue> values;
+  double chi2 = 0, degrees = 0;
+  double p_value = 1;        ///< share of pseudo-experiments that fit no better
+  double scatter = 1;        ///< chi2 over the median of the pseudo-experiments'
+  std::vector<RunComparison> runs;
+  /// Each box length predicted from a fit to the others, rms, m; NaN with one length only.
+  double held_out_error_box = 0, held_out_error_centre = 0;
+  double held_out_chi2 = 0;  ///< sum over the lengths left out
+  double error_box() const;
+  double error_centre() const;
+  double floor_box() const;
+  double floor_centre() const;
+};
+
+struct RefitOptions {
+  int count = 192;       ///< simulations of each different setup in a round
+  int rounds = 2;        ///< re-centrings
+  int most_rounds = 4;   ///< when the solution keeps leaving the box
+  double shrink = 0.5;   ///< of the box from round to round
+  int first_run = 1000;
+  double model_error = 0.004;  ///< relative: how well two codes of the same physics agree (soft contacts of finite duration ...)
+};
+
+/// Fits the knobs (none: the setup as it is). `measured` may leave runs out; compare_at() then judges them.
+Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs, const Workshop& workshop, const RefitOptions& options);
+
+/// The same measured runs (or others) against the model with the knobs at the given values, nothing fitted.
+Refit compare_at(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const Workshop& workshop, const RefitOptions& options);
+
+}  // namespace shakedown
