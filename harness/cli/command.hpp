@@ -28,6 +28,8 @@ std::vector<Command> add_commands(CLI::App& program);
 
 Command add_run_command(CLI::App& program);
 Command add_theory_command(CLI::App& program);
+Command add_compare_command(CLI::App& program);
+Command add_diagnose_command(CLI::App& program);
 Command add_effects_command(CLI::App& program);
 Command add_import_command(CLI::App& program);
 Command add_schema_command(CLI::App& program);

@@ -8,6 +8,8 @@ std::vector<Command> add_commands(CLI::App& program) {
       add_run_command(program),
       add_theory_command(program),
       add_import_command(program),
+      add_compare_command(program),
+      add_diagnose_command(program),
       add_effects_command(program),
       add_schema_command(program),
       add_crosscheck_command(program),

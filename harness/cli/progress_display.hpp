@@ -17,6 +17,8 @@ class ProgressDisplay {
 
   /// fraction: 0 to 1.
   void show(double fraction);
+  /// Changes what the bar says is being done.
+  void rename(const std::string& what) { what_ = what; }
 
  private:
   std::string what_;

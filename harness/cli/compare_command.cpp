@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// shakedown compare: is the model acceptable, and where does it fail? Nothing is fitted.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "effects.hpp"
+#include "engines.hpp"
+#include "experiment_file.hpp"
+#include "interruption.hpp"
+#include "json_output.hpp"
+#include "momentum.hpp"
+#include "progress_display.hpp"
+#include "refit.hpp"
+#include "setup_arguments.hpp"
+
+namespace shakedown {
+
+namespace {
+
+struct CompareArguments {
+  SetupArguments setup;
+  JsonOutput json;
+  std::string data;
+  int runs = 128, threads = 0;
+};
+
+/// How bad a misfit is, in words, by the error over what noise and run-to-run spread make.
+std::string_view severity(double ratio) {
+  if (ratio < 1.3) return "within the spread";
+  if (ratio < 2) return "slight";
+  return ratio < 5 ? "clear" : "gross";
+}
+
+std::string readable(const Refit& fit, const MomentumAudit& momentum, bool holds) {
+  std::string text = holds ? "The model holds: what remains is within camera noise and the spread from run to run.\n"
+                           : "The data reject the model.\n";
+  text += fmt::format("  {:<16} {:>11} {:>9} {:>14} {:>9}\n", "run", "box, mm", "spread", "centre, mm", "spread");
+  for (const RunComparison& run : fit.runs)
+    text += fmt::format("  {:<16} {:>11.3f} {:>9.3f} {:>14.3f} {:>9.3f}  {}\n", run.run, run.error_box * 1e3, run.floor_box * 1e3,
+                        run.error_centre * 1e3, run.floor_centre * 1e3, severity(run.error_box / run.floor_box));
+  text += fmt::format("  whole: p = {:.3f} ({:.2f} times the misfit of the model's own runs)\n", fit.p_value, fit.scatter);
+  if (momentum.possible) {
+    text += fmt::format("  momentum balance: chi2 per degree of freedom {:.3f}, p = {:.3g}\n", momentum.as_given.chi2_per_degree(), momentum.as_given.p_value);
+    for (const RunBalance& run : momentum.runs)
+      text += fmt::format("    {:<16} force that the model lacks {:.2f} mN rms (noise of one window {:.2f} mN)\n", run.run,
+                          run.missing_force * 1e3, run.missing_force_noise * 1e3);
+  }
+  return text;
+}
+
+nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum, bool holds) {
+  nlohmann::ordered_json runs = nlohmann::ordered_json::array();
+  for (const RunComparison& run : fit.runs)
+    runs.push_back({{"run", run.run}, {"error_box_mm", run.error_box * 1e3}, {"floor_box_mm", run.floor_box * 1e3},
+                    {"error_com_mm", run.error_centre * 1e3}, {"floor_com_mm", run.floor_centre * 1e3}, {"chi2", run.chi2}});
+  return {{"schema_version", 1}, {"holds", holds}, {"p_value", fit.p_value}, {"scatter", fit.scatter}, {"error_box_mm", fit.error_box() * 1e3},
+          {"error_com_mm", fit.error_centre() * 1e3}, {"noise_floor", {{"box_mm", fit.floor_box() * 1e3}, {"com_mm", fit.floor_centre() * 1e3}}},
+          {"runs", runs}, {"momentum", {{"possible", momentum.possible}, {"chi2_per_dof", momentum.as_given.chi2_per_degree()}, {"p_value", momentum.as_given.p_value}}}};
+}
+
+int compare(const CompareArguments& arguments) {
+  const Setup setup = arguments.setup.read();
+  const Experiment experiment = read_experiment(arguments.data);
+  arguments.json.check();
+  const std::vector<Setup> setups = setups_of_runs(setup, experiment, all_effects());
+  const Audit found = audit(experiment);
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  RefitOptions options;
+  options.count = arguments.runs;
+  Refit fit;
+  {
+    ProgressDisplay display(fmt::format("{}: comparing with {} runs of each setup", arguments.data, arguments.runs));
+    std::int64_t done = 0;
+    const double all = static_cast<double>(arguments.runs) * static_cast<double>(experiment.runs.size());
+    const Workshop workshop{engine.get(), all_effects(), arguments.threads, catch_interruption(),
+                            [&](int n) { display.show(std::min(1.0, static_cast<double>(done += n) / all)); }, nullptr};
+    fit = refit(features_of(experiment, found, setups), {}, workshop, options);
+  }
+  const MomentumAudit momentum = audit_momentum(experiment, found, setups);
+  const bool holds = fit.p_value > 0.01 && (!momentum.possible || momentum.as_given.p_value > 0.01);
+  fmt::print(arguments.json.for_people(), "{}", readable(fit, momentum, holds));
+  arguments.json.write(json_of(fit, momentum, holds).dump(2) + "\n");
+  return holds ? exit_done : exit_model_rejected;
+}
+
+}  // namespace
+
+Command add_compare_command(CLI::App& program) {
+  CLI::App& command = *program.add_subcommand("compare", "is the model acceptable for these measurements, and where does it fail");
+  const auto arguments = std::make_shared<CompareArguments>();
+  add_setup_arguments(command, arguments->setup);
+  command.add_option("--data", arguments->data, "experiment file")->type_name("EXPERIMENT")->required();
+  command.add_option("--runs", arguments->runs, "simulations of each different setup")->check(CLI::Range(16, 100000))->capture_default_str();
+  command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->capture_default_str();
+  add_json_option(command, arguments->json);
+  return {&command, [arguments] { return compare(*arguments); }};
+}
+
+}  // namespace shakedown

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// shakedown diagnose: which effect is missing in the model, how strong is it, and does the error fall when it is added.
+#include "diagnosis.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "command.hpp"
+#include "effects.hpp"
+#include "engines.hpp"
+#include "experiment_file.hpp"
+#include "interruption.hpp"
+#include "json_output.hpp"
+#include "output_file.hpp"
+#include "progress_display.hpp"
+#include "setup_arguments.hpp"
+#include "setup_file.hpp"
+
+namespace shakedown {
+
+namespace {
+
+struct DiagnoseArguments {
+  SetupArguments setup;
+  JsonOutput json;
+  std::string data, out, effects;
+  std::int64_t budget = 14000;
+  int threads = 0;
+};
+
+/// "a,b" taken apart; every name must be an effect.
+std::vector<std::string> effect_names(const std::string& text) {
+  std::vector<std::string> names;
+  std::vector<Violation> found;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    names.push_back(text.substr(at, end - at));
+    if (find_effect(names.back()) == nullptr)
+      found.push_back({{"--effects", 0, 0}, names.back(), "is not an effect", "`shakedown effects` lists them"});
+    at = end + 1;
+  }
+  if (!found.empty()) throw InputError(std::move(found));
+  return names;
+}
+
+/// The setup with effects and refitted values, and why.
+std::string amended_setup(const Diagnosis& diagnosis) {
+  std::string text = "# Amended by `shakedown diagnose`: " + diagnosis.sentence + "\n";
+  for (const DiagnosedParameter& p : diagnosis.parameters)
+    text += p.word.empty() ? fmt::format("#   {} = {:.6g} {} (95 %: {:.6g} to {:.6g})\n", p.name, p.value, p.unit, p.low, p.high)
+                           : fmt::format("#   {} = {}\n", p.name, p.word);
+  return text + write_setup(diagnosis.amended);
+}
+
+int diagnose_data(const DiagnoseArguments& arguments) {
+  const Setup setup = arguments.setup.read();
+  const Experiment experiment = read_experiment(arguments.data);
+  const std::vector<std::string> effects = effect_names(arguments.effects);
+  arguments.json.check();
+  std::unique_ptr<OutputFolder> folder;
+  if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  Diagnosis diagnosis;
+  {
+    ProgressDisplay display(fmt::format("{}: diagnosing, at most {} simulations", arguments.data, arguments.budget));
+    DiagnoseOptions options{effects, arguments.budget, arguments.threads, all_effects(), catch_interruption(), {}};
+    options.progress = [&](const std::string& stage, double fraction) {
+      display.rename(stage);
+      display.show(fraction);
+    };
+    diagnosis = diagnose(setup, experiment, *engine, options);
+  }
+  const std::string document = diagnosis_json(diagnosis);
+  fmt::print(arguments.json.for_people(), "{}", diagnosis_text(diagnosis));
+  if (folder) {
+    folder->write("setup.toml", amended_setup(diagnosis));
+    folder->write("diagnosis.json", document);
+    fmt::print(arguments.json.for_people(), "amended setup: {}\n", (folder->path() / "setup.toml").string());
+  }
+  arguments.json.write(document);
+  return diagnosis.verdict == Verdict::adequate ? exit_done : exit_model_rejected;
+}
+
+}  // namespace
+
+Command add_diagnose_command(CLI::App& program) {
+  CLI::App& command = *program.add_subcommand("diagnose", "which physical effect is missing in the model");
+  const auto arguments = std::make_shared<DiagnoseArguments>();
+  add_setup_arguments(command, arguments->setup);
+  command.add_option("--data", arguments->data, "experiment file")->type_name("EXPERIMENT")->required();
+  command.add_option("--out", arguments->out, "write the amended setup and the diagnosis into this folder")->type_name("DIR");
+  command.add_option("--effects", arguments->effects, "only these may be added")->type_name("a,b,...");
+  command.add_option("--budget", arguments->budget, "simulations at most")->type_name("RUNS")->capture_default_str();
+  command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->capture_default_str();
+  add_json_option(command, arguments->json);
+  return {&command, [arguments] { return diagnose_data(*arguments); }};
+}
+
+}  // namespace shakedown

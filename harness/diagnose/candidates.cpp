@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "candidates.hpp"
+
+#include <algorithm>
+
+namespace shakedown {
+
+namespace {
+
+/// A knob of an effect's parameter, from its record: bounds, and one typical strength about its neutral value.
+Knob knob_of(const EffectRecord& effect, const Parameter& parameter, std::string_view component = "") {
+  const std::string key = std::string(effect.name) + "." + std::string(parameter.name) + std::string(component);
+  return {key, 0.0, parameter.typical, parameter.low, parameter.high, true};
+}
+
+std::vector<Candidate> all_candidates(const Setup& setup, std::span<const EffectRecord* const> known) {
+  std::vector<Candidate> list;
+  const auto add = [&](std::string_view name, std::string_view parameter, bool momentum, std::string_view component = "") {
+    for (const EffectRecord* effect : known)
+      if (effect->name == name) list.push_back({std::string(name), {knob_of(*effect, *effect->find(parameter), component)}, {}, momentum});
+  };
+  list.push_back({"grain_friction", {{"grain_friction.grain_grain&grain_friction.grain_wall", 0, 0.2, 0, 1, true}}, {}, false});
+  add("velocity_dependent_restitution", "exponent", false);
+  add("grain_cohesion", "force", false);
+  list.push_back({"side_wall_restitution", {{"side_wall_restitution.restitution", setup.restitution.grain_wall, 0.2, 0.05, 0.999, true}}, {}, false});
+  add("grain_polydispersity", "relative_deviation", false);
+  add("grain_air_drag", "linear", false);
+  for (const char* axis : {".y", ".z"}) {
+    add("constant_acceleration", "acceleration", false, axis);
+    list.back().knobs[0].width = 0.2;
+  }
+  list.push_back({"blade_arc", {}, {{"blade_arc.blade_length", "590 mm"}}, false});
+  add("camera_com_bias", "bias", true);
+  list.push_back({"camera_arc", {}, {{"camera_arc.blade_length", "590 mm"}}, true});
+  add("camera_scale", "scale", false);
+  add("camera_time_offset", "offset", false);
+  add("camera_drift", "drift", true);
+  add("initial_box_velocity", "velocity", false);
+  add("blade_viscous_damping", "damping", true);
+  add("blade_quadratic_drag", "drag", true);
+  add("clamp_dry_friction", "force", true);
+  add("spring_cubic", "coefficient", true);
+  add("constant_acceleration", "acceleration", true, ".x");
+  list.back().knobs[0].width = 0.1;
+  return list;
+}
+
+bool has(const Setup& setup, std::string_view effect) {
+  return std::any_of(setup.effects.begin(), setup.effects.end(), [&](const EffectChoice& choice) { return choice.record->name == effect; });
+}
+
+}  // namespace
+
+std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std::string>& only, std::span<const EffectRecord* const> known) {
+  std::vector<Candidate> list = all_candidates(setup, known);
+  std::erase_if(list, [&](const Candidate& candidate) {
+    if (!only.empty() && std::find(only.begin(), only.end(), candidate.effect) == only.end()) return true;
+    return has(setup, candidate.effect);
+  });
+  return list;
+}
+
+Setup prepared(const Setup& setup, const Candidate& candidate, std::span<const EffectRecord* const> known) {
+  Setup changed = setup;
+  for (const Override& fixed : candidate.fixed) {
+    const std::size_t dot = fixed.key.find('.');
+    const std::string effect = fixed.key.substr(0, dot), text = "[[effect]]\nname = \"" + effect + "\"\n" + fixed.key.substr(dot + 1) + " = \"" + fixed.value + "\"\n";
+    changed.effects.push_back(parse_setup(text, "diagnosis", known).effects.front());
+  }
+  return changed;
+}
+
+}  // namespace shakedown

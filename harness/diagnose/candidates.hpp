@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Effects that may be missing, each with the knobs that say how strong it is.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "emulator.hpp"
+#include "setup_file.hpp"
+
+namespace shakedown {
+
+struct Candidate {
+  std::string effect;
+  std::vector<Knob> knobs;      ///< centred on the effect's absence, one typical strength wide; empty: on or off
+  std::vector<Override> fixed;  ///< what its presence needs besides, e.g. the length of the blade
+  bool seen_by_momentum = false;  ///< a force from outside or a camera error that the momentum balance judges better
+};
+
+/// Every effect that the hard engine models and that a diagnosis may add, given the setup's present values; effects that the setup has
+/// already, and those that replace the same part of the model, are left out. `only`: these alone (empty: all).
+std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std::string>& only, std::span<const EffectRecord* const> known);
+
+/// The setup with the candidate at no strength.
+Setup prepared(const Setup& setup, const Candidate& candidate, std::span<const EffectRecord* const> known);
+
+}  // namespace shakedown
