@@ -33,15 +33,19 @@ std::vector<double> level_weights(const std::vector<double>& time, double middle
   return {weight.data(), weight.data() + weight.size()};
 }
 
-/// Until when a run moves: the last frame beyond `rest` about where the box comes to rest (which a steady force may shift).
+/// Until when a run tells something: the last frame farther than `rest` from where the box ends up, or one and a half times as far as it
+/// still swings there (a layer pressed on one wall by a steady force swings on without loss).
 double end_of_motion(const MeasuredRun& run, const std::vector<double>& x_box, double rest) {
-  double end = 0, sum = 0, count = 0;
+  std::vector<double> late;
   for (std::size_t i = 0; i < run.time.size(); ++i)
-    if (run.time[i] > run.time.back() - 2 && std::isfinite(x_box[i])) sum += x_box[i], ++count;
-  const double middle = count > 0 ? sum / count : 0;
+    if (run.time[i] > run.time.back() - 2 && std::isfinite(x_box[i])) late.push_back(x_box[i]);
+  if (late.empty()) return 0;
+  const auto [lowest, highest] = std::minmax_element(late.begin(), late.end());
+  const double middle = (*lowest + *highest) / 2, swing = (*highest - *lowest) / 2;
+  double end = 0;
   for (std::size_t i = 0; i < run.time.size(); ++i)
-    if (std::abs(x_box[i] - middle) > rest) end = run.time[i];
-  return std::min(end + 1.0, run.time.empty() ? 0.0 : run.time.back());
+    if (std::abs(x_box[i] - middle) > std::max(rest, std::min(1.5 * swing, 5 * rest))) end = run.time[i];
+  return std::min(end + 1.0, run.time.back());
 }
 
 void add_features(Observable observable, const std::vector<double>& time, const std::vector<double>& x, const NoiseFound& noise, double end,
