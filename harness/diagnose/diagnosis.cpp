@@ -8,6 +8,7 @@
 #include "experiment_file.hpp"
 #include "initial_state.hpp"
 #include "linear_screen.hpp"
+#include "quantity.hpp"
 #include "setup_keys.hpp"
 
 namespace shakedown {
@@ -179,6 +180,8 @@ void Pipeline::judge() {
     result_.verdict = packing_changed ? Verdict::refit : Verdict::adequate;
     return;
   }
+  // A force that no list has: the balance names it, and no ensemble can.
+  if (result_.momentum.unexplained || result_.momentum.unlisted) return conclude_unknown();
   const double frequency = result_.momentum.possible ? result_.momentum.frequency : user_.spring.frequency;
   theta_ = {{"restitution.grain_grain", base_.restitution.grain_grain, 0.15, 0.2, 0.999, true},
             {"restitution.grain_wall", base_.restitution.grain_wall, 0.15, 0.2, 0.999, true},
@@ -190,7 +193,6 @@ void Pipeline::judge() {
   for (const std::string& effect : result_.missing) step += " + " + effect;
   result_.ladder.push_back(step_of(step, best));
   keep(best);
-  if (result_.momentum.unexplained) return conclude_unknown();
   while (best.p_value <= rejected && static_cast<int>(result_.missing.size()) < most_effects && add_best_candidate(best)) {
   }
   prune(best);
@@ -290,6 +292,13 @@ void Pipeline::prune(Refit& best) {
 void Pipeline::conclude_unknown() {
   result_.verdict = Verdict::unknown;
   result_.missing.clear();
+  if (result_.momentum.formulas.empty()) return;
+  const ForceFormula& found = result_.momentum.formulas.front();
+  std::string constants;
+  for (const FormulaConstant& c : found.constants)
+    constants += (constants.empty() ? "" : ", ") + c.name + " = \"" + write_quantity(c.value, c.unit) + "\"";
+  result_.force_formula = "[[effect]]\nname = \"user_force\"\non = \"box\"\nforce = \"" + found.formula + "\"\nconstants = {" + constants + "}\n";
+  for (const std::string& alike : found.look_alikes) result_.notes.push_back("the force could as well be " + alike);
 }
 
 std::string unit_of(const std::string& key, std::span<const EffectRecord* const> known) {
@@ -334,7 +343,7 @@ void Pipeline::finish() {
       break;
     }
     case Verdict::unknown:
-      result_.sentence = result_.momentum.unexplained
+      result_.sentence = result_.momentum.unexplained || result_.momentum.unlisted
                              ? "Something that is not in the library acts on the box: no known force brings the momentum balance into order."
                              : "None of the known effects explains the measurements; momentum is in order, so it lies inside the contacts.";
       break;
