@@ -43,7 +43,7 @@ std::map<std::string, Folder> folders() {
       {"harness/observe", {laws, {"Eigen/"}, {"Eigen/"}}},
       {"harness/run", {run, json, {}}},
       {"harness/measure", {with(laws, {"harness/observe"}), with(json, {"Eigen/"}), {"Eigen/"}}},
-      {"harness/compare", {compare, with(json, {"Eigen/", "sqlite3"}), {"Eigen/"}}},
+      {"harness/compare", {compare, with(json, {"nlopt", "Eigen/", "sqlite3"}), {"Eigen/"}}},
       {"harness/diagnose", {diagnose, with(json, {"Eigen/", "sqlite3", "nlopt", "muParser"}), {"Eigen/"}}},
       {"harness/export", {diagnose, with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/report", {report, with(json, {"Eigen/"}), {"Eigen/"}}},
