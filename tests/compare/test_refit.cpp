@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// The refit and its calibration on a stand-in for the hard engine: a damped oscillation whose chaos is known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "effects.hpp"
+#include "random.hpp"
+#include "refit.hpp"
+#include "setup_file.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+/// Decay by the grains' restitution, frequency from the spring, chaos of half a millimetre in two shapes.
+class DampedOscillation final : public Engine {
+ public:
+  std::string_view name() const override { return "stand-in"; }
+  Capability can_model(const EffectRecord&) const override { return {Fidelity::exact, ""}; }
+  Trajectory run(const Setup& setup, const RunOptions& options) const override {
+    Random random(setup.run.seed, static_cast<std::uint64_t>(options.run), Stream::velocities);
+    const double early = 5e-4 * random.normal(), late = 5e-4 * random.normal();
+    const double w = 2 * std::numbers::pi * setup.spring.frequency, rate = 0.3 * (1 - setup.restitution.grain_grain);
+    const double drag = physics_of(setup).box.viscous / 2;
+    Trajectory trajectory;
+    for (int k = 0; k <= static_cast<int>(setup.run.duration * 500); ++k) {
+      const double t = k / 500.0;
+      const double x = 0.1 * std::exp(-(rate + drag * std::abs(std::sin(0.4 * t))) * t) * std::cos(w * t);
+      trajectory.time.push_back(t);
+      trajectory.x_box.push_back(x + early * std::sin(1.3 * t) + late * std::sin(0.7 * t + 1));
+      trajectory.x_com.push_back(0.9 * x + 0.01 * setup.restitution.grain_wall + late * std::cos(2 * t));
+    }
+    trajectory.v_box = trajectory.total_energy = trajectory.x_box;
+    return trajectory;
+  }
+};
+
+/// Two box lengths measured on the stand-in with hidden values.
+std::vector<MeasuredFeatures> measured_on(const shakedown::Setup& truth, const shakedown::Setup& believed, int run) {
+  std::vector<MeasuredFeatures> measured;
+  for (const double length : {0.040, 0.065}) {
+    RunOptions options;
+    options.run = run;
+    shakedown::Setup hidden = truth;
+    hidden.run.seed = 99 + static_cast<std::uint64_t>(length * 1e3);
+    const Trajectory trajectory = DampedOscillation{}.run(hidden, options);
+    MeasuredRun table;
+    table.name = length < 0.05 ? "short" : "long";
+    table.frame_rate = 500;
+    table.time = trajectory.time;
+    table.x_box = trajectory.x_box;
+    table.x_com = trajectory.x_com;
+    Random noise(7, static_cast<std::uint64_t>(run * 2 + (length > 0.05)), Stream::camera);
+    for (double& x : table.x_box) x += 2e-4 * noise.normal();
+    for (double& x : table.x_com) x += 5e-4 * noise.normal();
+    shakedown::Setup setup = believed;
+    setup.box.length = length;
+    Experiment experiment;
+    experiment.runs = {table};
+    measured.push_back(features_of(experiment, audit(experiment), {setup}).front());
+  }
+  return measured;
+}
+
+shakedown::Setup believed_setup() {
+  shakedown::Setup setup;
+  setup.run.duration = 8;
+  return setup;
+}
+
+const std::vector<Knob> theta{{"restitution.grain_grain", 0.75, 0.15, 0.2, 0.999, true},
+                              {"restitution.grain_wall", 0.76, 0.15, 0.2, 0.999, true},
+                              {"spring.frequency", 1.23, 0.01, 1, 1.5, true}};
+
+TEST(Refit, HoldsForDataOfTheModelItself) {
+  const DampedOscillation engine;
+  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  int rejected = 0;
+  for (int run = 0; run < 20; ++run)
+    rejected += refit(measured_on(believed_setup(), believed_setup(), run), {}, workshop, {}).p_value < 0.05;
+  EXPECT_LE(rejected, 4);  // one expected; more than four happen once in 400
+}
+
+TEST(Refit, FindsHiddenValuesInsideItsIntervals) {
+  const DampedOscillation engine;
+  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  shakedown::Setup truth = believed_setup();
+  truth.restitution = {0.85, 0.70};
+  truth.spring.frequency = 1.2345;
+  int inside = 0, all = 0;
+  for (int run = 0; run < 6; ++run) {
+    const std::vector<MeasuredFeatures> measured = measured_on(truth, believed_setup(), run);
+    EXPECT_LT(refit(measured, {}, workshop, {}).p_value, 0.01);
+    const Refit fit = refit(measured, theta, workshop, {});
+    EXPECT_GT(fit.p_value, 0.005);
+    EXPECT_LT(fit.error_box(), 1.3 * fit.floor_box());
+    for (const FittedValue& value : fit.values) {
+      const double hidden = get_number(truth, value.key);
+      inside += value.low <= hidden && hidden <= value.high;
+      ++all;
+      EXPECT_NEAR(value.value, hidden, 5 * value.error) << value.key;
+    }
+  }
+  EXPECT_GE(inside, all - 4);  // 95 % intervals: one of 18 outside expected
+}
+
+TEST(Refit, RejectsWhatRefittingCannotExplainAndAcceptsTheEffect) {
+  const DampedOscillation engine;
+  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  shakedown::Setup truth = believed_setup();
+  set_number(truth, "blade_viscous_damping.damping", 0.1, all_effects());
+  const std::vector<MeasuredFeatures> measured = measured_on(truth, believed_setup(), 3);
+  EXPECT_LT(refit(measured, theta, workshop, {}).p_value, 0.01);
+  std::vector<Knob> knobs = theta;
+  knobs.push_back({"blade_viscous_damping.damping", 0.05, 0.08, 0, 10, true});
+  const Refit fit = refit(measured, knobs, workshop, {});
+  EXPECT_GT(fit.p_value, 0.01);
+  EXPECT_NEAR(fit.values.back().value, 0.1, 5 * fit.values.back().error);
+}
+
+TEST(Refit, GivesTheSameAnswerForAnyNumberOfThreads) {
+  const DampedOscillation engine;
+  const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
+  RefitOptions options;
+  options.count = 64;
+  const Refit one = refit(measured, theta, {&engine, all_effects(), 1, nullptr, {}, nullptr}, options);
+  const Refit three = refit(measured, theta, {&engine, all_effects(), 3, nullptr, {}, nullptr}, options);
+  for (std::size_t k = 0; k < one.values.size(); ++k) EXPECT_EQ(one.values[k].value, three.values[k].value);
+  EXPECT_EQ(one.chi2, three.chi2);
+}
+
+}  // namespace
