@@ -37,7 +37,13 @@ class HardEngine final : public Engine {
       if (options.progress && k % report_every == 0) options.progress(time);
     }
     trajectory.end_time = trajectory.time.empty() ? 0 : trajectory.time.back();
+    if (!trajectory.interrupted && setup.run.duration > trajectory.end_time) {  // a rest shorter than the interval of samples
+      system.advance_to(setup.run.duration);
+      system.observe();
+      trajectory.end_time = setup.run.duration;
+    }
     trajectory.ledger = system.ledger();
+    trajectory.end_state = system.state();
     trajectory.collisions = system.collisions();
     trajectory.events = system.events();
     trajectory.health = system.health();

@@ -57,4 +57,19 @@ inline Bodies bodies_of(const State& state, double box_mass) {
   return bodies;
 }
 
+/// The arrays as a state.
+inline State state_of(const Bodies& bodies) {
+  State state;
+  for (Eigen::Index i = 0; i < bodies.grains; ++i) {
+    state.position.push_back(bodies.position_of(i));
+    state.velocity.push_back(bodies.velocity_of(i));
+    state.spin.push_back(bodies.spin_of(i));
+    state.radius.push_back(bodies.radius(i));
+    state.mass.push_back(bodies.mass(i));
+  }
+  state.x_box = bodies.x_box();
+  state.v_box = bodies.v_box();
+  return state;
+}
+
 }  // namespace shakedown

@@ -28,6 +28,7 @@ struct Contact {
   // Of the last evaluation.
   double normal_force = 0;              ///< N, on i along the normal
   Vec3 tangential_force = Vec3::Zero(); ///< N, on i
+  bool sliding = false;                 ///< the tangential force is at its limit
 };
 
 /// What contacts of one run share.

@@ -47,6 +47,7 @@ void stretch_tangentially(const Bodies& bodies, double time, Contact& contact) {
 
 void set_friction(const ContactModel& model, const Bodies& bodies, Contact& contact) {
   contact.tangential_force.setZero();
+  contact.sliding = false;
   const double coefficient = model.law.friction[static_cast<std::size_t>(contact.kind)];
   if (!contact.touching || coefficient == 0) return;
   Vec3 force = -tangential_stiffness(contact) * contact.stretch;
@@ -56,11 +57,13 @@ void set_friction(const ContactModel& model, const Bodies& bodies, Contact& cont
   const double pressing = contact.normal_force + contact.attraction * model.law.attraction_force;
   const double limit = coefficient * std::max(pressing, 0.0);
   const double size = force.norm();
-  contact.tangential_force = size > limit ? Vec3(force * (limit / size)) : force;
+  contact.sliding = size > limit;
+  contact.tangential_force = contact.sliding ? Vec3(force * (limit / size)) : force;
 }
 
-void let_slide(Contact& contact, const ContactModel& model) {
-  if (!contact.touching || model.law.friction[static_cast<std::size_t>(contact.kind)] == 0) return;
+void let_slide(Contact& contact) {
+  // A spring on its way back is held by the dashpot with less than its own force, and does not slide for that.
+  if (!contact.touching || !contact.sliding) return;
   const double stiffness = tangential_stiffness(contact);
   const double held = contact.tangential_force.norm() / stiffness;
   const double length = contact.stretch.norm();

@@ -19,7 +19,7 @@ void stretch_tangentially(const Bodies& bodies, double time, Contact& contact);
 void set_friction(const ContactModel& model, const Bodies& bodies, Contact& contact);
 
 /// After the last evaluation: a spring that slides keeps the stretch that its force stands for.
-void let_slide(Contact& contact, const ContactModel& model);
+void let_slide(Contact& contact);
 
 /// Distance from the centre of i (or j) to the point of contact, m. The levers of a pair add up to the distance of the centres,
 /// so that friction conserves angular momentum.

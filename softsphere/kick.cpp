@@ -122,7 +122,7 @@ class HalfKick {
       const Vec3 rolling = lever_of_first(bodies_, contact) * mean_spin(contact.i) +
                            lever_of_second(bodies_, contact) * mean_spin(contact.j);
       power += contact.tangential_force.dot(relative - rolling.cross(contact.normal));
-      let_slide(contact, model_);
+      let_slide(contact);
     }
     accounts.contact_work[static_cast<std::size_t>(contact.kind)] += half_step_ * power;
     if (box_is_held_ && contact.j == bodies_.box())

@@ -89,6 +89,7 @@ Trajectory RunRecord::finish(const Bodies& bodies, const Accounts& accounts, con
   trajectory.ledger = ledger(accounts, stored);
   trajectory.collisions = accounts.collisions;
   trajectory.end_time = end_time;
+  trajectory.end_state = state_of(bodies);
   return std::move(trajectory);
 }
 

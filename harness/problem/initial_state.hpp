@@ -7,7 +7,8 @@
 
 namespace shakedown {
 
-/// Positions and velocities in the lab frame, box at x_box with velocity v_box (centre of the box along x; y = z = 0 is its axis).
+/// Positions and velocities in the lab frame, box at x_box with velocity v_box (centre of the box along x; y = z = 0 is its axis, also
+/// where the box follows an arc: then z and its velocity are as seen from the box).
 struct State {
   std::vector<Vec3> position;  ///< m
   std::vector<Vec3> velocity;  ///< m/s

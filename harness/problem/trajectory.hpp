@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "physics.hpp"
+#include "initial_state.hpp"
 
 namespace shakedown {
 
@@ -45,6 +45,7 @@ struct Trajectory {
   double wall_seconds = 0;    ///< time spent in the engine
   double end_time = 0;        ///< s; less than the duration when interrupted
   bool interrupted = false;
+  State end_state;           ///< of box and grains where the engine stopped
   Health health;
 };
 

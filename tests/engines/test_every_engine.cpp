@@ -3,48 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <thread>
 
-#include "engines_under_test.hpp"
 #include "random.hpp"
+#include "setups.hpp"
 
 using namespace shakedown;
 
 namespace {
-
-struct Grain {
-  Vec3 position, velocity;
-};
-
-/// A file of grains that lives as long as this object.
-class GrainFile {
- public:
-  explicit GrainFile(const std::vector<Grain>& grains) {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(test->test_suite_name()) + "_" + test->name() + ".csv";
-    for (char& letter : name)
-      if (letter == '/') letter = '_';
-    path_ = std::filesystem::temp_directory_path() / name;
-    std::ofstream file(path_);
-    file.precision(17);
-    file << "id,x,y,z,vx,vy,vz\n";
-    int id = 0;
-    for (const Grain& grain : grains) {
-      file << ++id;
-      for (const Vec3* part : {&grain.position, &grain.velocity})
-        for (const double value : *part) file << ',' << value;
-      file << '\n';
-    }
-  }
-  ~GrainFile() { std::filesystem::remove(path_); }
-  std::string path() const { return path_.string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 RunOptions numbered(int run) {
   RunOptions options;
@@ -79,7 +46,7 @@ class EveryEngine : public ::testing::TestWithParam<EngineUnderTest> {
     const double m = setup.grains.mass, radius = setup.grains.diameter / 2;
     const double gap = (1 + random.uniform()) * speed * setup.soft.contact_time;
     double reduced_mass = m;
-    std::vector<Grain> grains;
+    std::vector<PlacedGrain> grains;
     if (kind == ContactClass::grain_grain) {
       setup.domain = Domain::closed;
       const Vec3 direction = random_direction(random);
@@ -91,12 +58,9 @@ class EveryEngine : public ::testing::TestWithParam<EngineUnderTest> {
       grains.push_back({direction * (0.05 - radius - gap), direction * speed});
       if (kind == ContactClass::end_wall) reduced_mass = m * setup.box.mass / (m + setup.box.mass);
     }
-    const GrainFile file(grains);
-    setup.grains.count = static_cast<int>(grains.size());
-    setup.release.initial_grains = file.path();
     setup.run.duration = gap / speed + 3.5 * setup.soft.contact_time;
     setup.run.sample_rate = 1 / setup.run.duration;
-    const Trajectory result = engine->run(setup);
+    const Trajectory result = run_with(*engine, setup, grains);
     EXPECT_EQ(result.collisions[static_cast<std::size_t>(kind)], 1);
     const double loss = result.ledger.contact_loss[static_cast<std::size_t>(kind)];
     return std::sqrt(1 - loss / (reduced_mass * speed * speed / 2));
@@ -167,6 +131,14 @@ TEST_P(EveryEngine, SamplesAtTheAskedRate) {
   EXPECT_EQ(result.loss[2].size(), 16u);
   EXPECT_NEAR(result.end_time, 0.05, 1e-12);
   EXPECT_FALSE(result.interrupted);
+}
+
+TEST_P(EveryEngine, EndsInTheStateThatItSampledLast) {
+  const Trajectory result = engine->run(short_damper(0.3));
+  ASSERT_EQ(result.end_state.size(), 37u);
+  EXPECT_EQ(result.end_state.x_box, result.x_box.back());
+  EXPECT_EQ(result.end_state.v_box, result.v_box.back());
+  EXPECT_NEAR(centre_of_mass_x(result.end_state), result.x_com.back(), 1e-15);
 }
 
 TEST_P(EveryEngine, GivesTheSameBytesInAnyNumberOfThreads) {

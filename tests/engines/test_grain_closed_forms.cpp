@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// One ball in the box under each effect that acts on grains, in every engine that models it, against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "setups.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+using std::numbers::pi;
+constexpr double mass = 4.04e-3, radius = 0.005;
+const double w0 = 2 * pi * 1.23;
+
+/// A large box at rest, too heavy to notice the ball.
+shakedown::Setup large_box(double duration) {
+  shakedown::Setup setup;
+  setup.release.displacement = 0;
+  setup.box.length = 1;
+  setup.box.width[0] = setup.box.width[1] = 0.5;
+  setup.run.duration = duration;
+  return setup;
+}
+
+void in_every_engine(const shakedown::Setup& setup, const PlacedGrain& ball, double ledger,
+                     const std::function<void(const Trajectory&, bool hard)>& check) {
+  for (const EngineUnderTest& tested : engines_that_model(setup.effects.front().record->name)) {
+    SCOPED_TRACE(tested.name);
+    const Trajectory result = run_with(*tested.make(), setup, {ball});
+    EXPECT_LE(result.health.ledger_error, ledger);
+    EXPECT_LE(result.health.momentum_error, 1e-12);
+    check(result, tested.name == "hard");
+  }
+}
+
+void expect_near(const Vec3& one, const Vec3& other, double tolerance) {
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(one[axis], other[axis], tolerance) << "xyz"[axis];
+}
+
+}  // namespace
+
+TEST(Ball, FliesParabolasInConstantAcceleration) {
+  const Vec3 a(0.3, -0.2, 0.1), x(0.1, 0.05, -0.1), v(-0.2, 0.1, 0.15);
+  shakedown::Setup setup = large_box(1.2);
+  add_effect(setup, "constant_acceleration", {{"acceleration", a}});
+  in_every_engine(setup, {x, v}, 1e-11, [&](const Trajectory& result, bool) {
+    for (std::size_t k = 0; k < result.time.size(); ++k) {
+      const double t = result.time[k];
+      EXPECT_NEAR(result.x_com[k], x.x() + v.x() * t + a.x() * t * t / 2, 2e-12);
+      EXPECT_NEAR(result.x_box[k], a.x() / (w0 * w0) * (1 - std::cos(w0 * t)), 2e-12);
+    }
+    expect_near(result.end_state.position[0], x + 1.2 * v + 0.72 * a, 2e-12);
+    expect_near(result.end_state.velocity[0], v + 1.2 * a, 2e-12);
+  });
+}
+
+TEST(Ball, FollowsAHarmonicAcceleration) {
+  const Vec3 a(2, -1, 0.5), x(0.1, 0.05, -0.1), v(-0.2, 0.1, 0.1);
+  const double f = 3, phase = 0.7, w = 2 * pi * f;
+  shakedown::Setup setup = large_box(1);
+  add_effect(setup, "oscillating_acceleration", {{"amplitude", a}, {"frequency", f}, {"phase", phase}});
+  in_every_engine(setup, {x, v}, 1e-11, [&](const Trajectory& result, bool) {
+    const auto swing = [&](double t) { return (std::cos(phase) * t + (std::sin(phase) - std::sin(w * t + phase)) / w) / w; };
+    for (std::size_t k = 0; k < result.time.size(); ++k)
+      EXPECT_NEAR(result.x_com[k], x.x() + v.x() * result.time[k] + a.x() * swing(result.time[k]), 5e-12);
+    expect_near(result.end_state.position[0], x + v + a * swing(1), 5e-12);
+    expect_near(result.end_state.velocity[0], v + a * (std::cos(phase) - std::cos(w + phase)) / w, 5e-12);
+  });
+}
+
+TEST(Ball, BouncesOnASideWallUnderGravity) {
+  const double g = 1, height = 0.005, fall = std::sqrt(2 * height / g), e = 0.76;
+  shakedown::Setup setup = large_box(fall + e * fall);  // the top of the first bounce
+  add_effect(setup, "constant_acceleration", {{"acceleration", Vec3(0, 0, -g)}});
+  in_every_engine(setup, {{0, 0, -0.25 + radius + height}, {0, 0, 0}}, 1e-9, [&](const Trajectory& result, bool hard) {
+    EXPECT_EQ(result.collisions[2], 1);
+    EXPECT_NEAR(result.ledger.contact_loss[2] / (mass * g * height), 1 - e * e, hard ? 1e-12 : 1e-2);
+    EXPECT_NEAR(result.end_state.position[0].z(), -0.25 + radius + e * e * height, hard ? 1e-12 : 1e-4);
+  });
+}
+
+TEST(Ball, BouncesOnTheEndWallOfTheBoxThatFallsWithIt) {
+  // Both accelerate along the axis; the box is held back by its spring, so the ball falls towards its wall.
+  const double a = 0.4;
+  shakedown::Setup setup = large_box(0.6);
+  setup.box.length = 0.02;
+  add_effect(setup, "constant_acceleration", {{"acceleration", Vec3(a, 0, 0)}});
+  in_every_engine(setup, {{0, 0, 0}, {0, 0, 0}}, 1e-10, [&](const Trajectory& result, bool hard) {
+    const auto gap = [&](double t) { return 0.005 + a / (w0 * w0) * (1 - std::cos(w0 * t)) - a * t * t / 2; };
+    double low = 0.05, high = 0.6;
+    for (int i = 0; i < 100; ++i) (gap((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
+    ASSERT_LT(low, 0.59);
+    std::size_t k = 0;
+    while (result.loss[1][k] == 0) ++k;
+    EXPECT_NEAR(result.time[k], low, 1.0 / 500);
+    const double closing = a * low - a / w0 * std::sin(w0 * low), reduced = mass * 0.434 / (mass + 0.434);
+    if (result.collisions[1] == 1) {
+      EXPECT_NEAR(result.ledger.contact_loss[1] / (reduced / 2 * closing * closing), 1 - 0.76 * 0.76, hard ? 1e-12 : 2e-2);
+    }
+  });
+}
+
+TEST(Ball, ReachesItsTerminalSpeed) {
+  const double g = 2;
+  shakedown::Setup setup = large_box(0.5);
+  const PlacedGrain ball{{0, 0, 0.2}, {0, 0, 0}};
+  const double rate = 0.08 / mass;
+  add_effect(setup, "grain_air_drag", {{"linear", 0.08}});
+  add_effect(setup, "constant_acceleration", {{"acceleration", Vec3(0, 0, -g)}});
+  in_every_engine(setup, ball, 1e-9, [&](const Trajectory& result, bool) {
+    const double terminal = g / rate, t = result.end_time;
+    EXPECT_NEAR(-result.end_state.velocity[0].z() / terminal, 1 - std::exp(-rate * t), 0.03);
+    EXPECT_NEAR((0.2 - result.end_state.position[0].z()) / (terminal * (t - (1 - std::exp(-rate * t)) / rate)), 1, 1e-3);
+  });
+  shakedown::Setup quadratic = large_box(0.5);
+  add_effect(quadratic, "grain_air_drag", {{"quadratic", 0.2}});
+  add_effect(quadratic, "constant_acceleration", {{"acceleration", Vec3(0, 0, -g)}});
+  in_every_engine(quadratic, ball, 1e-9, [&](const Trajectory& result, bool) {
+    const double terminal = std::sqrt(mass * g / 0.2), t = result.end_time;
+    EXPECT_NEAR(-result.end_state.velocity[0].z() / terminal, std::tanh(g * t / terminal), 0.03);
+    EXPECT_NEAR((0.2 - result.end_state.position[0].z()) / (terminal * terminal / g * std::log(std::cosh(g * t / terminal))), 1, 1e-3);
+  });
+}
+
+TEST(Ball, DragDecaysExponentiallyAndTheBoxFeelsIt) {
+  shakedown::Setup setup = large_box(1);
+  const double rate = 0.01 / mass, v = 0.4;
+  add_effect(setup, "grain_air_drag", {{"linear", 0.01}});
+  setup.box.mass = 1e4;  // the air stays at rest
+  in_every_engine(setup, {{-0.3, 0, 0}, {v, 0, 0}}, 1e-9, [&](const Trajectory& result, bool) {
+    for (std::size_t k = 0; k < result.time.size(); ++k)
+      EXPECT_NEAR(result.x_com[k], -0.3 + v / rate * (1 - std::exp(-rate * result.time[k])), 1e-6);
+    EXPECT_NEAR(result.v_box.back(), mass * v / 1e4 * std::cos(w0), 5e-8);
+  });
+}
+
+TEST(Ball, FollowsAFormulaOfTime) {
+  shakedown::Setup setup = large_box(0.5);
+  add_effect(setup, "user_force", {{"on", std::string("grains")}, {"force", std::string("0.004*sin(10*t)")}});
+  in_every_engine(setup, {{0, 0, 0}, {0, 0, 0}}, 1e-9, [&](const Trajectory& result, bool) {
+    const double a = 0.004 / mass;
+    for (std::size_t k = 0; k < result.time.size(); ++k) {
+      const double t = result.time[k];
+      EXPECT_NEAR(result.x_com[k], a * (t / 10 - std::sin(10 * t) / 100), 2e-6);
+    }
+  });
+}
+
+TEST(Ball, SlidesAcrossAndComesToRollAtFiveSevenths) {
+  // Angular momentum about the points of contact is kept, so whatever the impacts were: v = 5/7 v0. Across the axis, where the box
+  // cannot give way.
+  const double v = 0.3;
+  shakedown::Setup setup = large_box(0.6);
+  add_effect(setup, "grain_friction", {{"grain_wall", 0.5}, {"tangential_restitution", 0.0}});
+  add_effect(setup, "constant_acceleration", {{"acceleration", Vec3(0, 0, -9.81)}});
+  in_every_engine(setup, {{0, -0.2, -0.25 + radius + 0.002}, {0, v, 0}}, 1e-9, [&](const Trajectory& result, bool hard) {
+    EXPECT_NEAR(result.end_state.velocity[0].y() / v, 5.0 / 7, hard ? 1e-12 : 1e-3);
+    EXPECT_NEAR(result.end_state.spin[0].x() * radius / v, -5.0 / 7, hard ? 1e-12 : 1e-2);
+  });
+}
+
+TEST(Ball, MeetsTheSideWallThatTheArcBringsItWhenTheFormulaSays) {
+  // Seen from the box the ball at rest accelerates by -(6/5)(v^2 + x a)/l = -(3/5) (x^2)''/l.
+  const double l = 0.59, start = 0.1075, room = 0.008;
+  shakedown::Setup setup = large_box(0.25);
+  setup.release.displacement = start;
+  setup.run.sample_rate = 20000;
+  add_effect(setup, "blade_arc", {{"blade_length", l}});
+  const PlacedGrain ball{{start, 0, 0.25 - radius - room}, {0, 0, 0}};
+  const double meets = std::acos(std::sqrt(1 - room * l / 0.6 / (start * start))) / w0;
+  in_every_engine(setup, ball, 1e-9, [&](const Trajectory& result, bool hard) {
+    ASSERT_EQ(result.collisions[2], 1);
+    std::size_t k = 0;
+    while (result.loss[2][k] == 0) ++k;
+    EXPECT_NEAR(result.time[k], meets, 1e-4);
+    const double wall = 0.6 / l * start * start * w0 * std::sin(2 * w0 * meets);  // speed of the box across
+    EXPECT_NEAR(result.ledger.contact_loss[2] / (mass / 2 * wall * wall), 1 - 0.76 * 0.76, hard ? 1e-12 : 1e-2);
+  });
+  setup.run.duration = 0.9 * meets;
+  in_every_engine(setup, ball, 1e-9, [&](const Trajectory& result, bool hard) {
+    const double x = result.end_state.x_box, u = result.end_state.v_box;
+    EXPECT_NEAR(result.end_state.position[0].z(), 0.25 - radius - room + 0.6 / l * (start * start - x * x), hard ? 1e-14 : 2e-6);
+    EXPECT_NEAR(result.end_state.velocity[0].z(), -1.2 / l * x * u, 1e-12);
+  });
+}
