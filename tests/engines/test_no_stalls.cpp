@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Event-driven engines stall where grains are pressed together: infinitely many impacts in a finite time, or a bed at rest that hops for
+// ever. Strong settings of every effect that presses, 32 seeds each through the whole 22 s, with a bound on the impacts of a run.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <ctime>
+
+#include "setups.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+struct Strong {
+  std::string name, effect;
+  std::map<std::string, ParameterValue> values;
+};
+void PrintTo(const Strong& strong, std::ostream* out) { *out << strong.name; }
+
+constexpr double twentieth_of_g = 0.05 * 9.80665;
+
+std::vector<Strong> strong_settings() {
+  return {{"friction", "grain_friction", {{"grain_grain", 0.5}, {"grain_wall", 0.5}}},
+          {"cohesion", "grain_cohesion", {{"force", 0.05}, {"range", 1e-4}}},
+          {"clamp", "clamp_dry_friction", {{"force", 0.1}}},
+          {"gravity_along", "constant_acceleration", {{"acceleration", Vec3(-twentieth_of_g, 0, 0)}}},
+          {"gravity_across", "constant_acceleration", {{"acceleration", Vec3(0, 0, -twentieth_of_g)}}}};
+}
+
+class SlowStalls : public testing::TestWithParam<Strong> {
+ protected:
+  shakedown::Setup setup() const {
+    shakedown::Setup setup;
+    setup.run.duration = 22;
+    setup.run.sample_rate = 50;
+    add_effect(setup, GetParam().effect, GetParam().values);
+    return setup;
+  }
+};
+
+TEST_P(SlowStalls, NoneOf32Seeds) {
+  const auto engine = make_hard_engine();
+  double worst_time = 0;
+  std::int64_t most_events = 0, most_impacts = 0;
+  for (int run = 0; run < 32; ++run) {
+    SCOPED_TRACE(run);
+    RunOptions options;
+    options.run = run;
+    const std::clock_t start = std::clock();
+    const Trajectory result = engine->run(setup(), options);
+    worst_time = std::max(worst_time, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    most_events = std::max(most_events, result.events);
+    most_impacts = std::max(most_impacts, result.collisions[0] + result.collisions[1] + result.collisions[2]);
+    EXPECT_DOUBLE_EQ(result.end_time, 22);
+    EXPECT_LE(result.health.ledger_error, 1e-12);
+    EXPECT_LE(result.health.momentum_error, 1e-12);
+    EXPECT_LE(result.health.deepest_overlap, 1e-12);
+  }
+  std::printf("%s: at most %.3g impacts, %.3g events, %.2f CPU s a run\n", GetParam().name.c_str(), static_cast<double>(most_impacts),
+              static_cast<double>(most_events), worst_time);
+  EXPECT_LE(most_impacts, 2'000'000);
+  EXPECT_LE(worst_time, 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Strong, SlowStalls, testing::ValuesIn(strong_settings()), [](const auto& strong) { return strong.param.name; });
+
+}  // namespace
