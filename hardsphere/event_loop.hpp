@@ -108,7 +108,7 @@ class EventLoop {
   Ledger ledger_;
   std::array<double, contact_classes> ledger_rest_{};
   std::array<std::int64_t, contact_classes> collisions_{};
-  std::int64_t events_ = 0, refused_ = 0, elastic_walls_ = 0, elastic_pairs_ = 0, wells_ = 0;
+  std::int64_t events_ = 0, refused_ = 0, elastic_walls_ = 0, elastic_pairs_ = 0, wells_ = 0, wells_at_release_ = 0;
   double initial_energy_ = 0, initial_momentum_ = 0, outer_impulse_ = 0, virial_ = 0, worst_ledger_ = 0, worst_momentum_ = 0;
   double grain_mass_ = 0, accounted_ = 0;
   Vec3 grain_momentum_ = Vec3::Zero();  // in the falling frame

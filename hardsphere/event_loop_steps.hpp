@@ -87,6 +87,7 @@ EventLoop<Grains, Motion>::EventLoop(const State& state, const Physics& physics,
       }
   }
   wells_ += grains_.bonds();
+  wells_at_release_ = wells_;
   if (has_walls_) open_windows();
   initial_momentum_ = grain_momentum_.x() + (has_spring_ ? box_.mass() * box_.v() : 0);
   initial_energy_ = observe(0).total_energy;
@@ -339,7 +340,7 @@ Observation EventLoop<Grains, Motion>::observe(double t) {
     energy += 0.2 * m * r * r * spin_[i].squaredNorm();
   }
   energy += grains.kinetic;
-  if (has_spring_) energy += box_.stiffness() * box.x * box.x / 2 + box_.mass() * box.v * box.v / 2;
+  if (has_spring_) energy += box_.spring_energy(box.x) + box_.mass() * box.v * box.v / 2;
   const Observation seen{t, box.x, box.v, grains_.size() > 0 ? grains.moment / grains.mass : std::nan(""), energy};
   if (initial_energy_ > 0)
     worst_ledger_ = std::max(worst_ledger_, std::abs(energy + ledger().total_loss() - initial_energy_) / initial_energy_);
@@ -390,6 +391,9 @@ Health EventLoop<Grains, Motion>::health() const {
   health.elastic_rescues = elastic_walls_ + elastic_pairs_;
   health.elastic_pair_rescues = elastic_pairs_;
   health.refused_events = refused_;
+  if (wells_at_release_ > 0)
+    health.notes.push_back(std::to_string(wells_at_release_) + " contacts begin within the range of grain_cohesion: grains at rest in a square "
+                           "well hold any steady pull; take a range below the gaps at release, or --engine soft");
   return health;
 }
 

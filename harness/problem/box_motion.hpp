@@ -46,6 +46,7 @@ class BoxMotion {
   double energy() const { return stiffness_ * x_ * x_ / 2 + mass_ * v_ * v_ / 2; }
   double mass() const { return mass_; }
   double stiffness() const { return stiffness_; }
+  double spring_energy(double x) const { return stiffness_ * x * x / 2; }  ///< J
   double angular_frequency() const { return angular_frequency_; }
   double amplitude() const { return amplitude_; }                              ///< m, of the present arc
   double top_speed() const { return amplitude_ * angular_frequency_; }         ///< m/s

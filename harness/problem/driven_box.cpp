@@ -65,7 +65,6 @@ DrivenBox::DrivenBox(const Physics& physics, double x, double v, double time)
       stiffness_(physics.stiffness),
       angular_frequency_(std::sqrt(physics.stiffness / physics.box_mass)),
       cubic_(physics.spring_cubic),
-      cubic_effect_(physics.spring_cubic_effect),
       forces_(physics.box),
       accounted_(time) {
   const double damping = forces_.viscous / (2 * mass_), w2 = angular_frequency_ * angular_frequency_;
@@ -81,7 +80,7 @@ DrivenBox::DrivenBox(const Physics& physics, double x, double v, double time)
   const auto grow = [this](int effect) {
     if (effect >= static_cast<int>(work_.size())) work_.resize(static_cast<std::size_t>(effect) + 1, 0.0);
   };
-  for (const int effect : {forces_.viscous_effect, forces_.dry_friction_effect, forces_.constant_effect, cubic_effect_}) grow(effect);
+  for (const int effect : {forces_.viscous_effect, forces_.dry_friction_effect, forces_.constant_effect}) grow(effect);
   for (const Harmonic& harmonic : forces_.harmonics) grow(harmonic.effect);
   for (const FreeForce& force : forces_.free) grow(force.effect);
   restart(time, x, v);
@@ -97,7 +96,9 @@ void DrivenBox::restart(double t, double x, double v) {
 void DrivenBox::go_on() {
   const Point point = at(valid_until_);
   account(valid_until_);
-  const bool turning = forces_.dry_friction > 0 && std::abs(point.v) <= 1e-12 * (top_speed() + 1e-6);
+  // A standstill sooner than a time can resolve is now: else the piece would begin anew for ever.
+  const double least = std::max(1e-12 * (top_speed() + 1e-6), 5e-16 * valid_until_ * top_acceleration_);
+  const bool turning = forces_.dry_friction > 0 && std::abs(point.v) <= least;
   restart(valid_until_, point.x, turning ? 0.0 : point.v);
 }
 
@@ -116,7 +117,7 @@ void DrivenBox::begin() {
   double friction = 0;
   if (forces_.dry_friction > 0) {
     const double pull = smooth_force(x_, v_, time_);
-    if (v_ == 0 && std::abs(pull) <= forces_.dry_friction) return begin_stuck();
+    if (v_ == 0 && std::abs(pull) <= forces_.dry_friction * (1 + 1e-13)) return begin_stuck();
     friction = -forces_.dry_friction * sign_of(v_ != 0 ? v_ : pull);
   }
   if (needs_dense_) begin_dense(friction);
@@ -278,7 +279,7 @@ void DrivenBox::account(double t) {
         if (effect >= 0) work_[static_cast<std::size_t>(effect)] += weight * force * p.v;
       };
       add(-stiffness_ * p.x, -1);
-      if (cubic_ != 0) add(-stiffness_ * cubic_ * p.x * p.x * p.x, cubic_effect_);
+      if (cubic_ != 0) add(-stiffness_ * cubic_ * p.x * p.x * p.x, -1);  // stored, like the linear spring's
       if (forces_.viscous != 0) add(-forces_.viscous * p.v, forces_.viscous_effect);
       if (forces_.constant != 0) add(forces_.constant, forces_.constant_effect);
       for (const Harmonic& harmonic : forces_.harmonics)

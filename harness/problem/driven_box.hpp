@@ -34,6 +34,7 @@ class DrivenBox {
   double angular_frequency() const { return angular_frequency_; }
   double mass() const { return mass_; }
   double stiffness() const { return stiffness_; }
+  double spring_energy(double x) const { return stiffness_ * x * x * (0.5 + 0.25 * cubic_ * x * x); }  ///< J
   double x() const { return x_; }
   double v() const { return v_; }
   double time() const { return time_; }
@@ -60,7 +61,6 @@ class DrivenBox {
   double acceleration_at(double t) const;
 
   double mass_, stiffness_, angular_frequency_, cubic_;
-  int cubic_effect_;
   BoxForces forces_;
   bool needs_dense_;
 

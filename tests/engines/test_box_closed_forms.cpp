@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 
+#include "driven_box.hpp"
 #include "setups.hpp"
 
 using namespace shakedown;
@@ -124,6 +125,8 @@ TEST(EmptyBox, CubicSpringHasThePeriodOfDuffing) {
     in_every_engine(setup, dense, [&](const Trajectory& result) {
       constexpr std::array<double, 4> quarter{start, 0, -start, 0};
       for (std::size_t n = 0; n < result.time.size(); ++n) EXPECT_NEAR(result.x_box[n], quarter[n % 4], 1e-11) << b;
+      EXPECT_NEAR(result.initial_energy / (stiffness * start * start / 2 * (1 + b / 2)), 1, 1e-14);
+      EXPECT_EQ(result.ledger.effect_loss[0], 0);
     });
   }
 }
@@ -176,4 +179,19 @@ TEST(EmptyBox, FollowsAFormula) {
   const double w = std::sqrt(w0 * w0 + 5 / mass);
   expect_motion(empty_box("user_force", {{"force", std::string("-k*x")}, {"constants", std::map<std::string, double>{{"k", 5.0}}}}, 8), dense,
                 [&](double t) { return start * std::cos(w * t); }, 2e-12);
+}
+
+TEST(EmptyBox, ComesToRestAlsoWhereTimesCannotResolveWhen) {
+  shakedown::Setup setup;
+  add_effect(setup, "clamp_dry_friction", {{"force", 0.02}});
+  for (const double v : {3.3e-17, -3.3e-17, 1e-15, 1e-13}) {
+    DrivenBox box(physics_of(setup), 3.4533526531033837e-06, v, 8.0745202870759023);
+    int pieces = 0;
+    while (std::isfinite(box.valid_until()) && pieces < 10) {
+      box.go_on();
+      ++pieces;
+    }
+    EXPECT_LT(pieces, 3) << v;
+    EXPECT_EQ(box.v(), 0) << v;
+  }
 }

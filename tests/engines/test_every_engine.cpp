@@ -136,8 +136,8 @@ TEST_P(EveryEngine, SamplesAtTheAskedRate) {
 TEST_P(EveryEngine, EndsInTheStateThatItSampledLast) {
   const Trajectory result = engine->run(short_damper(0.3));
   ASSERT_EQ(result.end_state.size(), 37u);
-  EXPECT_EQ(result.end_state.x_box, result.x_box.back());
-  EXPECT_EQ(result.end_state.v_box, result.v_box.back());
+  EXPECT_DOUBLE_EQ(result.end_state.x_box, result.x_box.back());
+  EXPECT_DOUBLE_EQ(result.end_state.v_box, result.v_box.back());
   EXPECT_NEAR(centre_of_mass_x(result.end_state), result.x_com.back(), 1e-15);
 }
 
