@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "decay.hpp"
 #include "setup_file.hpp"
 
 namespace shakedown {
@@ -21,7 +22,9 @@ Interval interval_around(const Statistic& found) {
 DecayCheck linearity(const DecayMeasurement& measured) {
   const double ratio = measured.rms_ratio.mean;
   return {measured.engine, measured.length, "linearity", ratio < largest_rms_ratio, ratio,
-          Interval{0, largest_rms_ratio}, "rms about a straight line / rms about an exponential"};
+          Interval{0, largest_rms_ratio},
+          fmt::format("rms about a straight line / rms about an exponential, first {} peaks ({:.3f} down to 10 mm)", regime_peaks,
+                      measured.whole_rms_ratio.mean)};
 }
 
 DecayCheck against(const DecayMeasurement& measured, const char* name, const Statistic& found,
@@ -82,9 +85,15 @@ DecayMeasurement measure_decay(const Engine& engine, double length, std::uint64_
     return ensemble.over_runs([&](const RunResult& run) { return of_decay(run.observables.decay); });
   };
   return {std::string(engine.name()), length, seed,
-          over([](const Decay& decay) { return decay.linear.rms / decay.exponential.rms; }),
+          ensemble.over_runs([](const RunResult& run) {
+            std::vector<Peak> peaks = peaks_of_the_decay(run.observables.peaks);
+            if (peaks.size() > regime_peaks) peaks.resize(regime_peaks);
+            const Decay decay = decay_of(peaks);
+            return decay.linear.rms / decay.exponential.rms;
+          }),
           over([](const Decay& decay) { return decay.linear.slope; }),
-          over([](const Decay& decay) { return decay.curvature; })};
+          over([](const Decay& decay) { return decay.curvature; }),
+          over([](const Decay& decay) { return decay.linear.rms / decay.exponential.rms; })};
 }
 
 std::string readable(const DecayCheck& check) {

@@ -10,17 +10,21 @@
 
 namespace shakedown {
 
-/// rms about the straight line over rms about the exponential must stay below this.
+/// rms about the straight line over rms about the exponential must stay below this, over the first eight peaks: the regime in
+/// which the layer is collected and collides once a half period, as physics.md 5 lists it. Down to 10 mm the decay bends more (0.41 at
+/// 65 mm, where |peak| falls more slowly at the end): reported beside it, not required.
 constexpr double largest_rms_ratio = 0.35;
+constexpr std::size_t regime_peaks = 8;
 
 /// What an engine makes of the damper with one length of the box.
 struct DecayMeasurement {
   std::string engine;
   double length = 0;              ///< m
   std::uint64_t seed = 0;
-  Statistic rms_ratio;            ///< of each run, rms(linear) / rms(exponential)
+  Statistic rms_ratio;            ///< of each run, rms(linear) / rms(exponential), first `regime_peaks` peaks
   Statistic slope;                ///< m/s
   Statistic curvature;            ///< m/s^2, 2c of a + b t + c t^2
+  Statistic whole_rms_ratio;      ///< the same ratio over all peaks above 10 mm before 8 s
 };
 
 struct Interval {

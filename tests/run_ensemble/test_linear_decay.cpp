@@ -13,7 +13,7 @@ using namespace shakedown;
 namespace {
 
 DecayMeasurement measurement(double slope, double curvature) {
-  return {"hard", 0.065, 1, {0.2, 0.02, 16}, {slope, 1e-4, 16}, {curvature, 2e-4, 16}};
+  return {"hard", 0.065, 1, {0.2, 0.02, 16}, {slope, 1e-4, 16}, {curvature, 2e-4, 16}, {0.3, 0.02, 16}};
 }
 
 std::filesystem::path fresh_file(const std::string& name) {
