@@ -12,6 +12,7 @@
 
 #include "box_motion.hpp"
 #include "end_walls.hpp"
+#include "event_log.hpp"
 #include "grain_event.hpp"
 #include "hard_sphere_system.hpp"
 #include "impact.hpp"
@@ -23,6 +24,8 @@ template <class Grains, class Motion>
 class EventLoop {
  public:
   static constexpr bool driven = std::is_same_v<Motion, DrivenBox>;
+  /// Events come from a log: nothing is predicted, so nobody needs news.
+  static constexpr bool scripted = requires { Grains::scripted; };
 
   EventLoop(const State& state, const Physics& physics, const Setup& setup, Grains grains);
 
@@ -30,6 +33,15 @@ class EventLoop {
   bool advance_to(double t, const std::atomic<bool>* stop = nullptr);
   /// Executes n more impacts (of any class).
   void advance_impacts(std::int64_t n);
+
+  /// Every event from now on is written down there; the writer must outlive the loop.
+  void write_events_to(EventWriter* writer) { writer_ = writer; }
+  /// Executes an event of a log (scripted loops only).
+  void execute(const LoggedEvent& event);
+  /// Moves the clock on; no event of the log may lie before.
+  void wait_until(double t) { now_ = t; }
+  /// Of everything that the motion goes on from.
+  std::uint64_t digest() const;
 
   double time() const { return now_; }
   Observation observe(double t);
@@ -49,8 +61,13 @@ class EventLoop {
   double next_event_time();
   void grain_event(int i);
   void wall_event(int axis, EndWalls& walls, const EndWalls::Next& next);
+  void meet_wall(int axis, EndWalls& walls, const EndWalls::Next& next);
   void after(int i);
   void check_progress();
+  void write_down(EventKind kind, int grain = 0, int partner = 0, int side = 1, Meeting meeting = Meeting::touch) {
+    if (writer_ != nullptr) [[unlikely]]
+      if (writer_->add({now_, kind, grain, partner, side, meeting})) writer_->add_digest(digest());
+  }
 
   // Impacts.
   void pair_impact(int i, int j);
@@ -78,6 +95,7 @@ class EventLoop {
 
   // Effects between impacts.
   void kick_grains();
+  void go_on();
   double air_speed_left(double speed, double mass, double h) const;
   void account(double t);
 
@@ -114,9 +132,11 @@ class EventLoop {
   Vec3 grain_momentum_ = Vec3::Zero();  // in the falling frame
   std::int64_t events_at_check_ = 0;
   double time_at_check_ = 0;
+  EventWriter* writer_ = nullptr;
 };
 
 }  // namespace shakedown
 
 #include "event_loop_impacts.hpp"
+#include "event_loop_script.hpp"
 #include "event_loop_steps.hpp"

@@ -34,7 +34,7 @@ void EventLoop<Grains, Motion>::refuse(int i, Flight3 flight, EndWalls* walls) {
   grains_.move_to(i, flight);
   grains_.predict(i);
   after(i);
-  if (walls) walls->put_off(i, now_ + 1e-9);
+  if (walls && !scripted) walls->put_off(i, now_ + 1e-9);
 }
 
 /// Inelastic impact of two spheres: normal impulse mu (1 + eps) times the closing speed along the line of centres.

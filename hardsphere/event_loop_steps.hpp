@@ -38,6 +38,15 @@ inline ElasticLimits elastic_limits(const Setup& setup, const Physics& physics) 
   return limits;
 }
 
+/// Whether anything acts besides linear spring and constant restitution: what costs only those who use it.
+inline bool is_driven(const Physics& physics) {
+  const BoxForces& box = physics.box;
+  const GrainForces& grains = physics.grains;
+  return physics.contact.has_friction() || physics.contact.has_attraction() || physics.spring_cubic != 0 || box.viscous != 0 ||
+         box.dry_friction != 0 || box.constant != 0 || !box.harmonics.empty() || !box.free.empty() || !grains.constant.isZero() ||
+         !grains.harmonics.empty() || grains.linear_drag != 0 || grains.quadratic_drag != 0 || !grains.free.empty() || grains.arc_length != 0;
+}
+
 template <class Motion>
 Motion make_box(const Physics& physics, const State& state) {
   if constexpr (std::is_same_v<Motion, DrivenBox>) return DrivenBox(physics, state.x_box, state.v_box);
@@ -122,6 +131,7 @@ void EventLoop<Grains, Motion>::open_windows() {
 /// Renews every bound after a kick of the box (jump != 0) or when its motion goes on with another piece.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::renew_walls(double jump) {
+  if (scripted) return;
   end_walls_.kicked(end_walls_now(), jump);
   if constexpr (driven)
     if (arc_curvature_ != 0) {
@@ -183,10 +193,12 @@ void EventLoop<Grains, Motion>::step(double limit) {
       const double driven_event = std::min(box_.valid_until(), next_kick_);
       if (driven_event <= std::min(earliest, window_end)) {
         now_ = std::max(now_, driven_event);
-        if (next_kick_ <= driven_event) return kick_grains();
-        box_.go_on();
-        box_time_ = -1;
-        return renew_walls(0);
+        if (next_kick_ <= driven_event) {
+          kick_grains();
+          return write_down(EventKind::grain_kick);
+        }
+        go_on();
+        return write_down(EventKind::next_piece);
       }
       limit = std::min(limit, driven_event);
     }
@@ -209,23 +221,46 @@ void EventLoop<Grains, Motion>::step(double limit) {
 }
 
 template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::go_on() {
+  if constexpr (driven) {
+    box_.go_on();
+    box_time_ = -1;
+    renew_walls(0);
+  }
+}
+
+template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::grain_event(int i) {
   const GrainEvent event = grains_.event(i);
   if (event.partner >= 0 && !grains_.is_stale(event)) {
     if constexpr (driven)
-      if (event.meeting != Meeting::touch) return pair_well(i, event.partner, event.meeting);
-    return pair_impact(i, event.partner);
+      if (event.meeting != Meeting::touch) {
+        pair_well(i, event.partner, event.meeting);
+        return write_down(EventKind::pair, i, event.partner, 1, event.meeting);
+      }
+    pair_impact(i, event.partner);
+    return write_down(EventKind::pair, i, event.partner);
   }
-  if (is_side_wall(event.partner)) return fixed_side_impact(i, event.partner);
+  if (is_side_wall(event.partner)) {
+    fixed_side_impact(i, event.partner);
+    return write_down(EventKind::wall, i, side_wall_axis(event.partner), side_wall_sign(event.partner));
+  }
   Flight3 flight = grains_.flight(i);  // the partner has been deflected, or the grain leaves its neighbourhood
   flight.advance(now_);
   grains_.move_to(i, flight);
   if (event.partner == leaves_neighbourhood) grains_.leave_neighbourhood(i);
   grains_.predict(i);
+  write_down(EventKind::new_anchor, i);
 }
 
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::wall_event(int axis, EndWalls& walls, const EndWalls::Next& next) {
+  meet_wall(axis, walls, next);
+  write_down(EventKind::wall, next.grain, axis, next.side, next.meeting);
+}
+
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::meet_wall(int axis, EndWalls& walls, const EndWalls::Next& next) {
   if constexpr (driven)
     if (next.meeting != Meeting::touch) return wall_well(next.grain, axis, next.side, next.meeting, walls);
   if (axis == 0) end_impact(next.grain, next.side);
@@ -235,7 +270,7 @@ void EventLoop<Grains, Motion>::wall_event(int axis, EndWalls& walls, const EndW
 /// Tells the walls of a grain's new flight.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::after(int i) {
-  if (!has_walls_) return;
+  if (scripted || !has_walls_) return;
   const Flight3 flight = grains_.flight(i);
   end_walls_.grain_changed(i, {flight.x[0], flight.v[0], flight.time}, end_walls_now());
   if constexpr (driven)

@@ -19,7 +19,10 @@ class HardEngine final : public Engine {
   Trajectory run(const Setup& setup, const RunOptions& options) const override {
     refuse_what_is_not_modelled(*this, setup);
     const auto start = std::chrono::steady_clock::now();
-    HardSphereSystem system(setup, options.run);
+    State initial = initial_state(setup, options.run);
+    HardSphereSystem system(setup, initial);
+    const bool logging = options.log_collisions && setup.domain != Domain::periodic;
+    if (logging) system.log_collisions(std::move(initial));
     Trajectory trajectory;
     trajectory.engine = "hard";
     trajectory.initial_energy = system.initial_energy();
@@ -47,6 +50,8 @@ class HardEngine final : public Engine {
     trajectory.collisions = system.collisions();
     trajectory.events = system.events();
     trajectory.health = system.health();
+    if (logging)
+      trajectory.collision_log = std::make_shared<const CollisionLog>(system.collision_log());
     trajectory.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return trajectory;
   }

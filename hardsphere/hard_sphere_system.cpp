@@ -16,6 +16,7 @@ using Loop = std::variant<EventLoop<AllPairs, BoxMotion>, EventLoop<CellLists<fa
 struct HardSphereSystem::Inside {
   Loop loop;
   double momentum_scale;  // M Omega Delta0
+  std::unique_ptr<EventWriter> writer;
 };
 
 namespace {
@@ -29,15 +30,6 @@ double grain_volume(const State& state) {
   double volume = 0;
   for (const double radius : state.radius) volume += 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
   return volume;
-}
-
-/// Whether anything acts besides linear spring and constant restitution: what costs only those who use it.
-bool is_driven(const Physics& physics) {
-  const BoxForces& box = physics.box;
-  const GrainForces& grains = physics.grains;
-  return physics.contact.has_friction() || physics.contact.has_attraction() || physics.spring_cubic != 0 || box.viscous != 0 ||
-         box.dry_friction != 0 || box.constant != 0 || !box.harmonics.empty() || !box.free.empty() || !grains.constant.isZero() ||
-         !grains.harmonics.empty() || grains.linear_drag != 0 || grains.quadratic_drag != 0 || !grains.free.empty() || grains.arc_length != 0;
 }
 
 Loop loop_for(const Setup& setup, const Physics& physics, const State& state) {
@@ -74,7 +66,7 @@ HardSphereSystem::HardSphereSystem(const Setup& setup, int run) : HardSphereSyst
 HardSphereSystem::HardSphereSystem(const Setup& setup, const State& state) {
   const double scale =
       setup.box.mass * 2 * std::numbers::pi * setup.spring.frequency * std::abs(setup.release.displacement);
-  inside_.reset(new Inside{loop_for(setup, physics_of(setup), state), scale});
+  inside_.reset(new Inside{loop_for(setup, physics_of(setup), state), scale, {}});
 }
 
 HardSphereSystem::~HardSphereSystem() = default;
@@ -86,6 +78,17 @@ HardSphereSystem::HardSphereSystem(HardSphereSystem&&) noexcept = default;
 bool HardSphereSystem::advance_to(double t, const std::atomic<bool>* stop) { return SHAKEDOWN_IN_LOOP(loop.advance_to(t, stop)); }
 void HardSphereSystem::advance_impacts(std::int64_t n) { SHAKEDOWN_IN_LOOP(loop.advance_impacts(n)); }
 double HardSphereSystem::time() const { return SHAKEDOWN_IN_LOOP(loop.time()); }
+void HardSphereSystem::log_collisions(State initial) {
+  EXPECT(time() == 0 && events() == 0);
+  const bool periodic = std::holds_alternative<EventLoop<CellLists<true>, BoxMotion>>(inside_->loop);
+  EXPECT(!periodic);
+  inside_->writer = std::make_unique<EventWriter>(std::move(initial));
+  SHAKEDOWN_IN_LOOP(loop.write_events_to(inside_->writer.get()));
+}
+CollisionLog HardSphereSystem::collision_log() const {
+  EXPECT(inside_->writer != nullptr);
+  return inside_->writer->finished(time(), SHAKEDOWN_IN_LOOP(loop.digest()));
+}
 Observation HardSphereSystem::observe() { return SHAKEDOWN_IN_LOOP(loop.observe(loop.time())); }
 State HardSphereSystem::state() const { return SHAKEDOWN_IN_LOOP(loop.state(loop.time())); }
 Ledger HardSphereSystem::ledger() const { return SHAKEDOWN_IN_LOOP(loop.ledger()); }

@@ -28,6 +28,11 @@ class HardSphereSystem {
   /// Executes n more impacts of any class.
   void advance_impacts(std::int64_t n);
 
+  /// Writes down every event; to be called before the first, with the state that this was made from. Not for periodic cells.
+  void log_collisions(State initial);
+  /// What was written until now.
+  CollisionLog collision_log() const;
+
   double time() const;
   Observation observe();
   State state() const;

@@ -26,7 +26,7 @@ struct RunArguments {
   JsonOutput json;
   std::string engine = "hard", folder;
   int runs = 1, threads = 0;
-  bool every_series = false;
+  bool every_series = false, log = false;
 };
 
 Provenance provenance_of(const RunArguments& arguments, const Setup& setup) {
@@ -49,6 +49,7 @@ Ensemble ensemble_of(const RunArguments& arguments, const Engine& engine, const 
   options.threads = arguments.threads;
   options.progress = [&](double fraction) { display.show(fraction); };
   options.stop = stop;
+  options.log_collisions = arguments.log;
   if (results)
     options.each = [&](int run, const Trajectory& trajectory, const Observables& observables) {
       results->add(run, trajectory, observables);
@@ -56,13 +57,25 @@ Ensemble ensemble_of(const RunArguments& arguments, const Engine& engine, const 
   return run_ensemble(engine, setup, options);
 }
 
+void refuse_log_where_there_is_none(const RunArguments& arguments, const Setup& setup) {
+  std::vector<Violation> found;
+  if (!arguments.log) return;
+  if (arguments.folder.empty()) found.push_back({{}, "--log", "has nowhere to be written", "add --out DIR"});
+  if (arguments.engine != "hard")
+    found.push_back({{}, "--log", "the engine " + arguments.engine + " has contacts that last, not collisions", "take --engine hard"});
+  if (setup.domain == Domain::periodic) found.push_back({{}, "--log", "a periodic cell has no log", "take domain.kind = \"damper\" or \"closed\""});
+  if (!found.empty()) throw InputError(std::move(found));
+}
+
 int run(const RunArguments& arguments) {
   const Setup setup = arguments.setup.read();
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
   refuse_what_is_not_modelled(*engine, setup);
+  refuse_log_where_there_is_none(arguments, setup);
   arguments.json.check();
   std::optional<RunResults> results;
   if (!arguments.folder.empty()) results.emplace(OutputFolder(arguments.folder), arguments.every_series);
+  if (results && arguments.log) results->keep_collisions_of(setup);
   const Provenance provenance = provenance_of(arguments, setup);
 
   const Ensemble ensemble = ensemble_of(arguments, *engine, setup, results);
@@ -104,6 +117,8 @@ Command add_run_command(CLI::App& program) {
       ->capture_default_str();
   command.add_flag("--every-series", arguments->every_series,
                    "with --out: the series of every run, not only of the first");
+  command.add_flag("--log", arguments->log,
+                   "with --out: the collision log, from which `shakedown export` and reports rebuild the motion at any time");
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return run(*arguments); }};
 }

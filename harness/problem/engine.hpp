@@ -16,6 +16,7 @@ struct RunOptions {
   std::function<void(double time)> progress;
   /// Set to true (by a signal handler, say) to stop early; the trajectory then holds what was done.
   const std::atomic<bool>* stop = nullptr;
+  bool log_collisions = false;  ///< keep Trajectory::collision_log (event-driven engines; others ignore it)
 };
 
 /// The one interface behind which models of the damper compete.

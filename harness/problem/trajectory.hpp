@@ -3,10 +3,11 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "initial_state.hpp"
+#include "collision_log.hpp"
 
 namespace shakedown {
 
@@ -47,6 +48,7 @@ struct Trajectory {
   bool interrupted = false;
   State end_state;           ///< of box and grains where the engine stopped
   Health health;
+  std::shared_ptr<const CollisionLog> collision_log;  ///< where it was asked for and the engine has collisions; else empty
 };
 
 }  // namespace shakedown

@@ -42,6 +42,7 @@ void drop_samples(Trajectory& trajectory) {
        {&trajectory.time, &trajectory.x_box, &trajectory.v_box, &trajectory.x_com, &trajectory.total_energy,
         &trajectory.loss[0], &trajectory.loss[1], &trajectory.loss[2]})
     *samples = {};
+  trajectory.collision_log.reset();
 }
 
 }  // namespace
@@ -66,7 +67,7 @@ Ensemble run_ensemble(const Engine& engine, const Setup& setup, const EnsembleOp
     auto result = std::make_shared<RunResult>();
     result->run = options.first_run + index;
     try {
-      result->trajectory = engine.run(setup, {result->run, progress.of_run(index), options.stop});
+      result->trajectory = engine.run(setup, {result->run, progress.of_run(index), options.stop, options.log_collisions});
     } catch (const Interrupted&) {
       return {};
     }

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "collision_log_file.hpp"
 #include "setup_file.hpp"
 #include "summary_file.hpp"
 
@@ -55,8 +56,15 @@ void RunResults::add(int run, const Trajectory& trajectory, const Observables& o
   if (every_series_)
     folder_.write(std::filesystem::path("series") / fmt::format("run_{:04}.csv", run),
                   series_csv(trajectory));
+  if (logged_ && trajectory.collision_log) write_collisions(run, *trajectory.collision_log);
   mean_.add(trajectory);
   lines_ += line_of(run, trajectory, observables);
+}
+
+void RunResults::write_collisions(int run, const CollisionLog& log) const {
+  const std::string bytes = collision_log_bytes({version_line(), *logged_, run, log});
+  if (runs_ == 1) folder_.write(collision_log_name, bytes);
+  if (every_series_) folder_.write(std::filesystem::path("collisions") / fmt::format("run_{:04}.log", run), bytes);
 }
 
 void RunResults::finish(const Ensemble& ensemble, const Setup& setup, const Provenance& provenance) {

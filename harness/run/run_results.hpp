@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A folder of results, filled while the runs go on.
 #pragma once
+#include <optional>
+
 #include "ensemble.hpp"
 #include "output_file.hpp"
 #include "provenance.hpp"
@@ -18,6 +20,9 @@ class RunResults {
   /// Throws FileError when the folder cannot be written to.
   RunResults(OutputFolder folder, bool every_series);
 
+  /// Writes collision logs too: collisions.log of the first run and, with the series of every run, collisions/run_NNNN.log.
+  void keep_collisions_of(const Setup& setup) { logged_ = setup; }
+
   /// Hand it to EnsembleOptions::each.
   void add(int run, const Trajectory& trajectory, const Observables& observables);
 
@@ -27,7 +32,10 @@ class RunResults {
   const OutputFolder& folder() const { return folder_; }
 
  private:
+  void write_collisions(int run, const CollisionLog& log) const;
+
   OutputFolder folder_;
+  std::optional<Setup> logged_;
   bool every_series_;
   int runs_ = 0;
   MeanSeries mean_;

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <vector>
+
+#include "grain_event.hpp"
+#include "initial_state.hpp"
+
+namespace shakedown {
+
+/// Grains whose events are known from a log: they fly, and predict nothing.
+class ScriptedGrains {
+ public:
+  static constexpr bool scripted = true;
+  struct Next {
+    double time;
+    int grain;
+  };
+
+  explicit ScriptedGrains(const State& state) : radius_(state.radius), mass_(state.mass) {
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      const Vec3 &x = state.position[i], &v = state.velocity[i];
+      flight_.push_back({{x.x(), x.y(), x.z()}, {v.x(), v.y(), v.z()}, 0});
+    }
+  }
+
+  int size() const { return static_cast<int>(flight_.size()); }
+  const Flight3& flight(int i) const { return flight_[static_cast<std::size_t>(i)]; }
+  void set_flight(int i, const Flight3& flight) { flight_[static_cast<std::size_t>(i)] = flight; }
+  void move_to(int i, const Flight3& flight) { set_flight(i, flight); }
+  double radius(int i) const { return radius_[static_cast<std::size_t>(i)]; }
+  double mass(int i) const { return mass_[static_cast<std::size_t>(i)]; }
+  std::array<double, 3> separation(const Flight3& a, const Flight3& b) const { return {b.x[0] - a.x[0], b.x[1] - a.x[1], b.x[2] - a.x[2]}; }
+  GrainSums sums(double) const { return {}; }
+
+  void set_bond(int, int, bool) {}
+  int bonds() const { return 0; }
+  void predict(int) {}
+  void predict(int, int) {}
+  void predict_all() {}
+  void forget_side_walls() {}
+  double deepest_overlap() const { return 0; }
+  double bytes_per_grain() const { return sizeof(Flight3) + 2 * sizeof(double); }
+
+ private:
+  std::vector<Flight3> flight_;
+  std::vector<double> radius_, mass_;
+};
+
+}  // namespace shakedown
