@@ -30,6 +30,7 @@ Command add_run_command(CLI::App& program);
 Command add_theory_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
 Command add_diagnose_command(CLI::App& program);
+Command add_hide_command(CLI::App& program);
 Command add_effects_command(CLI::App& program);
 Command add_import_command(CLI::App& program);
 Command add_schema_command(CLI::App& program);

@@ -10,6 +10,7 @@ std::vector<Command> add_commands(CLI::App& program) {
       add_import_command(program),
       add_compare_command(program),
       add_diagnose_command(program),
+      add_hide_command(program),
       add_effects_command(program),
       add_schema_command(program),
       add_crosscheck_command(program),

@@ -33,7 +33,8 @@ std::map<std::string, Folder> folders() {
   const std::set<std::string> run = with(laws, with(engines, {"harness/observe"}));
   const std::set<std::string> compare = with(run, {"harness/run", "harness/measure"});
   const std::set<std::string> diagnose = with(compare, {"harness/compare"});
-  const std::set<std::string> report = with(diagnose, {"harness/diagnose", "harness/export"});
+  const std::set<std::string> laboratory = with(diagnose, {"harness/diagnose"});
+  const std::set<std::string> report = with(laboratory, {"harness/export"});
   const std::set<std::string> json{"nlohmann/", "fmt/", "toml++/"};
   return {
       {"harness/problem", {{}, {"toml++/", "Eigen/"}, {"Eigen/"}}},
@@ -45,9 +46,10 @@ std::map<std::string, Folder> folders() {
       {"harness/measure", {with(laws, {"harness/observe"}), with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/compare", {compare, with(json, {"nlopt", "Eigen/", "sqlite3"}), {"Eigen/"}}},
       {"harness/diagnose", {diagnose, with(json, {"Eigen/", "sqlite3", "nlopt", "muParser"}), {"Eigen/"}}},
+      {"harness/laboratory", {laboratory, json, {}}},
       {"harness/export", {diagnose, with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/report", {report, with(json, {"Eigen/"}), {"Eigen/"}}},
-      {"harness/cli", {with(report, {"harness/report"}), with(json, {"CLI/"}), {"CLI/"}}},
+      {"harness/cli", {with(report, {"harness/report", "harness/laboratory"}), with(json, {"CLI/"}), {"CLI/"}}},
   };
 }
 

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// shakedown hide: synthetic measurements with something hidden in them.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "command.hpp"
+#include "effects.hpp"
+#include "engines.hpp"
+#include "hidden_case.hpp"
+#include "interruption.hpp"
+#include "output_file.hpp"
+#include "progress_display.hpp"
+#include "toml_document.hpp"
+#include "value_reading.hpp"
+
+namespace shakedown {
+
+namespace {
+
+struct HideArguments {
+  std::string setup, out, truth, engine = "soft", lengths = "40mm,40mm,65mm,85mm,104mm", duration, title;
+  std::vector<std::string> effects, parameters, camera, runs;
+  std::uint64_t seed = 1;
+  int threads = 0;
+};
+
+/// Collects violations of several arguments, so that all are reported at once.
+template <class Read>
+void read_each(const std::vector<std::string>& texts, std::vector<Violation>& found, Read read) {
+  for (const std::string& text : texts) {
+    try {
+      read(text);
+    } catch (const InputError& error) {
+      found.insert(found.end(), error.violations.begin(), error.violations.end());
+    }
+  }
+}
+
+HiddenCase hidden_case(const HideArguments& arguments) {
+  std::vector<Override> common, truth;
+  std::vector<Violation> found;
+  if (!arguments.duration.empty()) common.push_back({"run.duration", arguments.duration, "--duration"});
+  read_each(arguments.effects, found, [&](const std::string& text) {
+    for (Override& override : overrides_of_effect(text)) truth.push_back(std::move(override));
+  });
+  read_each(arguments.parameters, found, [&](const std::string& text) { truth.push_back(parse_override(text)); });
+  if (!found.empty()) throw InputError(std::move(found));
+  truth.insert(truth.begin(), common.begin(), common.end());
+  return {read_setup(arguments.setup, all_effects(), common), read_setup(arguments.setup, all_effects(), truth)};
+}
+
+std::vector<PlannedRun> planned_runs(const HideArguments& arguments) {
+  std::vector<double> lengths;
+  std::vector<Violation> found;
+  if (!arguments.lengths.empty())
+    for (const std::string& text : split_at_commas(arguments.lengths)) {
+      TomlValue value;
+      value.kind = TomlValue::Kind::text;
+      value.text = text;
+      const ValueOrProblem<double> length = number_in(value, "mm");
+      if (const Problem* wrong = std::get_if<Problem>(&length)) found.push_back({{"--lengths", 0, 0}, "", wrong->problem, wrong->remedy});
+      else lengths.push_back(std::get<double>(length));
+    }
+  std::vector<PlannedRun> runs = runs_of_lengths(lengths);
+  int number = 0;
+  read_each(arguments.runs, found, [&](const std::string& text) {
+    PlannedRun run{fmt::format("run_{}", ++number), {}};
+    for (const std::string& part : split_at_commas(text)) run.overrides.push_back(parse_override(part, "--run"));
+    runs.push_back(std::move(run));
+  });
+  if (found.empty() && runs.empty()) found.push_back({{"--lengths", 0, 0}, "", "names no run", "give at least one length, or --run"});
+  if (!found.empty()) throw InputError(std::move(found));
+  return runs;
+}
+
+RecordingSettings recording_of(const HideArguments& arguments) {
+  std::vector<std::string> parts;
+  for (const std::string& text : arguments.camera)
+    for (std::string& part : split_at_commas(text)) parts.push_back(std::move(part));
+  return parse_recording(parts);
+}
+
+Experiment measured(const HideArguments& arguments, const HiddenCase& hidden, const RecordingSettings& recording) {
+  const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
+  ProgressDisplay display(fmt::format("{}: measuring with engine {}", arguments.setup, arguments.engine));
+  const Laboratory laboratory{engine.get(), all_effects(), arguments.seed, arguments.threads, catch_interruption(),
+                              [&](double fraction) { display.show(fraction); }};
+  Experiment experiment = make_measurements(hidden.truth, planned_runs(arguments), recording, laboratory);
+  experiment.title = arguments.title.empty() ? "granular damper, synthetic" : arguments.title;
+  return experiment;
+}
+
+int hide(const HideArguments& arguments) {
+  const HiddenCase hidden = hidden_case(arguments);
+  const RecordingSettings recording = recording_of(arguments);
+  const OutputFolder folder(arguments.out);
+  const std::filesystem::path truth = arguments.truth.empty() ? folder.path() / "truth.json" : std::filesystem::path(arguments.truth);
+  expect_writable(truth);
+  const Experiment experiment = measured(arguments, hidden, recording);
+  folder.write("setup.toml", "# What the user believes; box.length is replaced by each run's.\n" + write_setup(hidden.believed));
+  write_measurements(folder.path(), experiment);
+  write_file(truth, truth_json(hidden, recording, arguments.engine, arguments.seed));
+  fmt::print("{} runs in {}\nwhat is hidden: {} (do not look before the diagnosis is made)\n", experiment.runs.size(), folder.path().string(), truth.string());
+  fmt::print("shakedown diagnose {0}/setup.toml --data {0}/experiment.toml\n", folder.path().string());
+  return exit_done;
+}
+
+}  // namespace
+
+Command add_hide_command(CLI::App& program) {
+  CLI::App& command = *program.add_subcommand("hide", "make measurements in which an effect is hidden, to try a diagnosis on");
+  const auto a = std::make_shared<HideArguments>();
+  const auto many = [&](const char* name, std::vector<std::string>& values, const char* sentence, const char* type) {
+    command.add_option(name, values, sentence)->type_name(type)->allow_extra_args(false);
+  };
+  command.add_option("SETUP", a->setup, "setup file (TOML): what the user believes")->required()->type_name("");
+  many("--effect", a->effects, "hide this effect (at its typical strength when no parameter is given); may be repeated", "NAME[=k:v,...]");
+  many("--set", a->parameters, "what else is different in the laboratory, e.g. restitution.grain_grain=0.8; may be repeated", "KEY=VALUE");
+  command.add_option("--out", a->out, "folder for setup.toml, experiment.toml, the tables and truth.json")->type_name("DIR")->required();
+  command.add_option("--truth", a->truth, "put the answer there instead of DIR/truth.json")->type_name("FILE");
+  command.add_option("--lengths", a->lengths, "box length of each run; \"\" for none")->type_name("L,L,...")->capture_default_str();
+  many("--run", a->runs, "one more run with keys of its own, e.g. box.length=40mm,grains.count=0; may be repeated", "KEY=VALUE,...");
+  command.add_option("--engine", a->engine, "the laboratory's")->type_name("NAME")->capture_default_str();
+  many("--camera", a->camera, "noise.box, noise.centre (0.2 mm, 0.5 mm), fps (500), missing, outliers (0), jump (20 mm), centre=false", "KEY=VALUE,...");
+  command.add_option("--duration", a->duration, "of each run, e.g. \"20 s\"; default: the setup's")->type_name("TIME");
+  command.add_option("--title", a->title, "of the experiment");
+  command.add_option("--seed", a->seed, "of initial states and noise")->capture_default_str();
+  command.add_option("--threads", a->threads, "0: one for each core; the measurements do not depend on it")->capture_default_str();
+  return {&command, [a] { return hide(*a); }};
+}
+
+}  // namespace shakedown
