@@ -31,6 +31,8 @@ Command add_theory_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
 Command add_diagnose_command(CLI::App& program);
 Command add_hide_command(CLI::App& program);
+Command add_add_command(CLI::App& program);
+Command add_ladder_command(CLI::App& program);
 Command add_effects_command(CLI::App& program);
 Command add_import_command(CLI::App& program);
 Command add_schema_command(CLI::App& program);

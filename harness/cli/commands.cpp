@@ -10,6 +10,8 @@ std::vector<Command> add_commands(CLI::App& program) {
       add_import_command(program),
       add_compare_command(program),
       add_diagnose_command(program),
+      add_add_command(program),
+      add_ladder_command(program),
       add_hide_command(program),
       add_effects_command(program),
       add_schema_command(program),
