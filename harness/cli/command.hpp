@@ -33,6 +33,8 @@ Command add_diagnose_command(CLI::App& program);
 Command add_hide_command(CLI::App& program);
 Command add_add_command(CLI::App& program);
 Command add_ladder_command(CLI::App& program);
+Command add_export_command(CLI::App& program);
+Command add_report_command(CLI::App& program);
 Command add_effects_command(CLI::App& program);
 Command add_import_command(CLI::App& program);
 Command add_schema_command(CLI::App& program);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "compare_report.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
 #include "experiment_file.hpp"
@@ -14,6 +15,7 @@
 #include "momentum.hpp"
 #include "progress_display.hpp"
 #include "refit.hpp"
+#include "report_output.hpp"
 #include "setup_arguments.hpp"
 
 namespace shakedown {
@@ -23,6 +25,7 @@ namespace {
 struct CompareArguments {
   SetupArguments setup;
   JsonOutput json;
+  ReportOutput report;
   std::string data;
   int runs = 128, threads = 0;
 };
@@ -65,6 +68,7 @@ int compare(const CompareArguments& arguments) {
   const Setup setup = arguments.setup.read();
   const Experiment experiment = read_experiment(arguments.data);
   arguments.json.check();
+  arguments.report.check();
   const std::vector<Setup> setups = setups_of_runs(setup, experiment, all_effects());
   const Audit found = audit(experiment);
   const std::unique_ptr<Engine> engine = engine_named("hard");
@@ -82,6 +86,14 @@ int compare(const CompareArguments& arguments) {
   const MomentumAudit momentum = audit_momentum(experiment, found, setups);
   const bool holds = fit.p_value > 0.01 && (!momentum.possible || momentum.as_given.p_value > 0.01);
   fmt::print(arguments.json.for_people(), "{}", readable(fit, momentum, holds));
+  if (arguments.report.wanted("")) {
+    CurveOptions drawn;
+    drawn.threads = arguments.threads;
+    drawn.known = all_effects();
+    drawn.stop = catch_interruption();
+    const std::vector<MeasuredAgainstModel> curves = measured_against_model(experiment, found, nullptr, setup, *engine, drawn);
+    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(fit, momentum, holds, experiment, setup, curves), ""));
+  }
   arguments.json.write(json_of(fit, momentum, holds).dump(2) + "\n");
   return holds ? exit_done : exit_model_rejected;
 }
@@ -95,6 +107,7 @@ Command add_compare_command(CLI::App& program) {
   command.add_option("--data", arguments->data, "experiment file")->type_name("EXPERIMENT")->required();
   command.add_option("--runs", arguments->runs, "simulations of each different setup")->check(CLI::Range(16, 100000))->capture_default_str();
   command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->capture_default_str();
+  add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return compare(*arguments); }};
 }

@@ -8,11 +8,13 @@
 
 #include "command.hpp"
 #include "crosscheck_file.hpp"
+#include "crosscheck_report.hpp"
 #include "in_order.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
 #include "progress_display.hpp"
+#include "report_output.hpp"
 #include "setup_arguments.hpp"
 
 namespace shakedown {
@@ -23,6 +25,7 @@ struct CrosscheckArguments {
   std::vector<std::string> files, variations;
   SetupArguments changes;  ///< of every setup; its file is not used
   JsonOutput json;
+  ReportOutput report;
   std::string folder;
   CrosscheckOptions options;
   double slope_margin_mm_per_s = 0;
@@ -95,6 +98,7 @@ void write_folder(const OutputFolder& folder, const std::vector<Crosscheck>& fou
 int run(const CrosscheckArguments& arguments) {
   const std::vector<Case> cases = cases_of(arguments);
   arguments.json.check();
+  arguments.report.check();
   std::optional<OutputFolder> folder;
   if (!arguments.folder.empty()) folder.emplace(arguments.folder);
   CrosscheckOptions options = options_of(arguments);
@@ -118,6 +122,8 @@ int run(const CrosscheckArguments& arguments) {
                : cannot_tell ? "no difference beyond the margins, but not everything can be told: more runs"
                              : "the engines are equivalent within the margins");
   if (folder) fmt::print(arguments.json.for_people(), "results in {}\n", folder->path().string());
+  if (arguments.report.wanted(arguments.folder))
+    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(found, cases.back().setup), arguments.folder));
   arguments.json.write(crosscheck_json(found));
   return differ ? exit_model_rejected : exit_done;
 }
@@ -190,6 +196,7 @@ Command add_crosscheck_command(CLI::App& program) {
                    "the soft engine at contact times of 3, 1, 0.3 and 0.1 ms, extrapolated to 0");
   command.add_option("--out", arguments->folder, "write CSV and summary.json into this folder")
       ->type_name("DIR");
+  add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
   command.footer(
       "Exit code 1: an observable differs beyond its margin (its 95 % interval lies outside). \"Cannot tell\" "

@@ -13,6 +13,8 @@
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
+#include "diagnose_report.hpp"
+#include "report_output.hpp"
 #include "progress_display.hpp"
 #include "setup_arguments.hpp"
 #include "setup_file.hpp"
@@ -24,6 +26,7 @@ namespace {
 struct DiagnoseArguments {
   SetupArguments setup;
   JsonOutput json;
+  ReportOutput report;
   std::string data, out, effects;
   std::int64_t budget = 14000;
   int threads = 0;
@@ -58,6 +61,7 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   const Experiment experiment = read_experiment(arguments.data);
   const std::vector<std::string> effects = effect_names(arguments.effects);
   arguments.json.check();
+  arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
   if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
   const std::unique_ptr<Engine> engine = engine_named("hard");
@@ -78,6 +82,14 @@ int diagnose_data(const DiagnoseArguments& arguments) {
     folder->write("diagnosis.json", document);
     fmt::print(arguments.json.for_people(), "amended setup: {}\n", (folder->path() / "setup.toml").string());
   }
+  if (arguments.report.wanted(arguments.out)) {
+    CurveOptions drawn;
+    drawn.threads = arguments.threads;
+    drawn.known = all_effects();
+    drawn.stop = catch_interruption();
+    const std::vector<MeasuredAgainstModel> curves = measured_against_model(experiment, audit(experiment), &setup, diagnosis.amended, *engine, drawn);
+    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(diagnosis, experiment, setup, curves), arguments.out));
+  }
   arguments.json.write(document);
   return diagnosis.verdict == Verdict::adequate ? exit_done : exit_model_rejected;
 }
@@ -93,6 +105,7 @@ Command add_diagnose_command(CLI::App& program) {
   command.add_option("--effects", arguments->effects, "only these may be added")->type_name("a,b,...");
   command.add_option("--budget", arguments->budget, "simulations at most")->type_name("RUNS")->capture_default_str();
   command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->capture_default_str();
+  add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return diagnose_data(*arguments); }};
 }

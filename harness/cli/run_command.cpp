@@ -13,6 +13,8 @@
 #include "json_output.hpp"
 #include "progress_display.hpp"
 #include "readable_summary.hpp"
+#include "report_output.hpp"
+#include "run_report.hpp"
 #include "run_results.hpp"
 #include "setup_arguments.hpp"
 #include "summary_file.hpp"
@@ -24,6 +26,7 @@ namespace {
 struct RunArguments {
   SetupArguments setup;
   JsonOutput json;
+  ReportOutput report;
   std::string engine = "hard", folder;
   int runs = 1, threads = 0;
   bool every_series = false, log = false;
@@ -39,7 +42,7 @@ Provenance provenance_of(const RunArguments& arguments, const Setup& setup) {
 }
 
 Ensemble ensemble_of(const RunArguments& arguments, const Engine& engine, const Setup& setup,
-                     std::optional<RunResults>& results) {
+                     std::optional<RunResults>& results, RunCurves& curves) {
   const std::atomic<bool>* stop = catch_interruption();
   ProgressDisplay display(fmt::format("{}: engine {}, {} run{} of {:g} s", arguments.setup.file,
                                       engine.name(), arguments.runs, arguments.runs == 1 ? "" : "s",
@@ -49,11 +52,12 @@ Ensemble ensemble_of(const RunArguments& arguments, const Engine& engine, const 
   options.threads = arguments.threads;
   options.progress = [&](double fraction) { display.show(fraction); };
   options.stop = stop;
-  options.log_collisions = arguments.log;
-  if (results)
-    options.each = [&](int run, const Trajectory& trajectory, const Observables& observables) {
-      results->add(run, trajectory, observables);
-    };
+  const bool shown = arguments.report.wanted(arguments.folder);
+  options.log_collisions = arguments.log || (!arguments.report.file.empty() && arguments.runs == 1);
+  options.each = [&, shown](int run, const Trajectory& trajectory, const Observables& observables) {
+    if (results) results->add(run, trajectory, observables);
+    if (shown) curves.add(trajectory);
+  };
   return run_ensemble(engine, setup, options);
 }
 
@@ -73,17 +77,21 @@ int run(const RunArguments& arguments) {
   refuse_what_is_not_modelled(*engine, setup);
   refuse_log_where_there_is_none(arguments, setup);
   arguments.json.check();
+  arguments.report.check();
   std::optional<RunResults> results;
   if (!arguments.folder.empty()) results.emplace(OutputFolder(arguments.folder), arguments.every_series);
   if (results && arguments.log) results->keep_collisions_of(setup);
   const Provenance provenance = provenance_of(arguments, setup);
 
-  const Ensemble ensemble = ensemble_of(arguments, *engine, setup, results);
+  RunCurves curves;
+  const Ensemble ensemble = ensemble_of(arguments, *engine, setup, results, curves);
   if (ensemble.runs.empty()) throw Interrupted("no run had finished, nothing was kept");
   if (results) results->finish(ensemble, setup, provenance);
   fmt::print(arguments.json.for_people(), "{}", readable_summary(ensemble, setup));
   if (results)
     fmt::print(arguments.json.for_people(), "  results in {}\n", results->folder().path().string());
+  if (arguments.report.wanted(arguments.folder))
+    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(curves.report(ensemble, setup, arguments.setup.file), arguments.folder));
   arguments.json.write(summary_json(ensemble, setup));
   return ensemble.interrupted ? exit_interrupted : exit_done;
 }
@@ -117,6 +125,7 @@ Command add_run_command(CLI::App& program) {
       ->capture_default_str();
   command.add_flag("--every-series", arguments->every_series,
                    "with --out: the series of every run, not only of the first");
+  add_report_option(command, arguments->report);
   command.add_flag("--log", arguments->log,
                    "with --out: the collision log, from which `shakedown export` and reports rebuild the motion at any time");
   add_json_option(command, arguments->json);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// A moment of a run as text that other programs read. SI; shortest digits that read back to the same number.
+#pragma once
+#include <string>
+
+#include "frames.hpp"
+
+namespace shakedown {
+
+/// Extended XYZ (OVITO, ASE): id, positions, velocities, radii, masses and spins; the cell is the box, its origin moves.
+std::string extended_xyz(const Frame& frame);
+
+/// LAMMPS dump, units si (OVITO, VMD, pandas).
+std::string lammps_dump(const Frame& frame);
+
+std::string csv_header(bool spins);
+/// A line a grain: t_s,grain,x_m,y_m,z_m,vx_m_per_s,...,radius_m,mass_kg,x_box_m,v_box_m_per_s.
+std::string csv_lines(const Frame& frame);
+
+}  // namespace shakedown

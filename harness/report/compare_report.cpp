@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "compare_report.hpp"
+
+#include <fmt/format.h>
+
+#include "diagnose_report.hpp"
+#include "page_figures.hpp"
+#include "report_parts.hpp"
+
+namespace shakedown {
+
+namespace {
+
+ReportSection errors_section(const Refit& fit) {
+  ReportSection section;
+  section.title = "Error by run";
+  ReportBars bars;
+  bars.unit = "mm";
+  bars.names = {"box", "what noise and run-to-run spread make"};
+  ReportTable table{"The same as numbers", "", {"run", "box, mm", "floor, mm", "centre of the grains, mm", "floor, mm"}, {}, true};
+  for (const RunComparison& run : fit.runs) {
+    bars.lines.push_back({run.run, fmt::format("{} times the floor", for_people(run.error_box / run.floor_box)), {run.error_box * 1e3, run.floor_box * 1e3}});
+    table.rows.push_back({run.run, for_people(run.error_box * 1e3), for_people(run.floor_box * 1e3), for_people(run.error_centre * 1e3), for_people(run.floor_centre * 1e3)});
+  }
+  bars.caption = "rms of measured less mean of the model.";
+  section.bars = {bars};
+  section.tables = {table};
+  return section;
+}
+
+}  // namespace
+
+Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, const Experiment& experiment, const Setup& setup,
+                 const std::vector<MeasuredAgainstModel>& curves) {
+  Report report;
+  report.kind = "compare";
+  report.title = experiment.title.empty() ? experiment.file : experiment.title;
+  report.verdict = holds ? "The model holds" : "The data reject the model";
+  report.tone = holds ? Tone::good : Tone::bad;
+  report.sentence = holds ? fmt::format("What the model leaves of {} is camera noise and the spread from run to run.", report.title)
+                          : fmt::format("The model misses {} by {} mm, where noise and run-to-run spread allow {} mm.", report.title,
+                                        for_people(fit.error_box() * 1e3), for_people(fit.floor_box() * 1e3));
+  report.facts = {{"Error of the box", for_people(fit.error_box() * 1e3) + " mm", "rms over all runs", Tone::plain},
+                  {"Noise floor", for_people(fit.floor_box() * 1e3) + " mm", "camera and run-to-run spread", Tone::plain},
+                  {"Fit", "p = " + for_people(fit.p_value), for_people(fit.scatter) + " times the misfit of the model's own runs", Tone::plain}};
+  if (momentum.possible) report.facts.push_back({"Momentum balance", "p = " + for_people(momentum.as_given.p_value), "forces from outside, no simulation", Tone::plain});
+  if (!curves.empty()) {
+    report.replays = replays_of(curves);
+    report.sections = {curves_section(curves, "Measured against model"), failure_section(curves)};
+  }
+  report.sections.push_back(errors_section(fit));
+  report.sections.push_back(momentum_section(momentum));
+  if (!curves.empty()) report.sections.push_back(energy_section(curves));
+  say_how_to_reproduce(report, setup);
+  if (!curves.empty()) report.health = health_lines(curves);
+  return report;
+}
+
+}  // namespace shakedown

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "measured_against_model.hpp"
+#include "momentum.hpp"
+#include "refit.hpp"
+#include "report.hpp"
+
+namespace shakedown {
+
+/// The report of a comparison; the curves must come from measured_against_model() with this setup alone.
+Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, const Experiment& experiment, const Setup& setup,
+                 const std::vector<MeasuredAgainstModel>& curves);
+
+}  // namespace shakedown

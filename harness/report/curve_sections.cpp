@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Sections of a report that show measured runs beside the model.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hard_engine.hpp"
+#include "measured_against_model.hpp"
+#include "page_figures.hpp"
+#include "replay_tracks.hpp"
+
+namespace shakedown {
+
+namespace {
+
+std::vector<double> times(double factor, std::vector<double> values) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+std::vector<double> off(const EnsembleCurve& curve, double deviations, double factor) {
+  std::vector<double> values = curve.mean;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = factor * (values[i] + deviations * curve.sd[i]);
+  return values;
+}
+
+bool has_numbers(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+ReportPlot position_plot(const MeasuredAgainstModel& run, const char* what, const std::vector<double>& measured, const EnsembleCurve& model,
+                         const EnsembleCurve* given) {
+  ReportPlot plot;
+  plot.title = what;
+  plot.x_label = "time since release, s";
+  plot.y_label = "position, mm";
+  plot.group = run.run;
+  plot.over_time = true;
+  plot.x = run.time;
+  plot.curves = {{"", CurveRole::band_low, off(model, -2, 1e3)}, {"two standard deviations of a run", CurveRole::band_high, off(model, 2, 1e3)}};
+  if (given != nullptr) plot.curves.push_back({"as given", CurveRole::as_given, times(1e3, given->mean)});
+  plot.curves.push_back({given != nullptr ? "final model" : "model", CurveRole::model, times(1e3, model.mean)});
+  plot.curves.push_back({"measured", CurveRole::measured, times(1e3, measured)});
+  return plot;
+}
+
+ReportPlot residual_plot(const MeasuredAgainstModel& run) {
+  ReportPlot plot;
+  plot.title = "Residual";
+  plot.caption = "Measured less model, in units of what run-to-run spread and camera noise make. Dashed: three units. A click moves the grains there.";
+  plot.x_label = "time since release, s";
+  plot.y_label = "expected spreads";
+  plot.group = run.run;
+  plot.over_time = true;
+  plot.level = 3;
+  plot.x = run.time;
+  plot.curves = {{"box", CurveRole::model, run.box_residual}};
+  if (has_numbers(run.centre_residual)) plot.curves.push_back({"centre of the grains", CurveRole::other, run.centre_residual});
+  return plot;
+}
+
+double rms(const std::vector<double>& values) {
+  double sum = 0, n = 0;
+  for (const double v : values)
+    if (std::isfinite(v)) sum += v * v, ++n;
+  return n > 0 ? std::sqrt(sum / n) : std::nan("");
+}
+
+/// Where in its swing the box is, rad from its outer turning point; from the model's mean, that has no noise.
+double phase_at(const MeasuredAgainstModel& run, std::size_t i) {
+  const std::vector<double>& x = run.final_model.box.mean;
+  if (i == 0 || i + 1 >= x.size()) return std::nan("");
+  const double speed = (x[i + 1] - x[i - 1]) / (run.time[i + 1] - run.time[i - 1]);
+  return std::atan2(-speed / (2 * std::numbers::pi * run.amended.spring.frequency), x[i]);
+}
+
+/// Largest |x| of the model's mean within half a period.
+double amplitude_at(const MeasuredAgainstModel& run, std::size_t i) {
+  const double reach = 0.5 / run.amended.spring.frequency;
+  double top = 0;
+  for (std::size_t k = i; k < run.time.size() && run.time[k] - run.time[i] <= reach; ++k) top = std::max(top, std::abs(run.final_model.box.mean[k]));
+  for (std::size_t k = i; k-- > 0 && run.time[i] - run.time[k] <= reach;) top = std::max(top, std::abs(run.final_model.box.mean[k]));
+  return top;
+}
+
+/// rms residual of the box in bins of some number of each moment.
+template <class Number>
+ReportBars residual_by(const std::vector<MeasuredAgainstModel>& runs, const std::vector<std::pair<double, std::string>>& upper, Number&& number) {
+  std::vector<std::vector<double>> bins(upper.size());
+  for (const MeasuredAgainstModel& run : runs)
+    for (std::size_t i = 0; i < run.time.size(); ++i) {
+      const double at = number(run, i);
+      const auto bin = std::find_if(upper.begin(), upper.end(), [&](const auto& edge) { return at < edge.first; });
+      if (std::isfinite(at) && bin != upper.end()) bins[static_cast<std::size_t>(bin - upper.begin())].push_back(run.box_residual[i]);
+    }
+  ReportBars bars;
+  bars.names = {"rms residual of the box"};
+  bars.floor = 1;
+  bars.floor_name = "expected";
+  for (std::size_t k = 0; k < bins.size(); ++k)
+    if (has_numbers(bins[k])) bars.lines.push_back({upper[k].second, "", {rms(bins[k])}});
+  return bars;
+}
+
+ReportStrip strip_of(const std::vector<MeasuredAgainstModel>& runs) {
+  constexpr double width = 0.5;
+  ReportStrip strip;
+  strip.title = "By time and run";
+  strip.caption = "rms residual of the box in half a second. A click shows that moment.";
+  strip.x_label = "time since release, s";
+  strip.value_name = "expected spreads";
+  double end = 0;
+  for (const MeasuredAgainstModel& run : runs) end = std::max(end, run.time.back());
+  for (double t = 0; t < end + width / 2; t += width) strip.edges.push_back(t);
+  for (const MeasuredAgainstModel& run : runs) {
+    ReportStrip::Row row{run.run, run.run, {}};
+    for (std::size_t k = 0; k + 1 < strip.edges.size(); ++k) {
+      std::vector<double> inside;
+      for (std::size_t i = 0; i < run.time.size(); ++i)
+        if (run.time[i] >= strip.edges[k] && run.time[i] < strip.edges[k + 1]) inside.push_back(run.box_residual[i]);
+      row.values.push_back(rms(inside));
+    }
+    strip.rows.push_back(row);
+  }
+  return strip;
+}
+
+}  // namespace
+
+ReportSection curves_section(const std::vector<MeasuredAgainstModel>& runs, const std::string& title) {
+  ReportSection section;
+  section.title = title;
+  for (const MeasuredAgainstModel& run : runs) {
+    const bool given = run.as_given.runs > 0;
+    section.plots.push_back(position_plot(run, "Box", run.box, run.final_model.box, given ? &run.as_given.box : nullptr));
+    section.plots.push_back(residual_plot(run));
+    if (has_numbers(run.centre))
+      section.plots.push_back(position_plot(run, "Centre of the grains", run.centre, run.final_model.centre, given ? &run.as_given.centre : nullptr));
+  }
+  return section;
+}
+
+ReportSection failure_section(const std::vector<MeasuredAgainstModel>& runs) {
+  ReportSection section;
+  section.title = "Where it fails";
+  section.strips = {strip_of(runs)};
+  constexpr double eighth = std::numbers::pi / 4;
+  ReportBars phase = residual_by(runs, {{-3 * eighth, "inner end, turning back"}, {-eighth, "moving out through zero"}, {0, "coming to the outer end"},
+                                        {eighth, "leaving the outer end"}, {3 * eighth, "moving in through zero"}, {4 * eighth + 1e-9, "coming to the inner end"}},
+                                 phase_at);
+  phase.title = "By phase of the swing";
+  ReportBars amplitude = residual_by(runs, {{0.01, "below 10 mm"}, {0.03, "10 to 30 mm"}, {0.06, "30 to 60 mm"}, {0.09, "60 to 90 mm"}, {1e9, "above 90 mm"}}, amplitude_at);
+  amplitude.title = "By amplitude of the swing";
+  section.bars = {phase, amplitude};
+  return section;
+}
+
+ReportSection energy_section(const std::vector<MeasuredAgainstModel>& runs) {
+  ReportSection section;
+  section.title = "Where the energy goes";
+  section.paragraphs = {"Means of the final model's runs; what is lost in contacts of each class, and what is left in spring, box and grains."};
+  for (const MeasuredAgainstModel& run : runs) {
+    ReportPlot plot;
+    plot.title = "Energy";
+    plot.x_label = "time since release, s";
+    plot.y_label = "energy, mJ";
+    plot.group = run.run;
+    plot.over_time = true;
+    plot.x = run.time;
+    plot.curves = {{"left", CurveRole::model, times(1e3, run.final_model.energy.mean)}};
+    const std::array<const char*, contact_classes> names{"lost between grains", "lost at end walls", "lost at side walls"};
+    for (std::size_t c = 0; c < contact_classes; ++c) plot.curves.push_back({names[c], CurveRole::other, times(1e3, run.final_model.loss[c].mean)});
+    section.plots.push_back(plot);
+  }
+  return section;
+}
+
+std::vector<std::string> health_lines(const std::vector<MeasuredAgainstModel>& runs) {
+  Health worst;
+  std::int64_t collisions = 0;
+  int simulations = 0;
+  for (const MeasuredAgainstModel& run : runs)
+    for (const ModelMotion* motion : {&run.as_given, &run.final_model}) {
+      worst.ledger_error = std::max(worst.ledger_error, motion->health.ledger_error);
+      worst.momentum_error = std::max(worst.momentum_error, motion->health.momentum_error);
+      worst.deepest_overlap = std::max(worst.deepest_overlap, motion->health.deepest_overlap);
+      worst.elastic_rescues += motion->health.elastic_rescues;
+      for (const std::string& note : motion->health.notes)
+        if (std::find(worst.notes.begin(), worst.notes.end(), note) == worst.notes.end()) worst.notes.push_back(note);
+      collisions += motion->collisions;
+      simulations += motion->runs;
+    }
+  std::vector<std::string> lines{
+      fmt::format("Worst of the {} simulations drawn here ({} collisions): energy ledger open by {:.1e} of the initial energy, momentum off by {:.1e}, deepest overlap {:.1e} m.",
+                  simulations, collisions, worst.ledger_error, worst.momentum_error, worst.deepest_overlap),
+      fmt::format("{:.1f} % of the impacts were slow enough to be made elastic (what keeps layers from endless impacts).",
+                  collisions > 0 ? 100.0 * static_cast<double>(worst.elastic_rescues) / static_cast<double>(collisions) : 0.0)};
+  lines.insert(lines.end(), worst.notes.begin(), worst.notes.end());
+  return lines;
+}
+
+std::vector<ReportReplay> replays_of(const std::vector<MeasuredAgainstModel>& runs, std::size_t most, std::size_t bytes) {
+  std::vector<ReportReplay> replays;
+  const std::size_t count = std::min(most, runs.size());
+  for (std::size_t r = 0; r < count; ++r) {
+    const MeasuredAgainstModel& run = runs[r];
+    if (run.amended.grains.count == 0) continue;
+    Setup setup = run.amended;
+    setup.run.duration = run.time.back();
+    RunOptions options;
+    options.log_collisions = true;
+    const Trajectory trajectory = make_hard_engine()->run(setup, options);
+    if (!trajectory.collision_log) continue;
+    std::size_t worst = 0;
+    for (std::size_t i = 0; i < run.time.size(); ++i)
+      if (std::isfinite(run.box_residual[i]) && (!std::isfinite(run.box_residual[worst]) || std::abs(run.box_residual[i]) > std::abs(run.box_residual[worst]))) worst = i;
+    ReportReplay replay = replay_of({"", setup, 0, *trajectory.collision_log},
+                                    {run.run, "The grains", run.time[worst] - 0.25, run.time[worst] + 0.25, run.time.back(), bytes / count, 2e-5});
+    replay.caption = "Dark box: measured. " + replay.caption;
+    for (std::size_t i = 0; i < run.time.size(); ++i)
+      if (std::isfinite(run.box[i])) replay.measured_time.push_back(run.time[i]), replay.measured_x_box.push_back(run.box[i]);
+    replays.push_back(std::move(replay));
+  }
+  return replays;
+}
+
+}  // namespace shakedown

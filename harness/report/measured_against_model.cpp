@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "measured_against_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "camera.hpp"
+#include "ensemble.hpp"
+#include "experiment_file.hpp"
+#include "physics.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// Value at time t on a straight line between two samples; NaN outside.
+double value_at(const std::vector<double>& time, const std::vector<double>& value, double t) {
+  const auto after = std::upper_bound(time.begin(), time.end(), t);
+  if (time.empty() || t < time.front() || t > time.back()) return std::nan("");
+  if (after == time.end()) return value.back();
+  const auto i = static_cast<std::size_t>(after - time.begin()) - 1;
+  return value[i] + (value[i + 1] - value[i]) * (t - time[i]) / (time[i + 1] - time[i]);
+}
+
+/// Running mean and sum of squares (Welford); NaN is left out.
+struct Moments {
+  std::vector<double> mean, squares, count;
+  explicit Moments(std::size_t size) : mean(size, 0), squares(size, 0), count(size, 0) {}
+  void add(std::size_t i, double value) {
+    if (!std::isfinite(value)) return;
+    const double step = value - mean[i];
+    mean[i] += step / ++count[i];
+    squares[i] += step * (value - mean[i]);
+  }
+  EnsembleCurve curve() const {
+    EnsembleCurve curve{mean, squares};
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+      curve.sd[i] = count[i] > 1 ? std::sqrt(squares[i] / (count[i] - 1)) : 0;
+      if (count[i] == 0) curve.mean[i] = curve.sd[i] = std::nan("");
+    }
+    return curve;
+  }
+};
+
+void worsen(Health& worst, const Health& health) {
+  worst.deepest_overlap = std::max(worst.deepest_overlap, health.deepest_overlap);
+  worst.ledger_error = std::max(worst.ledger_error, health.ledger_error);
+  worst.momentum_error = std::max(worst.momentum_error, health.momentum_error);
+  worst.elastic_rescues += health.elastic_rescues;
+  worst.refused_events += health.refused_events;
+  for (const std::string& note : health.notes)
+    if (std::find(worst.notes.begin(), worst.notes.end(), note) == worst.notes.end()) worst.notes.push_back(note);
+}
+
+ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine& engine, const CurveOptions& options) {
+  setup.run.duration = time.back() + 0.1;
+  setup.run.sample_rate = 250;
+  const Camera camera = physics_of(setup).camera;
+  Moments box(time.size()), centre(time.size()), energy(time.size());
+  std::vector<Moments> loss(contact_classes, Moments(time.size()));
+  ModelMotion motion;
+  EnsembleOptions many;
+  many.runs = options.runs;
+  many.first_run = options.first_run;
+  many.threads = options.threads;
+  many.stop = options.stop;
+  many.each = [&](int, const Trajectory& trajectory, const Observables&) {
+    const Recording seen = recorded_by(camera, trajectory);
+    for (std::size_t i = 0; i < time.size(); ++i) {
+      box.add(i, value_at(seen.time, seen.x_box, time[i]));
+      centre.add(i, value_at(seen.time, seen.x_com, time[i]));
+      energy.add(i, value_at(trajectory.time, trajectory.total_energy, time[i]));
+      for (std::size_t c = 0; c < loss.size(); ++c) loss[c].add(i, value_at(trajectory.time, trajectory.loss[c], time[i]));
+    }
+    worsen(motion.health, trajectory.health);
+    for (const std::int64_t n : trajectory.collisions) motion.collisions += n;
+    ++motion.runs;
+  };
+  run_ensemble(engine, setup, many);
+  if (options.stop != nullptr && options.stop->load()) throw Interrupted("the curves of the report were not finished");
+  motion.box = box.curve();
+  motion.centre = centre.curve();
+  motion.energy = energy.curve();
+  for (std::size_t c = 0; c < loss.size(); ++c) motion.loss[c] = loss[c].curve();
+  return motion;
+}
+
+std::vector<double> residual(const std::vector<double>& measured, const EnsembleCurve& model, double noise, int runs) {
+  std::vector<double> result(measured.size());
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    result[i] = (measured[i] - model.mean[i]) / std::sqrt(model.sd[i] * model.sd[i] * (1 + 1.0 / runs) + noise * noise);
+  return result;
+}
+
+/// The frame nearest to each time, none further than one frame away.
+std::vector<double> measured_at(const std::vector<double>& time, const MeasuredRun& run, const std::vector<double>& values, double interval) {
+  std::vector<double> result(time.size(), std::nan(""));
+  if (values.empty()) return result;
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    auto i = static_cast<std::size_t>(std::lower_bound(run.time.begin(), run.time.end(), time[k]) - run.time.begin());
+    if (i == run.time.size() || (i > 0 && time[k] - run.time[i - 1] < run.time[i] - time[k])) --i;
+    if (i < run.time.size() && std::abs(run.time[i] - time[k]) <= interval) result[k] = values[i];
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<MeasuredAgainstModel> measured_against_model(const Experiment& experiment, const Audit& audit, const Setup* given,
+                                                         const Setup& final_setup, const Engine& engine, const CurveOptions& options) {
+  const std::vector<Setup> last = setups_of_runs(final_setup, experiment, options.known);
+  const std::vector<Setup> first = given != nullptr ? setups_of_runs(*given, experiment, options.known) : last;
+  std::vector<MeasuredAgainstModel> all;
+  for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+    const MeasuredRun& run = experiment.runs[r];
+    const RunAudit& found = audit.runs[r];
+    if (run.time.empty()) continue;
+    MeasuredAgainstModel one{run.name, first[r], last[r], {}, {}, {}, found.box.standard_deviation, found.com.standard_deviation, {}, {}, {}, {}};
+    const double end = std::min(run.time.back(), 60.0);
+    for (std::int64_t k = 0; static_cast<double>(k) / options.rate <= end; ++k) one.time.push_back(static_cast<double>(k) / options.rate);
+    one.box = measured_at(one.time, run, found.x_box, found.frame_interval);
+    one.centre = measured_at(one.time, run, found.x_com, found.frame_interval);
+    one.final_model = motion_of(last[r], one.time, engine, options);
+    if (given != nullptr) one.as_given = motion_of(first[r], one.time, engine, options);
+    one.box_residual = residual(one.box, one.final_model.box, one.box_noise, one.final_model.runs);
+    one.centre_residual = residual(one.centre, one.final_model.centre, one.centre_noise, one.final_model.runs);
+    all.push_back(std::move(one));
+    if (options.progress) options.progress(static_cast<double>(r + 1) / static_cast<double>(experiment.runs.size()));
+  }
+  return all;
+}
+
+}  // namespace shakedown

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Pieces of the page that need no script: tables, bars, strips, intervals.
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "report.hpp"
+
+namespace shakedown {
+
+/// Text for HTML; line breaks stay.
+std::string escaped(std::string_view text);
+
+/// A number for people: four significant digits, no exponent between 1e-3 and 1e5.
+std::string for_people(double value);
+
+std::string_view css_class(Tone tone);
+
+std::string table_html(const ReportTable& table);
+std::string bars_html(const ReportBars& bars);
+std::string strip_html(const ReportStrip& strip);
+std::string intervals_html(const std::vector<ReportInterval>& intervals);
+
+/// The numbers behind a plot, thinned to some thirty lines.
+std::string numbers_html(const ReportPlot& plot);
+
+}  // namespace shakedown

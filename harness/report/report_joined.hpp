@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "report.hpp"
+
+namespace shakedown {
+
+struct NamedReport {
+  std::string name;  ///< of the folder it came from
+  Report report;
+};
+
+/// One report of several: their verdicts as a table, then each one's sections, titles and groups told apart by name. One alone stays as it
+/// is.
+Report joined(std::vector<NamedReport> reports);
+
+}  // namespace shakedown

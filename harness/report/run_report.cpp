@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "run_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "page_figures.hpp"
+#include "replay_tracks.hpp"
+#include "report_parts.hpp"
+
+namespace shakedown {
+
+namespace {
+
+constexpr double longest_series = 2500;  // points that a plot of 1000 pixels can show
+
+std::string plus_minus(const Statistic& value, double factor, const char* unit) {
+  if (value.n == 0) return "–";
+  return value.n > 1 ? fmt::format("{} ± {} {}", for_people(factor * value.mean), for_people(factor * value.sd), unit)
+                     : fmt::format("{} {}", for_people(factor * value.mean), unit);
+}
+
+std::vector<double> thinned(const std::vector<double>& values, std::size_t step, double factor) {
+  std::vector<double> kept;
+  for (std::size_t i = 0; i < values.size(); i += step) kept.push_back(factor * values[i]);
+  return kept;
+}
+
+ReportSection peaks_section(const Ensemble& ensemble) {
+  ReportSection section;
+  section.title = "Peaks";
+  section.paragraphs = {"Largest extremum of the box in each half period, the release excluded."};
+  ReportPlot plot;
+  plot.title = "Decay of the peaks";
+  plot.x_label = "time since release, s";
+  plot.y_label = "|peak|, mm";
+  for (std::size_t r = 0; r < ensemble.runs.size() && r < 12; ++r)
+    for (const Peak& peak : ensemble.runs[r].observables.peaks)
+      if (std::abs(peak.position) > 1e-3 && r == 0) plot.x.push_back(peak.time);
+  ReportCurve first{"first run", CurveRole::model, {}};
+  for (const Peak& peak : ensemble.runs.front().observables.peaks)
+    if (std::abs(peak.position) > 1e-3) first.y.push_back(std::abs(peak.position) * 1e3);
+  plot.curves = {first};
+  if (!plot.x.empty()) section.plots = {plot};
+  return section;
+}
+
+std::vector<std::string> health_of(const Ensemble& ensemble) {
+  Health worst;
+  for (const RunResult& run : ensemble.runs) {
+    const Health& health = run.trajectory.health;
+    worst.ledger_error = std::max(worst.ledger_error, health.ledger_error);
+    worst.momentum_error = std::max(worst.momentum_error, health.momentum_error);
+    worst.deepest_overlap = std::max(worst.deepest_overlap, health.deepest_overlap);
+    worst.elastic_rescues += health.elastic_rescues;
+    for (const std::string& note : health.notes)
+      if (worst.notes.empty() || worst.notes.back() != note) worst.notes.push_back(note);
+  }
+  std::vector<std::string> lines{fmt::format("Worst of {} runs: energy ledger open by {:.1e} of the initial energy, momentum off by {:.1e}, deepest overlap {:.1e} m.",
+                                             ensemble.runs.size(), worst.ledger_error, worst.momentum_error, worst.deepest_overlap),
+                                 fmt::format("{} impacts made elastic.", worst.elastic_rescues)};
+  lines.insert(lines.end(), worst.notes.begin(), worst.notes.end());
+  return lines;
+}
+
+}  // namespace
+
+void RunCurves::add(const Trajectory& t) {
+  const auto step = static_cast<std::size_t>(std::ceil(std::max(1.0, static_cast<double>(t.time.size()) / longest_series)));
+  const std::array<const std::vector<double>*, 6> series{&t.x_box, &t.x_com, &t.total_energy, &t.loss[0], &t.loss[1], &t.loss[2]};
+  if (++runs_ == 1) {
+    time_ = thinned(t.time, step, 1);
+    first_box_ = thinned(t.x_box, step, 1e3);
+    first_centre_ = thinned(t.x_com, step, 1e3);
+    log_ = t.collision_log;
+    for (Moments& m : moments_) m = {std::vector<double>(time_.size(), 0), std::vector<double>(time_.size(), 0)};
+  }
+  for (std::size_t s = 0; s < series.size(); ++s) {
+    const std::vector<double> values = thinned(*series[s], step, 1e3);
+    for (std::size_t i = 0; i < std::min(values.size(), time_.size()); ++i) {
+      const double change = values[i] - moments_[s].mean[i];
+      moments_[s].mean[i] += change / runs_;
+      moments_[s].squares[i] += change * (values[i] - moments_[s].mean[i]);
+    }
+  }
+}
+
+Report RunCurves::report(const Ensemble& ensemble, const Setup& setup, const std::string& name) const {
+  Report report;
+  report.kind = "run";
+  report.title = name;
+  const auto decay = ensemble.over_runs([](const RunResult& r) { return r.observables.slope; });
+  const auto frequency = ensemble.over_runs([](const RunResult& r) { return r.observables.frequency; });
+  const auto gone = ensemble.over_runs([](const RunResult& r) { return r.observables.seconds_to_energy_fraction[3]; });
+  report.sentence = gone.n > 0 ? fmt::format("{} grains in a {:.4g} mm box take 95 % of the energy in {} s.", setup.grains.count, setup.box.length * 1e3, for_people(gone.mean))
+                               : fmt::format("{} grains in a {:.4g} mm box for {:.4g} s.", setup.grains.count, setup.box.length * 1e3, setup.run.duration);
+  report.subtitle = fmt::format("Engine {}, {} run{}, seed {}.", ensemble.engine, ensemble.runs.size(), ensemble.runs.size() == 1 ? "" : "s", setup.run.seed);
+  report.facts = {{"Fall of the peaks", plus_minus(decay, 1e3, "mm/s"), "straight line, t < 8 s", Tone::plain},
+                  {"Frequency", plus_minus(frequency, 1, "Hz"), "first ten zero crossings", Tone::plain},
+                  {"95 % of the energy gone", plus_minus(gone, 1, "s"), "", Tone::plain}};
+  const std::array<const char*, contact_classes> classes{"Lost between grains", "Lost at end walls", "Lost at side walls"};
+  for (std::size_t c = 0; c < contact_classes; ++c)
+    report.facts.push_back({classes[c], plus_minus(ensemble.over_runs([c](const RunResult& r) { return r.observables.energy_loss[c]; }), 100, "%"), "of the initial energy", Tone::plain});
+  const auto position = [&](const char* title, std::size_t s, const std::vector<double>& first) {
+    ReportPlot plot;
+    plot.title = title;
+    plot.x_label = "time since release, s";
+    plot.y_label = "position, mm";
+    plot.over_time = true;
+    plot.group = log_ ? "run" : "";
+    plot.x = time_;
+    if (runs_ > 1) {
+      std::vector<double> low, high;
+      for (std::size_t i = 0; i < time_.size(); ++i) {
+        const double sd = std::sqrt(moments_[s].squares[i] / (runs_ - 1));
+        low.push_back(moments_[s].mean[i] - 2 * sd);
+        high.push_back(moments_[s].mean[i] + 2 * sd);
+      }
+      plot.curves = {{"", CurveRole::band_low, low}, {"two standard deviations of a run", CurveRole::band_high, high}, {"mean", CurveRole::other, moments_[s].mean}};
+    }
+    plot.curves.push_back({"first run", CurveRole::model, first});
+    return plot;
+  };
+  ReportSection motion;
+  motion.title = "Motion";
+  motion.plots = {position("Box", 0, first_box_)};
+  if (setup.grains.count > 0) motion.plots.push_back(position("Centre of the grains", 1, first_centre_));
+  ReportPlot energy;
+  energy.title = "Energy";
+  energy.x_label = "time since release, s";
+  energy.y_label = "energy, mJ";
+  energy.over_time = true;
+  energy.group = log_ ? "run" : "";
+  energy.x = time_;
+  const std::array<const char*, 4> names{"left", "lost between grains", "lost at end walls", "lost at side walls"};
+  for (std::size_t k = 0; k < names.size(); ++k) energy.curves.push_back({names[k], k == 0 ? CurveRole::model : CurveRole::other, moments_[2 + k].mean});
+  ReportSection energies;
+  energies.title = "Where the energy goes";
+  energies.plots = {energy};
+  report.sections = {motion, peaks_section(ensemble), energies};
+  if (log_) {
+    const double first_landing = 0.25 / setup.spring.frequency;
+    report.replays = {replay_of({"", setup, ensemble.runs.front().run, *log_}, {"run", "The grains", first_landing, first_landing + 0.5, setup.run.duration, 500'000, 2e-5})};
+  }
+  say_how_to_reproduce(report, setup);
+  report.health = health_of(ensemble);
+  return report;
+}
+
+}  // namespace shakedown

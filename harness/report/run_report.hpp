@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "ensemble.hpp"
+#include "report.hpp"
+
+namespace shakedown {
+
+/// The motion of an ensemble, collected while its runs go on (hand add() to EnsembleOptions::each; runs must come in order).
+class RunCurves {
+ public:
+  void add(const Trajectory& trajectory);
+  /// The report. Of logged runs the first is replayed.
+  Report report(const Ensemble& ensemble, const Setup& setup, const std::string& name) const;
+
+ private:
+  int runs_ = 0;
+  std::vector<double> time_;
+  struct Moments {
+    std::vector<double> mean, squares;
+  };
+  std::array<Moments, 6> moments_;  ///< x_box, x_com, energy, losses
+  std::vector<double> first_box_, first_centre_;
+  std::shared_ptr<const CollisionLog> log_;
+};
+
+}  // namespace shakedown
