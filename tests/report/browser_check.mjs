@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Opens a report in headless Chromium and fails with a sentence for each thing that is not as it should be:
+//   node browser_check.mjs REPORT.html [FOLDER FOR SCREENSHOTS]
+// playwright-core is looked for beside this file and where BROWSER_MODULES says.
+import { createRequire } from "node:module";
+import { mkdtempSync, statSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const require = createRequire(process.env.BROWSER_MODULES ? join(process.env.BROWSER_MODULES, "x.js") : import.meta.url);
+const { chromium } = require("playwright-core");
+const [file, shots] = process.argv.slice(2);
+const url = pathToFileURL(resolve(file)).href;
+const wrong = [];
+const expect = (good, sentence) => { if (!good) wrong.push(sentence); };
+const figures = { bytes: statSync(file).size };
+
+const context = await chromium.launchPersistentContext(mkdtempSync(join(tmpdir(), "report-check-")), {
+  executablePath: process.env.CHROMIUM || "/usr/bin/chromium", headless: true, acceptDownloads: true, viewport: { width: 1280, height: 900 }, colorScheme: "light",
+  args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+    "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+});
+await context.setOffline(true);
+
+async function open(options = {}) {
+  const page = await context.newPage();
+  page.requests = [];
+  page.complaints = [];
+  page.on("request", (request) => { if (!/^(data|blob):/.test(request.url())) page.requests.push(request.url()); });
+  page.on("console", (message) => { if (["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text())) page.complaints.push(message.text()); });
+  page.on("pageerror", (error) => page.complaints.push(String(error)));
+  await page.setViewportSize({ width: options.width || 1280, height: options.width === 390 ? 844 : 900 });
+  await page.emulateMedia({ colorScheme: options.theme || "light" });
+  if (options.before) await page.addInitScript(options.before);
+  const start = Date.now();
+  await page.goto(url);
+  await page.waitForFunction(() => document.documentElement.dataset.ready, null, { timeout: 20000 });
+  page.seconds = (Date.now() - start) / 1000;
+  return page;
+}
+
+const page = await open();
+figures.seconds_to_ready = page.seconds;
+expect(page.seconds < 2, `ready after ${page.seconds} s, not within 2 s`);
+expect((await page.getAttribute("html", "data-ready")) === "yes", "the page did not become ready");
+expect(page.requests.length === 1, `asked for ${page.requests.length} things: ${page.requests.join(" ")}`);
+figures.requests = page.requests.length;
+
+// Every plot of every group is drawn: it has a canvas, and something on it.
+const tabs = await page.locator("[role=tab]").count();
+figures.groups = tabs;
+figures.plots = await page.locator(".plot").count();
+for (let k = 0; k < Math.max(1, tabs); ++k) {
+  if (tabs > 1) await page.locator("[role=tab]").nth(k).click();
+  const empty = await page.evaluate(() => [...document.querySelectorAll(".plot")].filter((plot) => plot.offsetParent !== null).filter((plot) => {
+    const canvas = plot.querySelector("canvas");
+    if (!canvas) return true;
+    const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+    return !pixels.some((value, i) => i % 4 === 3 && value > 0);
+  }).length);
+  expect(empty === 0, `${empty} plots of group ${k} are empty`);
+}
+if (tabs > 1) await page.locator("[role=tab]").first().click();
+
+// The grains move with the cursor, and a click on a residual goes there.
+const replay = page.locator("[data-replay] canvas >> visible=true").first();
+const hash = () => replay.evaluate((canvas) => {
+  const gl = canvas.getContext("webgl2"), pixels = new Uint8Array(4 * canvas.width * canvas.height);
+  gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  let sum = 0, drawn = 0;
+  for (let i = 0; i < pixels.length; i += 4) { sum = (sum * 31 + pixels[i] + pixels[i + 1] * 7 + pixels[i + 2] * 13) % 1e9; drawn += pixels[i + 3] > 0; }
+  return { sum, drawn };
+});
+if (await replay.count()) {
+  await page.evaluate(() => report.setTime(0.2));
+  const before = await hash();
+  await page.evaluate(() => report.setTime(0.35));
+  const after = await hash();
+  expect(before.drawn > 2000, "the grains are not drawn");
+  expect(before.sum !== after.sum, "the grains do not move with the time cursor");
+  const over = page.locator(".plot:visible .u-over").nth(1), box = await over.boundingBox();
+  await over.click({ position: { x: box.width * 0.5, y: box.height * 0.5 } });
+  const clicked = await hash();
+  const moved = await page.evaluate(() => report.time);
+  expect(moved > 0.4 && clicked.sum !== after.sum, `a click on a plot does not move the grains (t = ${moved})`);
+  await page.locator("[data-replay] canvas:visible").first().focus();
+  await page.keyboard.press("Space");
+  await page.waitForTimeout(300);
+  expect((await page.evaluate(() => report.time)) > moved, "the space bar does not play");
+  await page.keyboard.press("Space");
+}
+const [download] = await Promise.all([page.waitForEvent("download"), page.locator("[data-csv]:visible").first().click()]);
+expect(download.suggestedFilename().endsWith(".csv"), "no CSV to download");
+expect(page.complaints.length === 0, `the console complains: ${page.complaints.join(" | ")}`);
+expect(page.requests.length === 1, `asked for more later: ${page.requests.join(" ")}`);
+await page.close();
+
+for (const width of [1280, 390])
+  for (const theme of ["light", "dark"]) {
+    const view = await open({ width, theme });
+    const wide = await view.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    expect(wide <= 0, `at ${width} px the page is ${wide} px too wide`);
+    if (shots) await view.screenshot({ path: join(shots, `report_${width}_${theme}.png`), fullPage: true });
+    await view.close();
+  }
+
+const plain = await open({ before: () => { const get = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return kind === "webgl2" ? null : get.call(this, kind, ...rest); }; } });
+if (await plain.locator("[data-replay]").count()) expect((await plain.locator(".replay .message:visible").count()) > 0, "without WebGL there is no message");
+expect((await plain.locator(".plot canvas").count()) > 0, "without WebGL the plots are missing");
+await context.close();
+
+console.log(JSON.stringify(figures));
+for (const sentence of wrong) console.error("report: " + sentence);
+process.exit(wrong.length ? 1 : 0);
