@@ -61,6 +61,29 @@ ReportPlot residual_plot(const MeasuredAgainstModel& run) {
   return plot;
 }
 
+/// Measured less model: what the eye cannot see beside a swing of 100 mm.
+ReportPlot error_plot(const MeasuredAgainstModel& run) {
+  ReportPlot plot;
+  plot.title = "Error of the box";
+  plot.caption = "Measured less mean of the model.";
+  plot.x_label = "time since release, s";
+  plot.y_label = "error, mm";
+  plot.group = run.run;
+  plot.over_time = true;
+  plot.x = run.time;
+  const auto less = [&](const EnsembleCurve& model) {
+    std::vector<double> error(run.box.size());
+    for (std::size_t i = 0; i < error.size(); ++i) error[i] = 1e3 * (run.box[i] - model.mean[i]);
+    return error;
+  };
+  std::vector<double> low(run.time.size()), high(run.time.size());
+  for (std::size_t i = 0; i < low.size(); ++i) high[i] = 2e3 * std::hypot(run.final_model.box.sd[i], run.box_noise), low[i] = -high[i];
+  plot.curves = {{"", CurveRole::band_low, low}, {"two expected spreads", CurveRole::band_high, high}};
+  if (run.as_given.runs > 0) plot.curves.push_back({"as given", CurveRole::as_given, less(run.as_given.box)});
+  plot.curves.push_back({run.as_given.runs > 0 ? "final model" : "model", CurveRole::model, less(run.final_model.box)});
+  return plot;
+}
+
 double rms(const std::vector<double>& values) {
   double sum = 0, n = 0;
   for (const double v : values)
@@ -104,10 +127,10 @@ ReportBars residual_by(const std::vector<MeasuredAgainstModel>& runs, const std:
   return bars;
 }
 
-ReportStrip strip_of(const std::vector<MeasuredAgainstModel>& runs) {
+ReportStrip strip_of(const std::vector<MeasuredAgainstModel>& runs, std::vector<double> MeasuredAgainstModel::*residual, const char* title) {
   constexpr double width = 0.5;
   ReportStrip strip;
-  strip.title = "By time and run";
+  strip.title = title;
   strip.caption = "rms residual of the box in half a second. A click shows that moment.";
   strip.x_label = "time since release, s";
   strip.value_name = "expected spreads";
@@ -119,7 +142,7 @@ ReportStrip strip_of(const std::vector<MeasuredAgainstModel>& runs) {
     for (std::size_t k = 0; k + 1 < strip.edges.size(); ++k) {
       std::vector<double> inside;
       for (std::size_t i = 0; i < run.time.size(); ++i)
-        if (run.time[i] >= strip.edges[k] && run.time[i] < strip.edges[k + 1]) inside.push_back(run.box_residual[i]);
+        if (run.time[i] >= strip.edges[k] && run.time[i] < strip.edges[k + 1]) inside.push_back((run.*residual)[i]);
       row.values.push_back(rms(inside));
     }
     strip.rows.push_back(row);
@@ -135,6 +158,7 @@ ReportSection curves_section(const std::vector<MeasuredAgainstModel>& runs, cons
   for (const MeasuredAgainstModel& run : runs) {
     const bool given = run.as_given.runs > 0;
     section.plots.push_back(position_plot(run, "Box", run.box, run.final_model.box, given ? &run.as_given.box : nullptr));
+    section.plots.push_back(error_plot(run));
     section.plots.push_back(residual_plot(run));
     if (has_numbers(run.centre))
       section.plots.push_back(position_plot(run, "Centre of the grains", run.centre, run.final_model.centre, given ? &run.as_given.centre : nullptr));
@@ -145,7 +169,9 @@ ReportSection curves_section(const std::vector<MeasuredAgainstModel>& runs, cons
 ReportSection failure_section(const std::vector<MeasuredAgainstModel>& runs) {
   ReportSection section;
   section.title = "Where it fails";
-  section.strips = {strip_of(runs)};
+  const bool given = !runs.empty() && runs.front().as_given.runs > 0;
+  if (given) section.strips = {strip_of(runs, &MeasuredAgainstModel::given_box_residual, "By time and run: as given")};
+  section.strips.push_back(strip_of(runs, &MeasuredAgainstModel::box_residual, given ? "By time and run: final model" : "By time and run"));
   constexpr double eighth = std::numbers::pi / 4;
   ReportBars phase = residual_by(runs, {{-3 * eighth, "inner end, turning back"}, {-eighth, "moving out through zero"}, {0, "coming to the outer end"},
                                         {eighth, "leaving the outer end"}, {3 * eighth, "moving in through zero"}, {4 * eighth + 1e-9, "coming to the inner end"}},

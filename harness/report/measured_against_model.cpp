@@ -116,13 +116,16 @@ std::vector<MeasuredAgainstModel> measured_against_model(const Experiment& exper
     const MeasuredRun& run = experiment.runs[r];
     const RunAudit& found = audit.runs[r];
     if (run.time.empty()) continue;
-    MeasuredAgainstModel one{run.name, first[r], last[r], {}, {}, {}, found.box.standard_deviation, found.com.standard_deviation, {}, {}, {}, {}};
+    MeasuredAgainstModel one{run.name, first[r], last[r], {}, {}, {}, found.box.standard_deviation, found.com.standard_deviation, {}, {}, {}, {}, {}};
     const double end = std::min(run.time.back(), 60.0);
     for (std::int64_t k = 0; static_cast<double>(k) / options.rate <= end; ++k) one.time.push_back(static_cast<double>(k) / options.rate);
     one.box = measured_at(one.time, run, found.x_box, found.frame_interval);
     one.centre = measured_at(one.time, run, found.x_com, found.frame_interval);
     one.final_model = motion_of(last[r], one.time, engine, options);
-    if (given != nullptr) one.as_given = motion_of(first[r], one.time, engine, options);
+    if (given != nullptr) {
+      one.as_given = motion_of(first[r], one.time, engine, options);
+      one.given_box_residual = residual(one.box, one.as_given.box, one.box_noise, one.as_given.runs);
+    }
     one.box_residual = residual(one.box, one.final_model.box, one.box_noise, one.final_model.runs);
     one.centre_residual = residual(one.centre, one.final_model.centre, one.centre_noise, one.final_model.runs);
     all.push_back(std::move(one));

@@ -75,7 +75,9 @@ std::string for_people(double value) {
   const double size = std::abs(value);
   if (size != 0 && (size < 1e-3 || size >= 1e6)) return fmt::format("{:.2e}", value);
   if (size >= 1000) return fmt::format("{:.0f}", value);
-  return fmt::format("{:.{}g}", value, 3);
+  std::string text = fmt::format("{:#.3g}", value);
+  if (text.back() == '.') text.pop_back();
+  return value == 0 ? "0" : text;
 }
 
 std::string_view css_class(Tone tone) {
@@ -168,7 +170,7 @@ std::string numbers_html(const ReportPlot& plot) {
     rows.push_back({for_people(plot.x[i])});
     for (const ReportCurve& curve : plot.curves) rows.back().push_back(for_people(curve.y[i]));
   }
-  return "<details><summary>Numbers as a table" + std::string(step > 1 ? fmt::format(" (every {}th)", step) : "") + "</summary>" +
+  return "<details><summary>Numbers as a table" + std::string(step > 1 ? fmt::format(" (one line in {})", step) : "") + "</summary>" +
          bare_table(columns, rows) + "</details>";
 }
 

@@ -32,6 +32,13 @@ std::string plot_json(const ReportPlot& plot) {
                      quoted(plot.y_label), packed_json(plot.x), curves);
 }
 
+/// The headline, and what follows it.
+std::pair<std::string, std::string> first_sentence(const std::string& text) {
+  for (std::size_t i = text.find(". "); i != std::string::npos; i = text.find(". ", i + 1))
+    if (i + 2 < text.size() && std::isupper(static_cast<unsigned char>(text[i + 2]))) return {text.substr(0, i + 1), text.substr(i + 2)};
+  return {text, ""};
+}
+
 double top_speed(const ReportReplay& replay) {
   double top = 0;
   const ReportReplay::Track& box = replay.box;
@@ -81,7 +88,9 @@ class Page {
     std::string text = "<header><p class=\"kicker\"><b>shakedown " + escaped(report_.kind) + "</b><span>" + escaped(report_.title) + "</span></p>";
     if (!report_.verdict.empty())
       text += fmt::format("<p class=\"ui\"><span class=\"verdict {}\">{}</span></p>", css_class(report_.tone), escaped(report_.verdict));
-    text += "<h1>" + escaped(report_.sentence.empty() ? report_.title : report_.sentence) + "</h1>";
+    const auto [first, rest] = first_sentence(report_.sentence.empty() ? report_.title : report_.sentence);
+    text += (first.size() > 70 ? "<h1 class=\"long\">" : "<h1>") + escaped(first) + "</h1>";
+    if (!rest.empty()) text += "<p class=\"lead\">" + escaped(rest) + "</p>";
     if (!report_.subtitle.empty()) text += "<p class=\"subtitle\">" + escaped(report_.subtitle) + "</p>";
     text += "</header>";
     if (report_.facts.empty()) return text;
@@ -104,8 +113,8 @@ class Page {
   }
 
   std::string tools() const {
-    std::string text = "<nav class=\"tools\" aria-label=\"View\">";
     const std::vector<std::string> names = groups();
+    std::string text = fmt::format("<nav class=\"tools{}\" aria-label=\"View\">", names.size() > 1 ? "" : " bare");
     if (!names.empty()) {
       text += fmt::format("<div class=\"tabs{}\" role=\"tablist\" aria-label=\"Run\">", names.size() > 1 ? "" : " hidden");
       for (std::size_t i = 0; i < names.size(); ++i)
@@ -132,7 +141,8 @@ class Page {
         "<input type=\"range\" min=\"0\" max=\"1\" step=\"any\" value=\"0\" aria-label=\"Time\"><output>0 s</output></div><div class=\"controls\">"
         "<label>Clock <select data-pace><option value=\"1\">as it was</option><option value=\"0.1\">10 times slower</option><option value=\"0.01\">100 "
         "times slower</option><option value=\"0.001\">1000 times slower</option></select></label><label>Colour <select data-colour><option "
-        "value=\"speed\">speed</option><option value=\"class\">last collision</option></select></label></div><div class=\"scale of-speed\">0 "
+        "value=\"speed\">speed</option><option value=\"class\">last collision</option></select></label><label>View <select data-view><option value=\"all\">the whole way</option><option value=\"box\">with the "
+        "box</option></select></label></div><div class=\"scale of-speed\">0 "
         "<span class=\"speed\"></span> {3} m/s and more</div><div class=\"scale of-class hidden\"><b style=\"background:var(--c0)\"></b> between grains "
         "<b style=\"background:var(--c1)\"></b> end wall <b style=\"background:var(--c2)\"></b> side wall <b style=\"background:var(--c3)\"></b> none "
         "yet</div><figcaption>{4}</figcaption></figure></section>",
@@ -148,11 +158,14 @@ class Page {
     std::string text = fmt::format("<figure data-group=\"{}\"><div class=\"figure-head\"><h3>{}</h3><button type=\"button\" data-csv=\"{}\" data-name=\"{}.csv\">"
                                    "CSV</button></div><ul class=\"legend\">",
                                    escaped(plot.group), escaped(plot.title), number, name);
-    for (std::size_t k = 0; k < plot.curves.size(); ++k) {
+    for (std::size_t k = 0, others = 0; k < plot.curves.size(); ++k) {
       const ReportCurve& curve = plot.curves[k];
       if (curve.role == CurveRole::band_low) continue;
       const bool band = curve.role == CurveRole::band_high;
-      text += fmt::format("<li><i class=\"{}\"></i>{}{}</li>", band ? "band" : role_names[static_cast<std::size_t>(curve.role)], escaped(curve.name),
+      text += fmt::format("<li><i class=\"{}\"></i>{}{}</li>", band                              ? "band"
+                          : curve.role == CurveRole::other ? fmt::format("other{}", others++ % 4)
+                                                           : role_names[static_cast<std::size_t>(curve.role)],
+                          escaped(curve.name),
                           band ? "" : fmt::format(" <output data-curve=\"{}\"></output>", k));
     }
     return text + fmt::format("</ul><div class=\"plot\" data-plot=\"{}\"></div>", number) + (plot.caption.empty() ? "" : "<figcaption>" + escaped(plot.caption) + "</figcaption>") +
@@ -169,7 +182,9 @@ class Page {
     }
     for (const ReportPlot& one : section.plots) text += plot(one);
     for (const ReportStrip& strip : section.strips) text += strip_html(strip);
+    if (section.bars.size() > 1) text += "<div class=\"pair\">";
     for (const ReportBars& bars : section.bars) text += bars_html(bars);
+    if (section.bars.size() > 1) text += "</div>";
     text += intervals_html(section.intervals);
     for (const ReportTable& table : section.tables) text += table_html(table);
     return text + "</section>";

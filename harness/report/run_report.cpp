@@ -57,7 +57,7 @@ std::vector<std::string> health_of(const Ensemble& ensemble) {
     for (const std::string& note : health.notes)
       if (worst.notes.empty() || worst.notes.back() != note) worst.notes.push_back(note);
   }
-  std::vector<std::string> lines{fmt::format("Worst of {} runs: energy ledger open by {:.1e} of the initial energy, momentum off by {:.1e}, deepest overlap {:.1e} m.",
+  std::vector<std::string> lines{fmt::format("Worst of all runs ({}): energy ledger open by {:.1e} of the initial energy, momentum off by {:.1e}, deepest overlap {:.1e} m.",
                                              ensemble.runs.size(), worst.ledger_error, worst.momentum_error, worst.deepest_overlap),
                                  fmt::format("{} impacts made elastic.", worst.elastic_rescues)};
   lines.insert(lines.end(), worst.notes.begin(), worst.notes.end());

@@ -136,6 +136,7 @@ function draw_what_is_shown() {
     if (!entry.u && shown(entry.element)) entry.u = make_plot(entry.element, entry.plot);
 }
 
+/// Plots at once; the returned promise is kept when the grains stand there too.
 function show_group(group) {
   page.group = group;
   for (const element of all("[data-group]")) element.classList.toggle("hidden", element.dataset.group !== group && element.dataset.group !== "");
@@ -147,8 +148,8 @@ function show_group(group) {
   const ends = page.plots.filter((p) => p.plot.time && p.plot.group === group).map((p) => (Array.isArray(p.plot.x) ? p.plot.x : numbers(p.plot.x)).at(-1));
   page.duration = Math.max(0, replay ? replay.duration : 0, ...ends);
   draw_what_is_shown();
-  for (const r of page.replays) r.shown(r.group === group);
   page.setTime(page.time);
+  return Promise.all(page.replays.map((r) => r.shown(r.group === group)));
 }
 
 function save_csv(plot, name) {
@@ -206,11 +207,13 @@ async function start() {
   const elements = new Map(all(".plot").map((element) => [Number(element.dataset.plot), element]));
   page.plots = page.data.plots.map((plot, i) => ({ plot, element: elements.get(i), u: null }));
   wire_tools();
-  page.replays = await Promise.all(page.data.replays.map((replay, i) => start_replay(page, replay, i)));
+  page.replays = page.data.replays.map((replay, i) => start_replay(page, replay, i));
   const first = document.querySelector("[role=tab][aria-selected=true]");
-  show_group(first ? first.dataset.tab : "");
-  page.setTime(page.replays.length ? page.data.replays[0].from : 0);
+  if (page.data.replays.length) page.time = page.data.replays[0].from;
+  const grains = show_group(first ? first.dataset.tab : "");
   root.dataset.ready = "yes";
+  await grains;
+  root.dataset.grains = "yes";
 }
 
 globalThis.report = page;

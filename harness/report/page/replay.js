@@ -90,7 +90,7 @@ function box_edges(lx, ly, lz) {
 class Scene {
   constructor(canvas, replay, tracks) {
     this.canvas = canvas; this.replay = replay; this.tracks = tracks;
-    this.yaw = 0.5; this.pitch = 0.42; this.by_class = false;
+    this.yaw = 0.38; this.pitch = 0.36; this.by_class = false; this.follow = false;
     const gl = canvas.getContext("webgl2", { antialias: true, alpha: true, preserveDrawingBuffer: true });
     if (!gl) throw new Error("no WebGL 2");
     this.gl = gl;
@@ -143,15 +143,19 @@ class Scene {
     const box = tracks[n], i = find(box, t), j = Math.min(i + 1, box.t.length - 1), dt = box.t[j] - box.t[i];
     const x_box = box.x[i] + (dt > 0 ? Math.min(Math.max((t - box.t[i]) / dt, 0), 1) : 0) * (box.x[j] - box.x[i]);
     const dark = rgb(getComputedStyle(document.documentElement).getPropertyValue("--paper").trim())[0] < 0.5;
-    const turn = this.view(), aspect = w / h, zoom = 0.94 / replay.reach, depth = 1 / (3 * replay.reach);
+    const turn = this.view(), aspect = w / h, depth = 1 / (3 * replay.reach);
+    // The whole way of the box fills the width; who follows the box looks at it alone.
+    const half = this.follow ? 0.62 * replay.length + 0.5 * replay.width : replay.reach, tilt = Math.abs(Math.cos(this.yaw));
+    const across = half * tilt + 0.5 * replay.width * Math.abs(Math.sin(this.yaw)), up = (0.5 * replay.height + half * Math.abs(Math.sin(this.yaw) * Math.sin(this.pitch))) * 1.12;
+    const zoom = 0.97 / Math.max(across, up * aspect), shift = [this.follow ? -x_box * turn[0] * zoom : 0, this.follow ? -x_box * turn[1] * zoom * aspect : 0];
     const scale = [zoom, zoom * aspect, depth];
     gl.viewport(0, 0, w, h); gl.clearColor(0, 0, 0, 0); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT); gl.enable(gl.DEPTH_TEST);
     gl.useProgram(this.spheres.made);
-    gl.uniformMatrix3fv(this.spheres.uniform("turn"), false, turn); gl.uniform3fv(this.spheres.uniform("scale"), scale); gl.uniform2f(this.spheres.uniform("shift"), 0, 0.04);
+    gl.uniformMatrix3fv(this.spheres.uniform("turn"), false, turn); gl.uniform3fv(this.spheres.uniform("scale"), scale); gl.uniform2f(this.spheres.uniform("shift"), ...shift);
     gl.bindVertexArray(this.quad); gl.bindBuffer(gl.ARRAY_BUFFER, this.instance_buffer); gl.bufferSubData(gl.ARRAY_BUFFER, 0, this.instances);
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, n);
     gl.useProgram(this.lines.made);
-    gl.uniformMatrix3fv(this.lines.uniform("turn"), false, turn); gl.uniform3fv(this.lines.uniform("scale"), scale); gl.uniform2f(this.lines.uniform("shift"), 0, 0.04);
+    gl.uniformMatrix3fv(this.lines.uniform("turn"), false, turn); gl.uniform3fv(this.lines.uniform("scale"), scale); gl.uniform2f(this.lines.uniform("shift"), ...shift);
     const stroke = (shape, x, red, green, blue, alpha) => {
       gl.uniform3f(this.lines.uniform("offset"), x, 0, 0); gl.uniform4f(this.lines.uniform("colour"), red, green, blue, alpha);
       gl.bindVertexArray(shape.a); gl.drawArrays(gl.LINES, 0, shape.count);
@@ -173,9 +177,21 @@ function value_at(times, values, t) {
   return values[low] + f * (values[high] - values[low]);
 }
 
-async function start_replay(page, replay, index) {
+/// Nothing is unpacked before it is looked at.
+function start_replay(page, replay, index) {
+  let begun = null;
+  return {
+    group: replay.group,
+    async shown(yes) {
+      if (yes && !begun) begun = begin_replay(page, replay, index);
+      if (begun) (await begun).shown(page.group === replay.group);
+    },
+  };
+}
+
+async function begin_replay(page, replay, index) {
   const host = document.querySelector(`[data-replay="${index}"]`), canvas = host.querySelector("canvas");
-  const quiet = { group: replay.group, shown() {} };
+  const quiet = { shown() {} };
   let scene;
   try {
     scene = new Scene(canvas, replay, read_tracks(await unpack("replay-" + index), replay));
@@ -221,6 +237,7 @@ async function start_replay(page, replay, index) {
     host.querySelector(".scale.of-class").classList.toggle("hidden", !scene.by_class);
     draw(page.time);
   });
+  host.querySelector("[data-view]").addEventListener("change", (event) => { scene.follow = event.target.value === "box"; draw(page.time); });
   let grip = null;
   canvas.addEventListener("pointerdown", (event) => { grip = [event.clientX, event.clientY, scene.yaw, scene.pitch]; canvas.setPointerCapture(event.pointerId); });
   canvas.addEventListener("pointermove", (event) => {
@@ -238,5 +255,5 @@ async function start_replay(page, replay, index) {
     event.preventDefault();
   });
   new ResizeObserver(() => draw(page.time)).observe(canvas);
-  return { group: replay.group, scene, shown(yes) { shown = yes; if (yes) draw(page.time); } };
+  return { shown(yes) { shown = yes; if (yes) draw(page.time); } };
 }

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// A collision log that went through a file is the same log, and a damaged file is named as such.
+#include <fstream>
+
+#include "logged_run.hpp"
+#include "output_file.hpp"
+
+using namespace shakedown;
+
+TEST(CollisionLogFile, ReadsBackBitForBit) {
+  const std::filesystem::path folder = own_folder();
+  const StoredRun run = logged_run();
+  write_file(folder / collision_log_name, collision_log_bytes(run));
+  const StoredRun back = read_collision_log(folder, all_effects());
+  EXPECT_EQ(back.program, run.program);
+  EXPECT_EQ(digest(back.setup), digest(run.setup));
+  EXPECT_EQ(back.log.events, run.log.events);
+  EXPECT_EQ(back.log.digests, run.log.digests);
+  EXPECT_EQ(back.log.entries, run.log.entries);
+  EXPECT_EQ(back.log.impacts, run.log.impacts);
+  EXPECT_EQ(back.log.end_time, run.log.end_time);
+  EXPECT_EQ(back.log.initial.position, run.log.initial.position);
+  EXPECT_EQ(back.log.initial.velocity, run.log.initial.velocity);
+  EXPECT_EQ(back.log.initial.radius, run.log.initial.radius);
+  EXPECT_EQ(collision_log_bytes(back), collision_log_bytes(run));
+}
+
+TEST(CollisionLogFile, NamesADamagedFile) {
+  const std::filesystem::path folder = own_folder();
+  const std::string bytes = collision_log_bytes(logged_run());
+  for (const std::size_t length : {std::size_t{0}, std::size_t{40}, bytes.size() / 2, bytes.size() - 1}) {
+    write_file(folder / "cut.log", bytes.substr(0, length));
+    EXPECT_THROW(read_collision_log(folder / "cut.log", all_effects()), FileError) << length;
+  }
+  EXPECT_THROW(read_collision_log(folder / "missing.log", all_effects()), FileError);
+}

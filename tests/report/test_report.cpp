@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// The page holds everything and asks nobody; a report survives its file.
+#include "report.hpp"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "output_file.hpp"
+#include "packed_numbers.hpp"
+#include "report_joined.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+Report small_report() {
+  Report report;
+  report.kind = "test";
+  report.title = "<script>alert(1)</script> & \"quotes\"";
+  report.sentence = "A sentence </h1> with a trap.";
+  report.tone = Tone::bad;
+  report.verdict = "missing";
+  ReportSection section;
+  section.title = "Curves";
+  ReportPlot plot;
+  plot.title = "Box";
+  plot.group = "L040";
+  plot.over_time = true;
+  plot.x = {0, 0.1, 0.2};
+  plot.curves = {{"measured </script>", CurveRole::measured, {1, std::nan(""), -2.5}}};
+  section.plots = {plot};
+  section.strips = {{"strip", "", "s", "sigma", {0, 1, 2}, {{"L040", "L040", {1, std::nan("")}}}}};
+  section.bars = {{"ladder", "", "mm", {"a", "b"}, {{"as given", "p = 0", {3, std::nan("")}}}, 0.3, "floor"}};
+  section.intervals = {{"restitution", "", "", 0.75, 0.7, 0.8, 0.76}};
+  report.sections = {section};
+  report.command = "shakedown <x>";
+  return report;
+}
+
+std::string inflated(const std::string& bytes) {
+  z_stream stream{};
+  EXPECT_EQ(inflateInit2(&stream, 15 + 16), Z_OK);
+  std::string out(1 << 20, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
+  out.resize(stream.total_out);
+  inflateEnd(&stream);
+  return out;
+}
+
+}  // namespace
+
+TEST(Report, PageForbidsTheNetworkAndNamesNoOtherFile) {
+  const std::string html = report_html(small_report());
+  EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
+  for (const char* reference : {"src=\"", "src='", "url(", "@import", "href=\"http", "fetch(", "XMLHttpRequest", "WebSocket"})
+    EXPECT_EQ(html.find(reference), std::string::npos) << reference;
+}
+
+TEST(Report, PageEscapesWhatItIsGiven) {
+  const std::string html = report_html(small_report());
+  EXPECT_EQ(html.find("<script>alert"), std::string::npos);
+  EXPECT_EQ(html.find("</h1> with"), std::string::npos);
+  EXPECT_EQ(html.find("measured </script>"), std::string::npos);
+}
+
+TEST(Report, SameReportSameBytes) { EXPECT_EQ(report_html(small_report()), report_html(small_report())); }
+
+TEST(Report, SurvivesItsFile) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "shakedown_report_survives";
+  const Report report = small_report();
+  write_file(folder / report_file_name, report_json(report));
+  EXPECT_EQ(report_html(read_report(folder)), report_html(report));
+  write_file(folder / "other.json", "{\"schema_version\": 99}");
+  EXPECT_THROW(read_report(folder / "other.json"), FileError);
+  write_file(folder / "other.json", "nonsense");
+  EXPECT_THROW(read_report(folder / "other.json"), FileError);
+  EXPECT_THROW(read_report(folder / "missing.json"), FileError);
+}
+
+TEST(Report, SeveralAreJoinedWithoutMixingTheirRuns) {
+  const Report all = joined({{"a", small_report()}, {"b", small_report()}});
+  ASSERT_EQ(all.sections.size(), 3u);
+  EXPECT_EQ(all.sections[1].plots[0].group, "a: L040");
+  EXPECT_EQ(all.sections[2].strips[0].rows[0].group, "b: L040");
+}
+
+TEST(PackedNumbers, KeepFourDigitsOfTheLargestAndTheGaps) {
+  const std::vector<double> values{104.123, std::nan(""), -99.5, 0.01, 0};
+  const nlohmann::json packed = nlohmann::json::parse(packed_json(values));
+  const double quantum = packed.at("q");
+  EXPECT_LE(quantum, 104.123 / 40000);
+  double sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    ASSERT_EQ(packed.at("d")[i].is_null(), std::isnan(values[i]));
+    if (std::isnan(values[i])) continue;
+    sum += packed.at("d")[i].get<double>();
+    EXPECT_NEAR(sum * quantum, values[i], quantum / 2 + 1e-12);
+  }
+}
+
+TEST(PackedNumbers, GzipIsGzip) {
+  const std::string text = "the same, the same, the same";
+  EXPECT_EQ(inflated(gzip(text)), text);
+  EXPECT_EQ(base64("Man"), "TWFu");
+  EXPECT_EQ(base64("Ma"), "TWE=");
+  EXPECT_EQ(base64("M"), "TQ==");
+}
