@@ -62,11 +62,10 @@ TEST_P(ExportAs, IsReadBackByTheProgramItIsFor) {
   std::vector<double> expected{21, 37, last.time, x.x(), v.y(), last.state.radius[5]};
   if (format == "lammps") expected = {21, 37, x.x()};
   ASSERT_GE(back.numbers.size(), expected.size()) << back.text;
-  for (std::size_t k = 0; k < expected.size(); ++k) {
-    if (format == "lammps" && k == 3) continue;
+  for (std::size_t k = 0; k < expected.size(); ++k)
     EXPECT_NEAR(back.numbers[k], expected[k], 1e-15 * std::abs(expected[k])) << "number " << k << " of\n" << back.text;
-  }
-  if (format != "csv") EXPECT_NEAR(back.numbers.back(), run.setup.box.length, 1e-15);
+  if (format == "csv") return;
+  EXPECT_NEAR(back.numbers.back(), run.setup.box.length, 1e-15);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, ExportAs, ::testing::Values("xyz", "lammps", "vtp", "npy", "csv"), [](const auto& of) { return of.param; });
@@ -86,7 +85,7 @@ TEST(Export, FramesAreTheEnginesOwnSamples) {
 TEST(Export, TheBoxMovesWithItsWallsAndHoldsEveryGrain) {
   const StoredRun run = logged_run();
   for (const Frame& frame : frames_of(run, {0, 1, 1000})) {
-    EXPECT_DOUBLE_EQ((frame.box_low.x() + frame.box_high.x()) / 2, frame.state.x_box);
+    EXPECT_NEAR((frame.box_low.x() + frame.box_high.x()) / 2, frame.state.x_box, 2e-17);
     for (std::size_t i = 0; i < frame.state.size(); ++i)
       for (int axis = 0; axis < 3; ++axis) {
         EXPECT_GE(frame.state.position[i][axis] - frame.state.radius[i], frame.box_low[axis] - 1e-12);

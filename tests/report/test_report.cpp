@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "errors.hpp"
 #include "output_file.hpp"
 #include "packed_numbers.hpp"
 #include "report_joined.hpp"
