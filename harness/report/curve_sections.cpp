@@ -244,7 +244,7 @@ std::vector<ReportReplay> replays_of(const std::vector<MeasuredAgainstModel>& ru
       if (std::isfinite(run.box_residual[i]) && (!std::isfinite(run.box_residual[worst]) || std::abs(run.box_residual[i]) > std::abs(run.box_residual[worst]))) worst = i;
     ReportReplay replay = replay_of({"", setup, 0, *trajectory.collision_log},
                                     {run.run, "The grains", run.time[worst] - 0.25, run.time[worst] + 0.25, run.time.back(), bytes / count, 2e-5});
-    replay.caption = "Dark box: measured. " + replay.caption;
+    replay.caption = "Black box (white on dark): measured. " + replay.caption;
     for (std::size_t i = 0; i < run.time.size(); ++i)
       if (std::isfinite(run.box[i])) replay.measured_time.push_back(run.time[i]), replay.measured_x_box.push_back(run.box[i]);
     replays.push_back(std::move(replay));

@@ -116,7 +116,7 @@ std::string bars_html(const ReportBars& bars) {
 
 std::string strip_html(const ReportStrip& strip) {
   std::string text = "<figure>" + title_html(strip.title);
-  text += fmt::format("<div class=\"key\"><span>0 <b class=\"ramp\"></b> {} and more {}</span></div><div class=\"strip\">", for_people(strip.top),
+  text += fmt::format("<div class=\"key\"><span>0 <b class=\"ramp\"></b> {:g} and more {}</span></div><div class=\"strip\">", strip.top,
                       escaped(strip.value_name));
   for (const ReportStrip::Row& row : strip.rows) {
     text += "<span>" + escaped(row.name) + "</span><div class=\"cells\">";
@@ -131,8 +131,8 @@ std::string strip_html(const ReportStrip& strip) {
     text += "</div>";
   }
   if (!strip.edges.empty())
-    text += fmt::format("<span></span><div class=\"ticks\"><span>{}</span><span>{}</span><span>{}</span></div>", for_people(strip.edges.front()),
-                        escaped(strip.x_label), for_people(strip.edges.back()));
+    text += fmt::format("<span></span><div class=\"ticks\"><span>{:g}</span><span>{}</span><span>{:g}</span></div>", strip.edges.front(), escaped(strip.x_label),
+                        strip.edges.back());
   return text + "</div>" + caption_html(strip.caption) + "</figure>";
 }
 

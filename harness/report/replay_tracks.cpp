@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "packed_numbers.hpp"
@@ -18,6 +19,9 @@ using Track = ReportReplay::Track;
 constexpr std::uint8_t no_contact = 3;
 constexpr double bent_flight_step = 1e-2;  // s
 constexpr double box_step = 2e-3;          // s; the box bends by 3 um in it
+
+/// To the page's units, 2 us and 2 um, as decimal numbers that files hold in few digits.
+double rounded(double value) { return std::round(value * 5e5) / 5e5; }
 
 void add(Track& track, double time, const Vec3& at, std::uint8_t contact) {
   track.time.push_back(time);
@@ -77,7 +81,9 @@ Track thinned(const Track& track, double tolerance, double exact_from, double ex
   };
   const std::array<const std::vector<double>*, 3> axes{&track.x, &track.y, &track.z};
   Track kept;
-  const auto keep = [&](std::size_t i) { add(kept, track.time[i], {track.x[i], track.y[i], track.z[i]}, track.contact[i]); };
+  const auto keep = [&](std::size_t i) {
+    add(kept, rounded(track.time[i]), {rounded(track.x[i]), rounded(track.y[i]), rounded(track.z[i])}, track.contact[i]);
+  };
   std::array<Slopes, 3> slopes;
   std::size_t last = 0;
   keep(0);

@@ -38,7 +38,7 @@ async function open(options = {}) {
   await cdp.send("Performance.enable", { timeDomain: "threadTicks" });
   const start = Date.now();
   await page.goto(url);
-  await page.waitForFunction(() => document.documentElement.dataset.ready, null, { timeout: 20000 });
+  await page.waitForFunction(() => document.documentElement.dataset.ready, null, { timeout: 60000 });
   page.seconds = (Date.now() - start) / 1000;
   page.cpu_seconds = (await cdp.send("Performance.getMetrics")).metrics.find((metric) => metric.name === "TaskDuration").value;
   return page;
@@ -70,7 +70,7 @@ if (tabs > 1) await page.locator("[role=tab]").first().click();
 
 // The grains move with the cursor, and a click on a residual goes there.
 const replay = page.locator("[data-replay] canvas >> visible=true").first();
-if (await replay.count()) await page.waitForFunction(() => document.documentElement.dataset.grains, null, { timeout: 20000 });
+if (await replay.count()) await page.waitForFunction(() => document.documentElement.dataset.grains, null, { timeout: 60000 });
 const hash = () => replay.evaluate((canvas) => {
   const gl = canvas.getContext("webgl2"), pixels = new Uint8Array(4 * canvas.width * canvas.height);
   gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);

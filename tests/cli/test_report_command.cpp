@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// run --log, export and report, as a user types them.
+#include "program.hpp"
+
+namespace fs = std::filesystem;
+
+class ReportCommand : public WithFolder {
+ protected:
+  /// A short run with its log and a report, in folder "run".
+  Outcome logged_run() const {
+    return shakedown_program({"run", example("L040.toml"), "--set", "run.duration=0.5s", "--out", in_folder("run"), "--log", "--report", in_folder("run.html")});
+  }
+};
+
+TEST_F(ReportCommand, ALoggedRunIsExportedAndShown) {
+  const Outcome run = logged_run();
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("report: open "), std::string::npos) << run.out;
+  EXPECT_TRUE(fs::exists(in_folder("run/collisions.log")));
+  const Outcome exported = shakedown_program({"export", in_folder("run"), "--as", "csv", "--rate", "1kHz", "--from", "0.1s", "--to", "0.2s"});
+  ASSERT_EQ(exported.code, 0) << exported.err;
+  EXPECT_NE(exported.out.find("101 frames of 37 grains"), std::string::npos) << exported.out;
+  EXPECT_TRUE(fs::exists(in_folder("run/export/motion.csv")));
+  const Outcome again = shakedown_program({"report", in_folder("run"), "--out", in_folder("again.html")});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(contents(in_folder("again.html")), contents(in_folder("run.html")));
+}
+
+TEST_F(ReportCommand, TheLogIsTheSameForAnyNumberOfThreads) {
+  for (const std::string threads : {"1", "2"})
+    ASSERT_EQ(shakedown_program({"run", example("L065.toml"), "--set", "run.duration=0.3s", "--runs", "3", "--threads", threads, "--log", "--every-series",
+                                 "--out", in_folder(threads)}).code, 0);
+  for (const std::string name : {"collisions.log", "collisions/run_0000.log", "collisions/run_0002.log"})
+    EXPECT_EQ(contents(in_folder("1/" + name)), contents(in_folder("2/" + name))) << name;
+  EXPECT_EQ(contents(in_folder("1/collisions.log")), contents(in_folder("1/collisions/run_0000.log")));
+}
+
+TEST_F(ReportCommand, WhatCannotBeLoggedIsNamed) {
+  const Outcome nowhere = shakedown_program({"run", example("L040.toml"), "--log"});
+  EXPECT_EQ(nowhere.code, 2);
+  EXPECT_NE(nowhere.err.find("--out DIR"), std::string::npos) << nowhere.err;
+  const Outcome soft = shakedown_program({"run", example("L040.toml"), "--log", "--engine", "soft", "--out", in_folder("soft")});
+  EXPECT_EQ(soft.code, 2);
+  EXPECT_NE(soft.err.find("--engine hard"), std::string::npos) << soft.err;
+}
+
+TEST_F(ReportCommand, MistakesOfExportAreNamed) {
+  ASSERT_EQ(logged_run().code, 0);
+  EXPECT_EQ(shakedown_program({"export", in_folder("nothing")}).code, 4);
+  EXPECT_EQ(shakedown_program({"export", in_folder("run"), "--as", "mp4"}).code, 2);
+  EXPECT_EQ(shakedown_program({"export", in_folder("run"), "--rate", "10 mm"}).code, 2);
+  const Outcome late = shakedown_program({"export", in_folder("run"), "--from", "3s"});
+  EXPECT_EQ(late.code, 2);
+  EXPECT_NE(late.err.find("0.5 s"), std::string::npos) << late.err;
+  EXPECT_EQ(shakedown_program({"report", in_folder("nothing")}).code, 4);
+}
