@@ -92,8 +92,8 @@ if (await replay.count()) {
   expect(moved > 0.4 && clicked.sum !== after.sum, `a click on a plot does not move the grains (t = ${moved})`);
   await page.locator("[data-replay] canvas:visible").first().focus();
   await page.keyboard.press("Space");
-  await page.waitForTimeout(300);
-  expect((await page.evaluate(() => report.time)) > moved, "the space bar does not play");
+  const plays = await page.waitForFunction((t) => report.time > t, moved, { timeout: 10000 }).then(() => true, () => false);
+  expect(plays, "the space bar does not play");
   await page.keyboard.press("Space");
 }
 const [download] = await Promise.all([page.waitForEvent("download"), page.locator("[data-csv]:visible").first().click()]);
