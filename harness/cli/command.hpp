@@ -40,5 +40,7 @@ Command add_import_command(CLI::App& program);
 Command add_schema_command(CLI::App& program);
 Command add_crosscheck_command(CLI::App& program);
 Command add_check_command(CLI::App& program);
+Command add_sweep_command(CLI::App& program);
+Command add_merge_command(CLI::App& program);
 
 }  // namespace shakedown

@@ -7,6 +7,8 @@ std::vector<Command> add_commands(CLI::App& program) {
   return {
       add_run_command(program),
       add_theory_command(program),
+      add_sweep_command(program),
+      add_merge_command(program),
       add_import_command(program),
       add_compare_command(program),
       add_diagnose_command(program),

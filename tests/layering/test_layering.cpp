@@ -43,13 +43,14 @@ std::map<std::string, Folder> folders() {
       {"softsphere", {laws, {"Eigen/", "Bullet", "bullet/", "LinearMath/", "bt"}, {"Eigen/"}}},
       {"harness/observe", {laws, {"Eigen/"}, {"Eigen/"}}},
       {"harness/run", {run, json, {}}},
+      {"harness/sweep", {with(run, {"harness/run"}), {"fmt/", "sqlite3"}, {}}},
       {"harness/measure", {with(laws, {"harness/observe"}), with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/compare", {compare, with(json, {"nlopt", "Eigen/", "sqlite3"}), {"Eigen/"}}},
       {"harness/diagnose", {diagnose, with(json, {"Eigen/", "sqlite3", "nlopt", "muParser"}), {"Eigen/"}}},
       {"harness/laboratory", {laboratory, json, {}}},
       {"harness/export", {diagnose, with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/report", {report, with(json, {"Eigen/", "zlib.h"}), {"Eigen/"}}},
-      {"harness/cli", {with(report, {"harness/report", "harness/laboratory"}), with(json, {"CLI/"}), {"CLI/"}}},
+      {"harness/cli", {with(report, {"harness/report", "harness/laboratory", "harness/sweep"}), with(json, {"CLI/"}), {"CLI/"}}},
   };
 }
 
@@ -111,7 +112,7 @@ bool starts_with_any(const std::string& header, const std::set<std::string>& pre
 /// Headers of C++ have no dot; of C and the system a few are allowed by name.
 bool is_standard(const std::string& header) {
   static const std::set<std::string> system{"unistd.h",    "experimental/simd", "immintrin.h", "sys/wait.h",   "sys/types.h",
-                                            "sys/stat.h",  "sys/ioctl.h", "sys/socket.h", "netinet/in.h",
+                                            "sys/stat.h", "sys/statfs.h",  "sys/ioctl.h", "sys/socket.h", "netinet/in.h",
                                             "arpa/inet.h", "poll.h",      "fcntl.h"};
   return header.find_first_of("./") == std::string::npos || system.contains(header);
 }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Which part of a sweep this process does. Jobs are dealt out like cards, so shares cost about the same.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace shakedown {
+
+struct Share {
+  int index = 0;       ///< 0 ... of - 1
+  int of = 1;
+  std::string source{};  ///< what said so, for people; empty: nobody, everything is done here
+
+  bool has(std::size_t job) const { return job % static_cast<std::size_t>(of) == static_cast<std::size_t>(index); }
+};
+
+/// "2/8": the second of eight. Throws InputError.
+Share parse_share(std::string_view text);
+
+/// How a variable of the environment reads.
+using Environment = std::function<std::optional<std::string>(const char* name)>;
+Environment process_environment();
+
+/// The share that a launcher gave: ranks of Open MPI, MVAPICH, or any with PMI; tasks of srun; Slurm job arrays and Grid Engine arrays,
+/// and tasks within array members. A Slurm batch script itself is no task of srun: without a step it does everything. Throws
+/// InputError when rank and size contradict each other.
+Share share_from_launcher(const Environment& environment);
+
+}  // namespace shakedown

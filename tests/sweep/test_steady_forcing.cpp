@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The forced box without grains has closed forms: amplitude a M / sqrt((k - M w^2)^2 + (c w)^2), phase and loss factor c w / k.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "effects.hpp"
+#include "engines.hpp"
+#include "run_numbers.hpp"
+#include "setup_file.hpp"
+#include "steady_forcing.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+shakedown::Setup forced(double frequency, double damping) {
+  return parse_setup("[grains]\ncount = 0\n[release]\ndisplacement = \"1 mm\"\n[[effect]]\nname = \"oscillating_acceleration\"\n"
+                     "amplitude = [\"0.5 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\nfrequency = \"" + std::to_string(frequency) +
+                     " Hz\"\nphase = \"0.7 rad\"\n[[effect]]\nname = \"blade_viscous_damping\"\ndamping = \"" + std::to_string(damping) + " N s/m\"\n",
+                     "test", all_effects());
+}
+
+}  // namespace
+
+TEST(SteadyForcing, TheForcedDampedBox) {
+  const double damping = 0.8;  // transients gone after 30 cycles
+  for (const double frequency : {0.9, 1.23, 1.7}) {
+    const shakedown::Setup setup = long_enough_for_forcing(forced(frequency, damping));
+    EXPECT_DOUBLE_EQ(setup.run.duration, 40 / frequency);
+    const SteadyState steady = steady_state(setup, engine_named("hard")->run(setup));
+    const double w = 2 * std::numbers::pi * frequency, k = 0.434 * std::pow(2 * std::numbers::pi * 1.23, 2);
+    const double amplitude = 0.434 * 0.5 / std::hypot(k - 0.434 * w * w, damping * w);
+    EXPECT_NEAR(steady.amplitude, amplitude, 2e-4 * amplitude) << frequency;
+    EXPECT_LT(steady.variation, 1e-4);
+    EXPECT_NEAR(steady.phase_lag, std::atan2(damping * w, k - 0.434 * w * w), 2e-4) << frequency;
+    EXPECT_NEAR(steady.loss_factor, damping * w / k, 2e-3 * damping * w / k) << frequency;
+  }
+}
+
+TEST(SteadyForcing, WithGrainsTheLossIsThatOfTheContacts) {
+  shakedown::Setup setup = parse_setup("[box]\nlength = \"65 mm\"\n[[effect]]\nname = \"oscillating_acceleration\"\namplitude = [\"0.3 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\nfrequency = \"1.05 Hz\"\n",
+                                       "test", all_effects());
+  setup = long_enough_for_forcing(setup);
+  const Trajectory trajectory = engine_named("hard")->run(setup);
+  const SteadyState steady = steady_state(setup, trajectory);
+  const std::size_t from = static_cast<std::size_t>(std::lround(30 / 1.05 * 500));
+  double lost = 0;
+  for (const std::vector<double>& loss : trajectory.loss) lost += loss.back() - loss[from];
+  const double stored = 0.434 * std::pow(2 * std::numbers::pi * 1.23, 2) * steady.amplitude * steady.amplitude / 2;
+  EXPECT_NEAR(steady.loss_factor, lost / 10 / (2 * std::numbers::pi * stored), 0.01 * steady.loss_factor);
+}
+
+TEST(SteadyForcing, OnlyOneForcingAlongTheAxisIsSteady) {
+  EXPECT_FALSE(steady_forcing_of(shakedown::Setup{}));
+  shakedown::Setup setup = forced(1, 0.1);
+  EXPECT_TRUE(steady_forcing_of(setup));
+  setup.effects.push_back(setup.effects.front());
+  EXPECT_FALSE(steady_forcing_of(setup));
+}
