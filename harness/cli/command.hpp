@@ -42,5 +42,7 @@ Command add_crosscheck_command(CLI::App& program);
 Command add_check_command(CLI::App& program);
 Command add_sweep_command(CLI::App& program);
 Command add_merge_command(CLI::App& program);
+Command add_fit_command(CLI::App& program);
+Command add_paper_command(CLI::App& program);
 
 }  // namespace shakedown

@@ -11,6 +11,8 @@ std::vector<Command> add_commands(CLI::App& program) {
       add_merge_command(program),
       add_import_command(program),
       add_compare_command(program),
+      add_fit_command(program),
+      add_paper_command(program),
       add_diagnose_command(program),
       add_add_command(program),
       add_ladder_command(program),

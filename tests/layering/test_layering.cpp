@@ -46,11 +46,13 @@ std::map<std::string, Folder> folders() {
       {"harness/sweep", {with(run, {"harness/run"}), {"fmt/", "sqlite3"}, {}}},
       {"harness/measure", {with(laws, {"harness/observe"}), with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/compare", {compare, with(json, {"nlopt", "Eigen/", "sqlite3"}), {"Eigen/"}}},
+      {"harness/fit", {diagnose, with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/diagnose", {diagnose, with(json, {"Eigen/", "sqlite3", "nlopt", "muParser"}), {"Eigen/"}}},
       {"harness/laboratory", {laboratory, json, {}}},
+      {"harness/paper", {with(laboratory, {"harness/fit", "harness/laboratory"}), with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/export", {diagnose, with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/report", {report, with(json, {"Eigen/", "zlib.h"}), {"Eigen/"}}},
-      {"harness/cli", {with(report, {"harness/report", "harness/laboratory", "harness/sweep"}), with(json, {"CLI/"}), {"CLI/"}}},
+      {"harness/cli", {with(report, {"harness/report", "harness/laboratory", "harness/sweep", "harness/fit", "harness/paper"}), with(json, {"CLI/"}), {"CLI/"}}},
   };
 }
 

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// shakedown fit: parameters of the model from some runs of an experiment, and how well it foretells the others.
+#include "fit.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <sstream>
+
+#include "command.hpp"
+#include "effects.hpp"
+#include "engines.hpp"
+#include "experiment_file.hpp"
+#include "free_parameters.hpp"
+#include "interruption.hpp"
+#include "json_output.hpp"
+#include "output_file.hpp"
+#include "progress_display.hpp"
+#include "setup_arguments.hpp"
+#include "setup_file.hpp"
+
+namespace shakedown {
+
+namespace {
+
+struct FitArguments {
+  SetupArguments setup;
+  JsonOutput json;
+  std::string data, free, on, out;
+  int count = 160, threads = 0;
+};
+
+int fit(const FitArguments& arguments) {
+  const Setup setup = arguments.setup.read();
+  const Experiment experiment = read_experiment(arguments.data);
+  const std::vector<Knob> knobs = free_parameters(arguments.free, setup, all_effects());
+  arguments.json.check();
+  if (!arguments.out.empty()) expect_writable(arguments.out);
+  FitOptions options;
+  std::stringstream names(arguments.on);
+  for (std::string name; std::getline(names, name, ',');) options.on.push_back(name);
+  options.count = arguments.count;
+  options.threads = arguments.threads;
+  options.known = all_effects();
+  options.stop = catch_interruption();
+  Fit found;
+  {
+    ProgressDisplay display(fmt::format("{}: fitting", arguments.data));
+    const double about = 12.0 * options.count;  // rounds; more when the start is far off
+    options.progress = [&](const std::string& stage, std::int64_t runs) {
+      display.rename(stage);
+      display.show(std::min(0.99, static_cast<double>(runs) / about));
+    };
+    found = fit_parameters(setup, experiment, knobs, *engine_named("hard"), options);
+  }
+  fmt::print(arguments.json.for_people(), "{}", fit_text(found));
+  if (!arguments.out.empty()) write_file(arguments.out, "# Fitted by `shakedown fit` to " + arguments.data + "\n" + write_setup(found.fitted));
+  arguments.json.write(fit_json(found));
+  return exit_done;
+}
+
+}  // namespace
+
+Command add_fit_command(CLI::App& program) {
+  CLI::App& command = *program.add_subcommand("fit", "parameters of the model from measurements, and the error on runs left out");
+  const auto arguments = std::make_shared<FitArguments>();
+  add_setup_arguments(command, arguments->setup);
+  command.add_option("--data", arguments->data, "experiment file")->type_name("EXPERIMENT")->required();
+  command.add_option("--free", arguments->free, "keys to fit, starting at the setup's values; keys joined by & move together")->type_name("KEY,KEY,...")->required();
+  command.add_option("--on", arguments->on, "fit these runs only, foretell the others")->type_name("RUN,RUN,...");
+  command.add_option("--out", arguments->out, "write the fitted setup")->type_name("FILE");
+  command.add_option("--runs", arguments->count, "simulations of each different setup in a round")->check(CLI::Range(32, 100000))->capture_default_str();
+  command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->check(CLI::Range(0, 1024))->capture_default_str();
+  add_json_option(command, arguments->json);
+  return {&command, [arguments] { return fit(*arguments); }};
+}
+
+}  // namespace shakedown

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "experiment_file.hpp"
+#include "free_parameters.hpp"
+#include "setup_file.hpp"
+#include "suggestion.hpp"
+#include "told_apart.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// Until when runs are looked at, stage by stage, s; then wholly.
+constexpr double first_looks[] = {2.5, 6.0};
+/// Two estimates with a correlation beyond this are one.
+constexpr double confounded = 0.95;
+
+/// The run up to a time only.
+MeasuredFeatures beginning_of(const MeasuredFeatures& whole, double end) {
+  MeasuredFeatures part{whole.run, whole.setup, {}, {}};
+  std::vector<double> values;
+  for (std::size_t f = 0; f < whole.plan.features.size(); ++f) {
+    if (whole.plan.features[f].time > end) continue;
+    part.plan.features.push_back(whole.plan.features[f]);
+    part.plan.readings.push_back(whole.plan.readings[f]);
+    values.push_back(whole.values[static_cast<Eigen::Index>(f)]);
+  }
+  part.plan.end = std::min(whole.plan.end, end + 0.1);
+  part.setup.run.duration = part.plan.end + 0.05;
+  part.values = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return part;
+}
+
+void refuse_unknown_runs(const Experiment& experiment, const std::vector<std::string>& wanted) {
+  std::vector<std::string_view> names;
+  for (const MeasuredRun& run : experiment.runs) names.push_back(run.name);
+  std::vector<Violation> found;
+  for (const std::string& name : wanted)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      found.push_back({{"--on", 0, 0}, name, "is no run of the experiment", "it has " + listed(names)});
+  if (!found.empty()) throw InputError(std::move(found));
+}
+
+class Fitter {
+ public:
+  Fitter(const Setup& setup, const Experiment& experiment, std::vector<Knob> knobs, const Engine& engine, const FitOptions& options)
+      : setup_(setup), knobs_(std::move(knobs)), start_(knobs_), options_(options) {
+    refuse_unknown_runs(experiment, options.on);
+    const std::vector<MeasuredFeatures> all = features_of(experiment, audit(experiment), setups_of_runs(setup, experiment, options.known));
+    for (const MeasuredFeatures& run : all) {
+      const bool wanted = options.on.empty() || std::find(options.on.begin(), options.on.end(), run.run) != options.on.end();
+      (wanted ? used_ : left_out_).push_back(run);
+    }
+    workshop_ = {&engine, options.known, options.threads, options.stop, {}, &fit_.runs};
+    workshop_.done = [this](int) {
+      if (options_.progress) options_.progress(stage_, fit_.runs);
+    };
+  }
+
+  Fit run() {
+    const auto begin = std::chrono::steady_clock::now();
+    for (const double end : first_looks) look_until(end);
+    const Refit last = fit_all();
+    tell(last);
+    foretell();
+    fit_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return fit_;
+  }
+
+ private:
+  RefitOptions round(int rounds, int most_rounds) {
+    RefitOptions options;
+    options.count = options_.count;
+    options.rounds = rounds;
+    options.most_rounds = most_rounds;
+    options.first_run = options_.first_run + 100000 * ++batch_;
+    return options;
+  }
+
+  double model_error() const { return RefitOptions{}.model_error * std::abs(setup_.release.displacement); }
+
+  void move_to(const Refit& found) {
+    for (std::size_t k = 0; k < knobs_.size(); ++k) {
+      knobs_[k].centre = found.values[k].value;
+      knobs_[k].width = std::clamp(4 * found.values[k].error, 0.1 * start_[k].width, start_[k].width);
+    }
+  }
+
+  void look_until(double end) {
+    stage_ = fmt::format("fitting the first {:g} s", end);
+    std::vector<MeasuredFeatures> beginnings;
+    for (const MeasuredFeatures& run : used_) beginnings.push_back(beginning_of(run, end));
+    move_to(refit(beginnings, knobs_, workshop_, round(2, 5)));
+  }
+
+  Refit fit_all() {
+    stage_ = "fitting the whole";
+    const Refit found = refit(used_, knobs_, workshop_, round(2, 5));
+    move_to(found);
+    return found;
+  }
+
+  void tell(const Refit& found) {
+    stage_ = "what the data tell";
+    const std::vector<Emulator> emulators = emulate(used_, knobs_, options_.count, options_.first_run, workshop_);
+    const ToldApart told = told_apart(used_, knobs_, emulators, model_error());
+    covariance_ = told.covariance * std::max(1.0, found.scatter);
+    fit_.correlation = told.correlation;
+    fit_.used = found.runs;
+    fit_.p_value = found.p_value;
+    fit_.scatter = found.scatter;
+    fit_.fitted = setup_at(setup_, knobs_, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs_.size())), options_.known);
+    for (std::size_t k = 0; k < knobs_.size(); ++k) fit_.parameters.push_back(parameter(k, found.values[k], told));
+  }
+
+  FittedParameter parameter(std::size_t k, const FittedValue& value, const ToldApart& told) const {
+    const Knob& knob = knobs_[k];
+    const auto i = static_cast<Eigen::Index>(k);
+    // The pseudo-experiments' spread ends at the edge of the scattered box; the slopes' does not.
+    const double error = std::max(value.error, told.error[i] * std::sqrt(std::max(1.0, fit_.scatter)));
+    FittedParameter found{knob.key, unit_of(knob, options_.known), start_[k].centre, value.value, std::max(knob.low, value.value - 1.96 * error),
+                          std::min(knob.high, value.value + 1.96 * error), true, ""};
+    const bool covers_most = 2 * 1.96 * error > 0.5 * (knob.high - knob.low) || !std::isfinite(error);
+    const bool from_zero = start_[k].low == 0 && value.value - 1.96 * error <= 0;
+    found.told = !covers_most;
+    if (covers_most) found.remark = "the data do not tell it: its interval covers most of what is possible";
+    else if (value.at_bound) found.remark = "at the bound of what is possible";
+    else if (from_zero) found.remark = "not different from zero";
+    for (std::size_t other = 0; other < knobs_.size(); ++other)
+      if (other != k && std::abs(told.correlation(i, static_cast<Eigen::Index>(other))) > confounded)
+        found.remark += fmt::format("{}only a combination with {} is told (alone it would be known to {:.2g} of this interval)", found.remark.empty() ? "" : "; ",
+                                    knobs_[other].key, told.alone[i] / told.error[i]);
+    return found;
+  }
+
+  void foretell() {
+    if (left_out_.empty()) return;
+    stage_ = "foretelling the runs left out";
+    const std::vector<Emulator> emulators = emulate(left_out_, knobs_, options_.count, options_.first_run + 50000, workshop_);
+    for (std::size_t r = 0; r < left_out_.size(); ++r)
+      fit_.left_out.push_back(foretold(left_out_[r], knobs_, emulators[r], covariance_, model_error()));
+  }
+
+  const Setup& setup_;
+  std::vector<Knob> knobs_;
+  const std::vector<Knob> start_;
+  const FitOptions& options_;
+  std::vector<MeasuredFeatures> used_, left_out_;
+  Workshop workshop_;
+  Eigen::MatrixXd covariance_;  // of the estimates
+  Fit fit_;
+  std::string stage_;
+  int batch_ = 0;
+};
+
+}  // namespace
+
+Fit fit_parameters(const Setup& setup, const Experiment& experiment, std::vector<Knob> knobs, const Engine& engine, const FitOptions& options) {
+  EXPECT(!knobs.empty());
+  return Fitter(setup, experiment, std::move(knobs), engine, options).run();
+}
+
+}  // namespace shakedown

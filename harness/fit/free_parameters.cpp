@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "free_parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "setup_file.hpp"
+#include "setup_keys.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// Restitutions beyond these make no damper; elastic grains never come to rest.
+constexpr double least_restitution = 0.05, most_restitution = 0.995;
+
+const Parameter* parameter_of(std::string_view key, std::span<const EffectRecord* const> known) {
+  const std::size_t dot = key.find('.');
+  if (dot == key.npos) return nullptr;
+  const std::string_view rest = key.substr(dot + 1);
+  for (const EffectRecord* record : known)
+    if (record->name == key.substr(0, dot)) return record->find(rest.substr(0, rest.find('.')));
+  return nullptr;
+}
+
+Knob knob_of_setup_key(const SetupKey& key, double start) {
+  const std::string path(key.path);
+  if (key.section() == "restitution") return {path, start, 0.15, least_restitution, most_restitution, true};
+  if (path == "spring.frequency") return {path, start, 0.03 * start, start / 2, start * 2, true};
+  const double reach = start != 0 ? std::abs(start) : 1;
+  return {path, start, 0.1 * reach, std::max(key.low, start - 2 * reach / 3), std::min(key.high, start + 2 * reach), true};
+}
+
+Knob knob_of(const std::string& keys, const Setup& setup, std::span<const EffectRecord* const> known) {
+  const std::string first = keys.substr(0, keys.find('&'));
+  const double start = get_number(setup, first, known);
+  if (const SetupKey* key = find_setup_key(first)) {
+    if (key->path == "grains.count" || key->section() == "run")
+      throw InputError({{{"--free", 0, 0}, first, "cannot be fitted (it is no property of the damper that varies smoothly)", "sweep it instead"}});
+    Knob knob = knob_of_setup_key(*key, start);
+    knob.key = keys;
+    return knob;
+  }
+  const Parameter& parameter = *parameter_of(first, known);
+  const double width = parameter.typical > 0 ? parameter.typical : std::max(0.1 * std::abs(start), 1e-6);
+  return {keys, start, width, std::max(parameter.low, start - 20 * width), std::min(parameter.high, start + 20 * width), true};
+}
+
+std::vector<std::string> split(std::string_view text) {
+  std::vector<std::string> parts;
+  std::stringstream stream{std::string(text)};
+  for (std::string part; std::getline(stream, part, ',');) {
+    std::erase(part, ' ');
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<Knob> free_parameters(std::string_view text, const Setup& setup, std::span<const EffectRecord* const> known) {
+  std::vector<Knob> knobs;
+  std::vector<Violation> found;
+  for (const std::string& keys : split(text)) {
+    try {
+      std::stringstream together(keys);
+      for (std::string key; std::getline(together, key, '&');) (void)get_number(setup, key, known);
+      for (const Knob& other : knobs)
+        if (other.key == keys) throw InputError({{{"--free", 0, 0}, keys, "is named twice", "name it once"}});
+      knobs.push_back(knob_of(keys, setup, known));
+    } catch (const InputError& error) {
+      for (Violation violation : error.violations) {
+        violation.place.file = "--free";
+        found.push_back(violation);
+      }
+    }
+  }
+  if (knobs.empty() && found.empty()) found.push_back({{"--free", 0, 0}, "", "names nothing to fit", "e.g. --free restitution.grain_grain,restitution.grain_wall"});
+  if (!found.empty()) throw InputError(std::move(found));
+  return knobs;
+}
+
+std::string unit_of(const Knob& knob, std::span<const EffectRecord* const> known) {
+  const std::string first = knob.key.substr(0, knob.key.find('&'));
+  if (const SetupKey* key = find_setup_key(first)) return std::string(key->unit);
+  const Parameter* parameter = parameter_of(first, known);
+  return parameter == nullptr ? "" : std::string(parameter->unit);
+}
+
+}  // namespace shakedown

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "told_apart.hpp"
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+
+namespace shakedown {
+
+namespace {
+
+constexpr double shrinkage = 0.2;  // as in a refit
+
+/// Chaos from run to run in these simulations, pulled towards no correlation, plus noise and the difference between models.
+Eigen::MatrixXd covariance(const Eigen::MatrixXd& residuals, const FeaturePlan& plan, double model_error) {
+  Eigen::MatrixXd found = residuals.transpose() * residuals / static_cast<double>(residuals.rows());
+  const Eigen::VectorXd variance = found.diagonal();
+  found *= 1 - shrinkage;
+  for (Eigen::Index f = 0; f < variance.size(); ++f) {
+    const double noise = plan.features[static_cast<std::size_t>(f)].noise;
+    found(f, f) += shrinkage * variance[f] + noise * noise + model_error * model_error;
+  }
+  return found;
+}
+
+/// Slopes of the features at the solution, a column a knob: terms 1 ... of the regression, which count in widths.
+Eigen::MatrixXd slopes_of(const std::vector<Knob>& knobs, const Emulator& emulator) {
+  Eigen::MatrixXd slopes = emulator.coefficients.middleRows(1, static_cast<Eigen::Index>(knobs.size())).transpose();
+  for (Eigen::Index k = 0; k < slopes.cols(); ++k) slopes.col(k) /= knobs[static_cast<std::size_t>(k)].width;
+  return slopes;
+}
+
+}  // namespace
+
+ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const std::vector<Emulator>& emulators, double model_error) {
+  const auto count = static_cast<Eigen::Index>(knobs.size());
+  Eigen::VectorXd width(count), possible(count);
+  for (std::size_t k = 0; k < knobs.size(); ++k) {
+    width[static_cast<Eigen::Index>(k)] = knobs[k].width;
+    possible[static_cast<Eigen::Index>(k)] = knobs[k].high - knobs[k].low;
+  }
+  // In widths of the knobs until the end.
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count), scatter = information;
+  for (std::size_t r = 0; r < measured.size(); ++r) {
+    const Emulator& emulator = emulators[r];
+    const Eigen::Index half = emulator.residuals.rows() / 2;
+    const Eigen::MatrixXd slopes = slopes_of(knobs, emulator) * width.asDiagonal();
+    const Eigen::LLT<Eigen::MatrixXd> weight(covariance(emulator.residuals.topRows(half), measured[r].plan, model_error));
+    const Eigen::MatrixXd weighted = weight.solve(slopes);
+    information += slopes.transpose() * weighted;
+    scatter += weighted.transpose() * covariance(emulator.residuals.bottomRows(emulator.residuals.rows() - half), measured[r].plan, model_error) * weighted;
+    // Slopes are known from chaotic runs: even those of a parameter that does nothing are not zero, and their squares would count as
+    // information.
+    const Eigen::MatrixXd chaos = emulator.residuals.transpose() * emulator.residuals / static_cast<double>(emulator.residuals.rows());
+    information -= emulator.inverse_normal.block(1, 1, count, count) * weight.solve(chaos).trace();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(information);
+  information = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).asDiagonal() * axes.eigenvectors().transpose();
+  // What is known anyway: the bounds.
+  const Eigen::VectorXd known = (width.array() / possible.array()).square();
+  information += known.asDiagonal();
+  scatter += known.asDiagonal();
+  const Eigen::MatrixXd inverse = information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::MatrixXd spread = width.asDiagonal() * (inverse * scatter * inverse) * width.asDiagonal();
+  ToldApart told{spread, spread.diagonal().cwiseMax(0).cwiseSqrt(), {}, width.cwiseQuotient(information.diagonal().cwiseSqrt())};
+  const Eigen::VectorXd scale = told.error.cwiseInverse();
+  told.correlation = scale.asDiagonal() * spread * scale.asDiagonal();
+  return told;
+}
+
+RunComparison foretold(const MeasuredFeatures& measured, const std::vector<Knob>& knobs, const Emulator& emulator, const Eigen::MatrixXd& parameters, double model_error) {
+  const Eigen::MatrixXd slopes = slopes_of(knobs, emulator);
+  const Eigen::MatrixXd whole = covariance(emulator.residuals, measured.plan, model_error) + slopes * parameters * slopes.transpose();
+  RunComparison run;
+  run.run = measured.run;
+  run.residual = measured.values - emulator.coefficients.row(0).transpose();
+  run.spread = whole.diagonal().cwiseSqrt();
+  run.chi2 = run.residual.dot(whole.ldlt().solve(run.residual));
+  std::array<double, 2> squares{}, spread{}, count{};
+  for (Eigen::Index f = 0; f < run.residual.size(); ++f) {
+    const auto observable = static_cast<std::size_t>(measured.plan.features[static_cast<std::size_t>(f)].observable);
+    squares[observable] += run.residual[f] * run.residual[f];
+    spread[observable] += run.spread[f] * run.spread[f];
+    ++count[observable];
+  }
+  const auto mean = [&](const std::array<double, 2>& sum, std::size_t which) { return count[which] > 0 ? std::sqrt(sum[which] / count[which]) : 0.0; };
+  run.error_box = mean(squares, 0), run.floor_box = mean(spread, 0);
+  run.error_centre = mean(squares, 1), run.floor_centre = mean(spread, 1);
+  return run;
+}
+
+}  // namespace shakedown
