@@ -57,9 +57,9 @@ std::vector<SweepAxis> axes_of(const std::string& text) {
 
 std::map<std::string, std::string> about(const Database& database) {
   std::map<std::string, std::string> found;
-  Statement tables(database, "SELECT 1 FROM sqlite_master WHERE name = 'about'");
+  SqlStatement tables(database, "SELECT 1 FROM sqlite_master WHERE name = 'about'");
   if (!tables.step()) return found;
-  Statement lines(database, "SELECT name, value FROM about");
+  SqlStatement lines(database, "SELECT name, value FROM about");
   while (lines.step()) found[lines.text(0)] = lines.text(1);
   return found;
 }
@@ -91,7 +91,7 @@ const char* journal_for(const std::filesystem::path& file) {
 }
 
 int column_count(const Database& database) {
-  Statement columns(database, "SELECT count(*) FROM pragma_table_info('runs')");
+  SqlStatement columns(database, "SELECT count(*) FROM pragma_table_info('runs')");
   columns.step();
   return columns.whole(0);
 }
@@ -103,7 +103,7 @@ struct ResultFile::Inside {
   SweepIdentity identity;
   Database database;
   std::mutex mutex;
-  std::unique_ptr<Statement> insert;
+  std::unique_ptr<SqlStatement> insert;
 
   Inside(const std::filesystem::path& path, Database::Access access) : file(path), database(path, access) {}
   int first_number() const { return 4 + static_cast<int>(identity.axes.size()); }
@@ -112,7 +112,7 @@ struct ResultFile::Inside {
   void prepare_insert() {
     std::string places = "?";
     for (int i = 1; i < columns(); ++i) places += ", ?";
-    insert = std::make_unique<Statement>(database, "INSERT OR IGNORE INTO runs VALUES(" + places + ")");
+    insert = std::make_unique<SqlStatement>(database, "INSERT OR IGNORE INTO runs VALUES(" + places + ")");
   }
 
   void put(const ResultRow& row) {
@@ -137,12 +137,12 @@ ResultFile::ResultFile(const std::filesystem::path& file, const SweepIdentity& i
   const std::map<std::string, std::string> held = about(in.database);
   if (!held.empty()) {
     if (const std::string other = difference(held, about(identity)); !other.empty()) refuse(file, other, "choose another file");
-    if (opening == Opening::fresh && Statement(in.database, "SELECT 1 FROM runs").step())
+    if (opening == Opening::fresh && SqlStatement(in.database, "SELECT 1 FROM runs").step())
       refuse(file, "holds results already", "go on with --resume, or choose another file");
   }
   in.database.execute(tables_for(identity));
   if (column_count(in.database) != in.columns()) refuse(file, "has other columns than this version of the program writes", "choose another file");
-  for (const auto& [name, value] : about(identity)) Statement(in.database, "INSERT OR IGNORE INTO about VALUES(?, ?)").bind(0, name).bind(1, value).run();
+  for (const auto& [name, value] : about(identity)) SqlStatement(in.database, "INSERT OR IGNORE INTO about VALUES(?, ?)").bind(0, name).bind(1, value).run();
   transaction.commit();
   in.prepare_insert();
 }
@@ -173,7 +173,7 @@ void ResultFile::add(std::span<const ResultRow> rows) {
 std::set<std::pair<std::string, int>> ResultFile::finished() const {
   const std::lock_guard lock(inside_->mutex);
   std::set<std::pair<std::string, int>> found;
-  Statement lines(inside_->database, "SELECT point, run FROM runs");
+  SqlStatement lines(inside_->database, "SELECT point, run FROM runs");
   while (lines.step()) found.emplace(lines.text(0), lines.whole(1));
   return found;
 }
@@ -181,7 +181,7 @@ std::set<std::pair<std::string, int>> ResultFile::finished() const {
 std::vector<ResultRow> ResultFile::rows() const {
   const std::lock_guard lock(inside_->mutex);
   std::vector<ResultRow> rows;
-  Statement lines(inside_->database, "SELECT * FROM runs ORDER BY point, run");
+  SqlStatement lines(inside_->database, "SELECT * FROM runs ORDER BY point, run");
   while (lines.step()) {
     ResultRow row;
     int place = 0;
@@ -200,11 +200,11 @@ std::vector<std::string> ResultFile::begin_session(const std::string& program) {
   Transaction transaction(inside_->database);
   std::vector<std::string> others;
   {
-    Statement lines(inside_->database, "SELECT DISTINCT program FROM sessions WHERE program <> ?");
+    SqlStatement lines(inside_->database, "SELECT DISTINCT program FROM sessions WHERE program <> ?");
     lines.bind(0, program);
     while (lines.step()) others.push_back(lines.text(0));
   }
-  Statement(inside_->database, "INSERT INTO sessions(program) VALUES(?)").bind(0, program).run();
+  SqlStatement(inside_->database, "INSERT INTO sessions(program) VALUES(?)").bind(0, program).run();
   transaction.commit();
   return others;
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr int longest_wait = 120000;  // ms, for other processes that write
 }
 
-void Statement::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+void SqlStatement::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 void Database::Close::operator()(sqlite3* handle) const { sqlite3_close(handle); }
 
 Database::Database(const std::filesystem::path& file, Access access) : file_(file) {
@@ -34,29 +34,29 @@ void Database::fail(std::string_view doing) const {
   throw FileError(file_.string() + ": " + std::string(doing) + " (" + sqlite3_errmsg(handle()) + "); choose another file or make room there");
 }
 
-Statement::Statement(const Database& database, std::string_view sql) : database_(&database) {
+SqlStatement::SqlStatement(const Database& database, std::string_view sql) : database_(&database) {
   sqlite3_stmt* prepared = nullptr;
   const int code = sqlite3_prepare_v2(database.handle(), sql.data(), static_cast<int>(sql.size()), &prepared, nullptr);
   statement_.reset(prepared);
   if (code != SQLITE_OK) database.fail("cannot be read");
 }
 
-Statement& Statement::bind(int parameter, std::string_view text) {
+SqlStatement& SqlStatement::bind(int parameter, std::string_view text) {
   sqlite3_bind_text(statement_.get(), parameter + 1, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
   return *this;
 }
 
-Statement& Statement::bind(int parameter, double number) {
+SqlStatement& SqlStatement::bind(int parameter, double number) {
   std::isnan(number) ? sqlite3_bind_null(statement_.get(), parameter + 1) : sqlite3_bind_double(statement_.get(), parameter + 1, number);
   return *this;
 }
 
-Statement& Statement::bind(int parameter, int number) {
+SqlStatement& SqlStatement::bind(int parameter, int number) {
   sqlite3_bind_int(statement_.get(), parameter + 1, number);
   return *this;
 }
 
-bool Statement::step() {
+bool SqlStatement::step() {
   const int code = sqlite3_step(statement_.get());
   if (code != SQLITE_ROW && code != SQLITE_DONE) {
     sqlite3_reset(statement_.get());
@@ -65,23 +65,23 @@ bool Statement::step() {
   return code == SQLITE_ROW;
 }
 
-void Statement::run() {
+void SqlStatement::run() {
   while (step()) {
   }
   sqlite3_reset(statement_.get());
 }
 
-std::string Statement::text(int column) const {
+std::string SqlStatement::text(int column) const {
   const unsigned char* found = sqlite3_column_text(statement_.get(), column);
   return found == nullptr ? "" : reinterpret_cast<const char*>(found);
 }
 
-double Statement::number(int column) const {
+double SqlStatement::number(int column) const {
   const bool null = sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
   return null ? std::numeric_limits<double>::quiet_NaN() : sqlite3_column_double(statement_.get(), column);
 }
 
-int Statement::whole(int column) const { return sqlite3_column_int(statement_.get(), column); }
+int SqlStatement::whole(int column) const { return sqlite3_column_int(statement_.get(), column); }
 
 Transaction::Transaction(const Database& database) : database_(database) { database_.execute("BEGIN IMMEDIATE"); }
 

@@ -14,12 +14,12 @@ namespace shakedown {
 class Database;
 
 /// A prepared statement. Parameters and columns count from 0.
-class Statement {
+class SqlStatement {
  public:
-  Statement(const Database& database, std::string_view sql);
-  Statement& bind(int parameter, std::string_view text);
-  Statement& bind(int parameter, double number);  ///< NaN: NULL
-  Statement& bind(int parameter, int number);
+  SqlStatement(const Database& database, std::string_view sql);
+  SqlStatement& bind(int parameter, std::string_view text);
+  SqlStatement& bind(int parameter, double number);  ///< NaN: NULL
+  SqlStatement& bind(int parameter, int number);
   /// True when there is a row. Throws FileError.
   bool step();
   /// Executes a statement without rows and makes it ready for the next time.
