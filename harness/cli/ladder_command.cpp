@@ -13,6 +13,7 @@
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "momentum.hpp"
+#include "parameter_knobs.hpp"
 #include "progress_display.hpp"
 #include "refit.hpp"
 
@@ -41,20 +42,14 @@ std::string effects_of(const Setup& setup) {
   return names.empty() ? "plain" : names;
 }
 
-/// What a user may refit; a rung with few parameters must not win because its parameters were chosen worse.
-std::vector<Knob> free_parameters(const Setup& setup) {
-  const double frequency = setup.spring.frequency;
-  return {{"restitution.grain_grain", setup.restitution.grain_grain, 0.15, 0.2, 0.999, true},
-          {"restitution.grain_wall", setup.restitution.grain_wall, 0.15, 0.2, 0.999, true},
-          {"spring.frequency", frequency, 0.01 * frequency, 0.5 * frequency, 2 * frequency, true}};
-}
-
 Rung climb(const std::string& file, const Setup& setup, const Experiment& experiment, const Audit& found, const Workshop& workshop,
            const LadderArguments& arguments) {
   const std::vector<Setup> setups = setups_of_runs(setup, experiment, all_effects());
   RefitOptions options;
   options.count = arguments.runs;
-  const std::vector<Knob> knobs = arguments.refit ? free_parameters(setup) : std::vector<Knob>{};
+  // Refitted, so that a rung with few effects does not lose because its parameters were chosen worse.
+  const std::vector<Knob> knobs = arguments.refit ? free_parameters(setup) : as_given(setup);
+  if (!arguments.refit) options.rounds = options.most_rounds = 1;
   Rung rung{file, effects_of(setup), refit(features_of(experiment, found, setups), knobs, workshop, options), {}};
   // The balance is judged at the frequency of this rung.
   Setup fitted = setup;

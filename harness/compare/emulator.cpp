@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "errors.hpp"
 #include "in_order.hpp"
 #include "random.hpp"
 #include "setup_file.hpp"
@@ -36,11 +37,17 @@ Eigen::VectorXd regression_terms(const std::vector<Knob>& knobs, const Eigen::Ve
   return Eigen::Map<Eigen::VectorXd>(terms.data(), static_cast<Eigen::Index>(terms.size()));
 }
 
+void set_knob(Setup& setup, const Knob& knob, std::span<const EffectRecord* const> known) {
+  std::stringstream keys(knob.key);
+  for (std::string key; std::getline(keys, key, '&');) set_number(setup, key, knob.at(0), known);
+}
+
 Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::VectorXd& z, std::span<const EffectRecord* const> known) {
   Setup changed = setup;
   for (std::size_t k = 0; k < knobs.size(); ++k) {
-    std::stringstream keys(knobs[k].key);
-    for (std::string key; std::getline(keys, key, '&');) set_number(changed, key, knobs[k].at(z[static_cast<Eigen::Index>(k)]), known);
+    Knob moved = knobs[k];
+    moved.centre = moved.at(z[static_cast<Eigen::Index>(k)]);
+    set_knob(changed, moved, known);
   }
   return changed;
 }
@@ -69,6 +76,23 @@ Emulator regress(const Eigen::MatrixXd& terms, const Eigen::MatrixXd& features) 
   const double left = static_cast<double>(terms.rows() - terms.cols()) / static_cast<double>(terms.rows());
   emulator.residuals /= std::sqrt(std::max(left, 0.05));
   return emulator;
+}
+
+/// A run, or, where the grains collapse so that the engine gives up, the same setup from another microstate.
+Trajectory run_surely(const Setup& setup, int run, const Workshop& workshop) {
+  constexpr int tries = 4, far_away = 100000000;
+  for (int attempt = 0;; ++attempt) {
+    RunOptions options;
+    options.run = run + attempt * far_away;
+    options.stop = workshop.stop;
+    try {
+      Trajectory trajectory = workshop.engine->run(setup, options);
+      if (trajectory.interrupted) throw Interrupted("interrupted");
+      return trajectory;
+    } catch (const PhysicsError&) {
+      if (attempt + 1 == tries) throw;
+    }
+  }
 }
 
 }  // namespace
@@ -105,11 +129,7 @@ std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, con
     const Eigen::VectorXd z = scatter(knobs, setups[g].run.seed + 7919 * g, run, sparse);
     Setup setup = setup_at(setups[g], knobs, z, workshop.known);
     setup.run.seed += 104729 * g;
-    RunOptions options;
-    options.run = run;
-    options.stop = workshop.stop;
-    const Trajectory trajectory = workshop.engine->run(setup, options);
-    if (trajectory.interrupted) throw Interrupted("interrupted");
+    const Trajectory trajectory = run_surely(setup, run, workshop);
     const Recording recording = recorded_by(physics_of(setup).camera, trajectory);
     terms[g].row(row) = regression_terms(knobs, z).transpose();
     for (const std::size_t m : groups[g]) features[m].row(row) = simulated_features(measured[m].plan, recording).transpose();

@@ -22,6 +22,8 @@ struct Knob {
   double centre = 0, width = 0;
   double low = 0, high = 0;
   bool curved = true;  ///< the regression has a square of it, and products with the other curved ones
+  /// What is known of it beforehand: a normal distribution of this mean and standard deviation; 0: nothing is.
+  double believed = 0, believed_error = 0;
 
   double at(double z) const;       ///< value at z in [-1, 1], kept in bounds
   double z_of(double value) const { return (value - centre) / width; }
@@ -55,6 +57,9 @@ struct Emulator {
 
 /// Terms of the regression at z (one entry a knob): 1, z, then squares and products of the curved ones.
 Eigen::VectorXd regression_terms(const std::vector<Knob>& knobs, const Eigen::VectorXd& z);
+
+/// Sets every key of the knob to its centre.
+void set_knob(Setup& setup, const Knob& knob, std::span<const EffectRecord* const> known);
 
 /// The setup with the knobs at z.
 Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::VectorXd& z, std::span<const EffectRecord* const> known);

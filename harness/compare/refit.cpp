@@ -2,6 +2,7 @@
 #include "refit.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <nlopt.hpp>
@@ -13,20 +14,21 @@ namespace shakedown {
 namespace {
 
 /// Correlations of bins are estimated from about a hundred simulations: shrunk towards none by this much.
-constexpr double shrinkage = 0.2;
+constexpr double shrinkage = 0.4;
 constexpr int pseudo_experiments = 400;
+/// How far out of the scattered box (1) a solution may lie before the box follows.
+constexpr double reach = 1.5;
 
 /// Chaos from run to run as seen in simulations `from` ... `to`, plus the camera's noise.
-Eigen::MatrixXd covariance_of(const Emulator& emulator, const FeaturePlan& plan, Eigen::Index from, Eigen::Index to, double prediction_error,
-                              double model_error) {
+Eigen::MatrixXd covariance_of(const Emulator& emulator, const FeaturePlan& plan, Eigen::Index from, Eigen::Index to, double model_error) {
   const Eigen::MatrixXd rows = emulator.residuals.middleRows(from, to - from);
   Eigen::MatrixXd covariance = rows.transpose() * rows / static_cast<double>(rows.rows());
   const Eigen::VectorXd variance = covariance.diagonal();
-  covariance *= (1 - shrinkage) * (1 + prediction_error);
+  covariance *= 1 - shrinkage;
   for (Eigen::Index f = 0; f < variance.size(); ++f) {
     const double noise = plan.features[static_cast<std::size_t>(f)].noise;
     // A floor under the spread: two codes of the same physics agree no better than this.
-    covariance(f, f) += shrinkage * (1 + prediction_error) * variance[f] + noise * noise + model_error * model_error;
+    covariance(f, f) += shrinkage * variance[f] + noise * noise + model_error * model_error;
   }
   return covariance;
 }
@@ -36,18 +38,43 @@ struct Whitened {
   Eigen::LLT<Eigen::MatrixXd> root;
   Eigen::MatrixXd model;  ///< L^-1 times the emulator's coefficients, features x terms
   Eigen::VectorXd spread;
+  double chaos = 0;     ///< mean square of a simulation's whitened chaos, from simulations that the covariance has not seen
+  double expected = 0;  ///< of the whitened sum: chaos and camera noise
 };
 
-/// |w - G phi(z)|^2 summed over the runs, as a quadratic form in the regression's terms.
+/// -2 ln likelihood: |w - G phi(z)|^2 summed over the runs, a quadratic form in the regression's terms, with the emulator's own error in
+/// the variance (without it, noise in G makes every knob seem to matter and the middle of the box a minimum), and what is known of the
+/// knobs beforehand.
 struct Objective {
   const std::vector<Knob>* knobs;
   Eigen::MatrixXd square;
   Eigen::VectorXd cross;
   double constant = 0;
+  double degrees = 1;           ///< expected sum without emulator error
+  Eigen::MatrixXd error = {};   ///< phi' error phi is what the emulator's error adds to the expectation; empty: none
+
+  double sum(const Eigen::VectorXd& phi) const { return phi.dot(square * phi) - 2 * cross.dot(phi) + constant; }
+  /// Variance with the emulator's error over the variance without.
+  double inflation(const Eigen::VectorXd& phi) const { return error.size() == 0 ? 1.0 : 1 + phi.dot(error * phi) / degrees; }
+  /// The sum with the emulator's share taken off: comparable between boxes and with pseudo-experiments.
+  double chi2(const Eigen::VectorXd& z) const {
+    const Eigen::VectorXd phi = regression_terms(*knobs, z);
+    return sum(phi) / inflation(phi) + disbelief(z);
+  }
+  /// What the knobs' values cost by what is known of them beforehand.
+  double disbelief(const Eigen::VectorXd& z) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < knobs->size(); ++k) {
+      const Knob& knob = (*knobs)[k];
+      if (knob.believed_error > 0) sum += std::pow((knob.at(z[static_cast<Eigen::Index>(k)]) - knob.believed) / knob.believed_error, 2);
+    }
+    return sum;
+  }
 
   double operator()(const Eigen::VectorXd& z) const {
     const Eigen::VectorXd phi = regression_terms(*knobs, z);
-    return phi.dot(square * phi) - 2 * cross.dot(phi) + constant;
+    const double wider = inflation(phi);
+    return sum(phi) / wider + degrees * std::log(wider) + disbelief(z);
   }
 };
 
@@ -70,20 +97,20 @@ double evaluate(const std::vector<double>& z, std::vector<double>& gradient, voi
 }
 
 /// The lowest point within `reach` of the scattered box and within the knobs' bounds, from several starts.
-Minimum minimum_of(const Objective& objective, double reach, int starts) {
+Minimum minimum_of(const Objective& objective, double farthest, int starts, const Eigen::VectorXd& first = {}) {
   const std::vector<Knob>& knobs = *objective.knobs;
   if (knobs.empty()) return {Eigen::VectorXd(0), objective(Eigen::VectorXd(0))};
   std::vector<double> low, high;
   for (const Knob& knob : knobs) {
-    low.push_back(std::max(-reach, knob.z_of(knob.low)));
-    high.push_back(std::min(reach, knob.z_of(knob.high)));
+    low.push_back(std::max(-farthest, knob.z_of(knob.low)));
+    high.push_back(std::min(farthest, knob.z_of(knob.high)));
   }
   Minimum best{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs.size())), 0};
   for (int start = 0; start < starts; ++start) {
     Random random(17, static_cast<std::uint64_t>(start), Stream::other);
     std::vector<double> z;
     for (std::size_t k = 0; k < knobs.size(); ++k)
-      z.push_back(std::clamp(start == 0 ? 0.0 : 1.6 * random.uniform() - 0.8, low[k], high[k]));
+      z.push_back(std::clamp(start > 0 ? 1.6 * random.uniform() - 0.8 : first.size() > 0 ? first[static_cast<Eigen::Index>(k)] : 0.0, low[k], high[k]));
     nlopt::opt search(nlopt::LD_SLSQP, static_cast<unsigned>(knobs.size()));
     search.set_lower_bounds(low);
     search.set_upper_bounds(high);
@@ -102,20 +129,30 @@ Minimum minimum_of(const Objective& objective, double reach, int starts) {
   return best;
 }
 
+/// By which covariance a run's residual is judged.
+struct Rule {
+  Eigen::LLT<Eigen::MatrixXd> root;
+  double expected = 0;  ///< of the whitened sum
+};
+
 class Round {
  public:
-  Round(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, std::vector<Emulator> emulators, const RefitOptions& options)
-      : measured_(measured), knobs_(knobs), emulators_(std::move(emulators)) {
-    half_ = options.count / 2;
-    const double terms = static_cast<double>(emulators_.front().coefficients.rows());
+  Round(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, std::vector<Emulator> emulators, const RefitOptions& options,
+        int count)
+      : measured_(measured), knobs_(knobs), emulators_(std::move(emulators)), half_(count / 2) {
     for (std::size_t r = 0; r < measured.size(); ++r) {
       const Eigen::MatrixXd covariance =
-          covariance_of(emulators_[r], measured[r].plan, 0, half_, terms / options.count, options.model_error * measured[r].setup.release.displacement);
+          covariance_of(emulators_[r], measured[r].plan, 0, half_, options.model_error * measured[r].setup.release.displacement);
       Whitened w{Eigen::LLT<Eigen::MatrixXd>(covariance), {}, covariance.diagonal().cwiseSqrt()};
       w.model = w.root.matrixL().solve(emulators_[r].coefficients.transpose());
+      const Eigen::Index unseen = emulators_[r].residuals.rows() - half_;
+      w.chaos = w.root.matrixL().solve(emulators_[r].residuals.bottomRows(unseen).transpose()).squaredNorm() / static_cast<double>(unseen);
+      Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(covariance.rows(), covariance.cols());
+      for (Eigen::Index f = 0; f < noise.rows(); ++f) noise(f, f) = measured[r].plan.features[static_cast<std::size_t>(f)].noise;
+      w.expected = w.chaos + w.root.matrixL().solve(noise).squaredNorm();
       whitened_.push_back(std::move(w));
     }
-    objective_ = objective_of(measured_values());
+    objective_ = objective_of(measured_values(), true);
   }
 
   const Objective& objective() const { return objective_; }
@@ -123,11 +160,14 @@ class Round {
     return emulators_[r].coefficients.transpose() * regression_terms(knobs_, z);
   }
 
-  /// Spread of the fitted values and of the smallest sum over pseudo-experiments: the model at z, a simulation that the covariance has
-  /// not seen for each run, and camera noise.
-  void calibrate(const Eigen::VectorXd& z, double observed, Refit& result, Eigen::VectorXd& deviation) const {
+  /// The smallest sum over pseudo-experiments: the model at z, a simulation that the covariance has not seen for each run, and camera
+  /// noise.
+  void calibrate(const Eigen::VectorXd& z, double observed, Refit& result) const {
     std::vector<double> sums;
-    Eigen::MatrixXd solutions(pseudo_experiments, z.size());
+    const std::vector<Cell> cells = cells_of(measured_);
+    Eigen::MatrixXd cell_rows(pseudo_experiments, static_cast<Eigen::Index>(cells.size()));
+    std::vector<Eigen::VectorXd> spreads, residuals(measured_.size());
+    for (const Whitened& w : whitened_) spreads.push_back(w.spread);
     int worse = 0;
     for (int e = 0; e < pseudo_experiments; ++e) {
       Random random(23, static_cast<std::uint64_t>(e), Stream::bootstrap);
@@ -139,49 +179,115 @@ class Round {
         for (Eigen::Index f = 0; f < value.size(); ++f) value[f] += measured_[r].plan.features[static_cast<std::size_t>(f)].noise * random.normal();
         values.push_back(std::move(value));
       }
-      const Objective pseudo = objective_of(values);
-      const Minimum minimum = minimum_of(pseudo, 2.5, 1);
-      sums.push_back(minimum.value);
-      worse += minimum.value >= observed;
-      solutions.row(e) = minimum.z.transpose();
+      const Objective pseudo = objective_of(values, false);
+      const Eigen::VectorXd refitted = minimum_of(pseudo, 2.5, 1, z).z;
+      const double least = pseudo.chi2(refitted);
+      for (std::size_t r = 0; r < measured_.size(); ++r) residuals[r] = values[r] - model(r, refitted);
+      cell_rows.row(e) = cell_sums(cells, residuals, spreads).transpose();
+      sums.push_back(least);
+      worse += least >= observed;
     }
     std::sort(sums.begin(), sums.end());
     result.p_value = (1.0 + worse) / (1.0 + pseudo_experiments);
     result.degrees = sums[sums.size() / 2];
     result.scatter = observed / result.degrees;
-    const Eigen::RowVectorXd mean = solutions.colwise().mean();
-    deviation = ((solutions.rowwise() - mean).colwise().squaredNorm() / (pseudo_experiments - 1)).cwiseSqrt().transpose();
+    for (std::size_t r = 0; r < measured_.size(); ++r) residuals[r] = measured_[r].values - model(r, z);
+    result.cells = judge_cells(cells, residuals, spreads, cell_rows);
   }
 
   /// Predicts each box length from the others, with the same simulations.
-  void hold_out(Refit& result) const {
+  void hold_out(Refit& result, const std::vector<Rule>& rules) const {
     std::vector<double> lengths;
     for (const MeasuredFeatures& m : measured_)
       if (std::find(lengths.begin(), lengths.end(), m.setup.box.length) == lengths.end()) lengths.push_back(m.setup.box.length);
-    result.held_out_error_box = result.held_out_error_centre = result.held_out_chi2 = std::nan("");
+    result.held_out_error_box = result.held_out_error_centre = result.held_out_chi2 = result.judged_held_out_chi2 = std::nan("");
     if (lengths.size() < 2) return;
-    double box = 0, centre = 0, chi2 = 0;
+    double box = 0, centre = 0, chi2 = 0, judged = 0;
     for (const double length : lengths) {
       std::vector<char> used;
       for (const MeasuredFeatures& m : measured_) used.push_back(m.setup.box.length != length);
-      const Minimum minimum = minimum_of(objective_of(measured_values(), used), 1.5, 2);
+      const Minimum minimum = minimum_of(objective_of(measured_values(), true, used), reach, 2);
       for (std::size_t r = 0; r < measured_.size(); ++r) {
         if (used[r]) continue;
         const RunComparison left_out = comparison(r, minimum.z);
         box += left_out.error_box * left_out.error_box;
         centre += left_out.error_centre * left_out.error_centre;
         chi2 += left_out.chi2;
+        judged += judged_chi2(r, minimum.z, rules[r]);
       }
     }
     const double count = static_cast<double>(measured_.size());
     result.held_out_error_box = std::sqrt(box / count);
     result.held_out_error_centre = std::sqrt(centre / count);
     result.held_out_chi2 = chi2;
+    result.judged_held_out_chi2 = judged;
+  }
+
+  /// Covariance of the fitted z, the sandwich A^-1 B A^-1. A: the sensitivities' square less what the emulator's error adds to it (second
+  /// derivatives times residuals are mostly noise of the emulator). B: what chaos that the weights have not seen, camera noise and the
+  /// emulator's error make of the gradient; weights that are far from the best make B larger than A. A direction that the data leave
+  /// open gets the size of the searched box.
+  Eigen::MatrixXd covariance_at(const Eigen::VectorXd& z, double open) const {
+    const Eigen::Index n = z.size();
+    if (n == 0) return Eigen::MatrixXd(0, 0);
+    const Eigen::VectorXd phi = regression_terms(knobs_, z);
+    const Eigen::MatrixXd slopes = slopes_at(z);
+    const double inflation = objective_.inflation(phi);
+    Eigen::MatrixXd information = slopes.transpose() * (objective_.square - objective_.error) * slopes;
+    Eigen::MatrixXd gradient = slopes.transpose() * objective_.error * slopes;
+    for (std::size_t r = 0; r < measured_.size(); ++r) {
+      // Columns: C^-1 J of this run, features x knobs.
+      const Eigen::MatrixXd weights = whitened_[r].root.matrixU().solve(whitened_[r].model * slopes);
+      const Eigen::Index unseen = emulators_[r].residuals.rows() - half_;
+      const Eigen::MatrixXd chaos = emulators_[r].residuals.bottomRows(unseen) * weights;
+      gradient += inflation * chaos.transpose() * chaos / static_cast<double>(unseen);
+      for (Eigen::Index f = 0; f < weights.rows(); ++f)
+        gradient += std::pow(measured_[r].plan.features[static_cast<std::size_t>(f)].noise, 2) * weights.row(f).transpose() * weights.row(f);
+    }
+    for (Eigen::Index a = 0; a < n; ++a) {
+      const Knob& knob = knobs_[static_cast<std::size_t>(a)];
+      if (knob.believed_error == 0) continue;
+      information(a, a) += std::pow(knob.width / knob.believed_error, 2);
+      gradient(a, a) += std::pow(knob.width / knob.believed_error, 2);
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(information);
+    const Eigen::VectorXd inverse = axes.eigenvalues().array().max(1 / (open * open)).inverse().matrix();
+    Eigen::MatrixXd covariance = inverse.asDiagonal() * (axes.eigenvectors().transpose() * gradient * axes.eigenvectors()) * inverse.asDiagonal();
+    const Eigen::VectorXd within = (open / covariance.diagonal().array().sqrt()).min(1.0).matrix();
+    covariance = within.asDiagonal() * covariance * within.asDiagonal();
+    return axes.eigenvectors() * covariance * axes.eigenvectors().transpose();
+  }
+
+  /// A run's chi2 by another fit's rule, the emulator's own error taken off.
+  double judged_chi2(std::size_t r, const Eigen::VectorXd& z, const Rule& rule) const {
+    const Eigen::VectorXd phi = regression_terms(knobs_, z);
+    const double error = phi.dot(emulators_[r].inverse_normal * phi) / static_cast<double>(emulators_[r].residuals.rows());
+    const double wrong = rule.root.matrixL().solve(emulators_[r].residuals.transpose()).squaredNorm() * error;
+    return rule.root.matrixL().solve(measured_[r].values - model(r, z)).squaredNorm() * rule.expected / (rule.expected + wrong);
+  }
+
+  /// The rules of `other`, or of this round where there is none.
+  std::vector<Rule> rules_of(const Refit* other) const {
+    std::vector<Rule> rules;
+    for (std::size_t r = 0; r < measured_.size(); ++r) {
+      Rule rule{whitened_[r].root, whitened_[r].expected};
+      if (other != nullptr) rule.root = Eigen::LLT<Eigen::MatrixXd>(other->covariances[r]);
+      rules.push_back(std::move(rule));
+    }
+    return rules;
+  }
+
+  std::vector<Eigen::MatrixXd> covariances() const {
+    std::vector<Eigen::MatrixXd> list;
+    for (const Whitened& w : whitened_) list.push_back(w.root.reconstructedMatrix());
+    return list;
   }
 
   RunComparison comparison(std::size_t r, const Eigen::VectorXd& z) const {
     RunComparison c{measured_[r].run, 0, 0, 0, 0, 0, measured_[r].values - model(r, z), whitened_[r].spread};
-    c.chi2 = whitened_[r].root.matrixL().solve(c.residual).squaredNorm();
+    const Eigen::VectorXd phi = regression_terms(knobs_, z);
+    c.chi2 = whitened_[r].root.matrixL().solve(c.residual).squaredNorm() /
+             (1 + whitened_[r].chaos / whitened_[r].expected * phi.dot(emulators_[r].inverse_normal * phi));
     std::array<double, 2> squares{}, floor{}, count{};
     for (Eigen::Index f = 0; f < c.residual.size(); ++f) {
       const auto o = static_cast<std::size_t>(measured_[r].plan.features[static_cast<std::size_t>(f)].observable);
@@ -202,17 +308,32 @@ class Round {
     return values;
   }
 
-  Objective objective_of(const std::vector<Eigen::VectorXd>& values, const std::vector<char>& used = {}) const {
+  /// `measured`: allows for the emulator's own error, which values that it has made itself do not have.
+  Objective objective_of(const std::vector<Eigen::VectorXd>& values, bool measured, const std::vector<char>& used = {}) const {
     const Eigen::Index terms = emulators_.front().coefficients.rows();
-    Objective objective{&knobs_, Eigen::MatrixXd::Zero(terms, terms), Eigen::VectorXd::Zero(terms), 0};
+    Objective objective{&knobs_, Eigen::MatrixXd::Zero(terms, terms), Eigen::VectorXd::Zero(terms), 0, 0};
+    if (measured) objective.error = Eigen::MatrixXd::Zero(terms, terms);
     for (std::size_t r = 0; r < measured_.size(); ++r) {
       if (!used.empty() && !used[r]) continue;
       const Eigen::VectorXd white = whitened_[r].root.matrixL().solve(values[r]);
       objective.square += whitened_[r].model.transpose() * whitened_[r].model;
+      objective.degrees += whitened_[r].expected;
+      if (measured) objective.error += whitened_[r].chaos * emulators_[r].inverse_normal;
       objective.cross += whitened_[r].model.transpose() * white;
       objective.constant += white.squaredNorm();
     }
     return objective;
+  }
+
+  /// Derivatives of the regression's terms, terms x knobs.
+  Eigen::MatrixXd slopes_at(const Eigen::VectorXd& z) const {
+    constexpr double step = 0.05;
+    Eigen::MatrixXd slopes(objective_.square.rows(), z.size());
+    for (Eigen::Index a = 0; a < z.size(); ++a) {
+      const Eigen::VectorXd moved = step * Eigen::VectorXd::Unit(z.size(), a);
+      slopes.col(a) = (regression_terms(knobs_, z + moved) - regression_terms(knobs_, z - moved)) / (2 * step);
+    }
+    return slopes;
   }
 
   const std::vector<MeasuredFeatures>& measured_;
@@ -229,24 +350,39 @@ double root_mean_square(const std::vector<RunComparison>& runs, double RunCompar
   return runs.empty() ? 0 : std::sqrt(squares / static_cast<double>(runs.size()));
 }
 
-Refit result_at(const Round& round, const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const Eigen::VectorXd& z,
-                double sum) {
+Refit result_at(const Round& round, const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const Minimum& minimum,
+                const Refit* judged_by) {
   Refit result;
   result.knobs = knobs;
-  result.chi2 = sum;
-  Eigen::VectorXd deviation;
-  round.calibrate(z, sum, result, deviation);
+  result.chi2 = round.objective().chi2(minimum.z);
+  round.calibrate(minimum.z, result.chi2, result);
+  const Eigen::MatrixXd covariance = round.covariance_at(minimum.z, reach) * std::max(1.0, result.scatter);
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    FittedValue value{knobs[k].key, knobs[k].at(z[i]), 0, 0, deviation[i] * knobs[k].width * std::sqrt(std::max(1.0, result.scatter)), false};
+    FittedValue value{knobs[k].key, knobs[k].at(minimum.z[i]), 0, 0, std::sqrt(covariance(i, i)) * knobs[k].width, false};
     value.low = std::max(knobs[k].low, value.value - 1.96 * value.error);
     value.high = std::min(knobs[k].high, value.value + 1.96 * value.error);
     value.at_bound = value.value <= knobs[k].low || value.value >= knobs[k].high;
     result.values.push_back(value);
   }
-  for (std::size_t r = 0; r < measured.size(); ++r) result.runs.push_back(round.comparison(r, z));
-  round.hold_out(result);
+  for (std::size_t r = 0; r < measured.size(); ++r) result.runs.push_back(round.comparison(r, minimum.z));
+  const std::vector<Rule> rules = round.rules_of(judged_by);
+  for (std::size_t r = 0; r < measured.size(); ++r) result.judged_chi2 += round.judged_chi2(r, minimum.z, rules[r]);
+  round.hold_out(result, rules);
+  result.covariances = round.covariances();
   return result;
+}
+
+/// The box for the next round: about the solution, as wide as what is still open, so that a long valley is seen whole.
+/// Never much wider than the first one allowed: a regression over more than it can follow takes its own misfit for chaos.
+std::vector<Knob> next_box(std::vector<Knob> knobs, const Minimum& minimum, const Eigen::MatrixXd& covariance, const std::vector<Knob>& first) {
+  for (std::size_t k = 0; k < knobs.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const double z = minimum.z[i], open = 2 * std::sqrt(covariance(i, i));
+    knobs[k].centre = knobs[k].at(z);
+    knobs[k].width = std::min(knobs[k].width * std::clamp(open, std::abs(z) < 0.8 ? 0.25 : 1.0, 1.5), 0.6 * first[k].width);
+  }
+  return knobs;
 }
 
 }  // namespace
@@ -257,10 +393,13 @@ double Refit::floor_box() const { return root_mean_square(runs, &RunComparison::
 double Refit::floor_centre() const { return root_mean_square(runs, &RunComparison::floor_centre); }
 
 Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs, const Workshop& workshop, const RefitOptions& options) {
+  const std::vector<Knob> first = knobs;
   for (int number = 1;; ++number) {
     const std::vector<Knob> here = knobs;
-    const Round round(measured, here, emulate(measured, here, options.count, options.first_run + 10000 * number, workshop), options);
-    const Minimum minimum = minimum_of(round.objective(), 1.5, knobs.empty() ? 1 : 6);
+    // Rounds that only find the way need fewer simulations than the one that judges.
+    const int count = knobs.empty() || number >= options.rounds ? options.count : std::max(64, options.count / 2);
+    const Round round(measured, here, emulate(measured, here, count, options.first_run + 10000 * number, workshop), options, count);
+    const Minimum minimum = minimum_of(round.objective(), reach, knobs.empty() ? 1 : 6);
     bool left_the_box = false;
     for (std::size_t k = 0; k < knobs.size(); ++k) {
       const double z = minimum.z[static_cast<Eigen::Index>(k)];
@@ -268,12 +407,8 @@ Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> kno
       left_the_box = left_the_box || (std::abs(z) > 1.05 && inner);
     }
     const bool last = knobs.empty() || number >= options.most_rounds || (number >= options.rounds && !left_the_box);
-    if (last) return result_at(round, measured, here, minimum.z, minimum.value);
-    for (std::size_t k = 0; k < knobs.size(); ++k) {
-      const double z = minimum.z[static_cast<Eigen::Index>(k)];
-      knobs[k].centre = here[k].at(z);
-      if (std::abs(z) < 0.8) knobs[k].width *= options.shrink;
-    }
+    if (last) return result_at(round, measured, here, minimum, options.judged_by);
+    knobs = next_box(here, minimum, round.covariance_at(minimum.z, reach), first);
   }
 }
 

@@ -5,7 +5,7 @@
 #pragma once
 #include <vector>
 
-#include "emulator.hpp"
+#include "failure_cells.hpp"
 
 namespace shakedown {
 
@@ -28,14 +28,18 @@ struct RunComparison {
 
 struct Refit {
   std::vector<Knob> knobs;
+  std::vector<Eigen::MatrixXd> covariances;  ///< m^2, of each measured run's features: chaos, camera noise and model error
   std::vector<FittedValue> values;
   double chi2 = 0, degrees = 0;
   double p_value = 1;        ///< share of pseudo-experiments that fit no better
   double scatter = 1;        ///< chi2 over the median of the pseudo-experiments'
   std::vector<RunComparison> runs;
+  std::vector<FailureCell> cells;  ///< worst first
   /// Each box length predicted from a fit to the others, rms, m; NaN with one length only.
   double held_out_error_box = 0, held_out_error_centre = 0;
   double held_out_chi2 = 0;  ///< sum over the lengths left out
+  /// chi2 and held_out_chi2 in the covariances of RefitOptions::judged_by, so that rivals are measured with one rule.
+  double judged_chi2 = 0, judged_held_out_chi2 = 0;
   double error_box() const;
   double error_centre() const;
   double floor_box() const;
@@ -46,9 +50,9 @@ struct RefitOptions {
   int count = 192;       ///< simulations of each different setup in a round
   int rounds = 2;        ///< re-centrings
   int most_rounds = 4;   ///< when the solution keeps leaving the box
-  double shrink = 0.5;   ///< of the box from round to round
   int first_run = 1000;
-  double model_error = 0.004;  ///< relative: how well two codes of the same physics agree (soft contacts of finite duration ...)
+  double model_error = 0.002;  ///< of the release: how well two codes of the same physics agree (soft contacts of finite duration ...)
+  const Refit* judged_by = nullptr;  ///< a fit to the same measured runs; null: by itself
 };
 
 /// Fits the knobs (none: the setup as it is). `measured` may leave runs out; compare_at() then judges them.

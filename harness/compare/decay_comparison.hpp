@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// What a person asks first of a measured run beside a model: frequency, slope of the decay and the first peaks.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "emulator.hpp"
+
+namespace shakedown {
+
+/// A number of a measured run, and the same of the model's runs: mean and standard deviation from run to run.
+struct MeasuredNumber {
+  double measured = 0, model = 0, spread = 0;  ///< NaN where there is no such number
+};
+
+struct DecayComparison {
+  std::string run;
+  MeasuredNumber frequency;           ///< Hz, of the first ten zero crossings (physics.md, 5)
+  MeasuredNumber slope;               ///< m/s, of |peaks| until 10 mm
+  std::vector<MeasuredNumber> peaks;  ///< m, signed: the first ones
+};
+
+/// Measured and simulated motion are both read as levels of 50 ms, so that camera noise and smoothing tell on both alike. `runs`
+/// simulations for each measured run, numbered from first_run.
+std::vector<DecayComparison> compare_decay(const Experiment& experiment, const Audit& audit, const std::vector<Setup>& setups,
+                                           const Workshop& workshop, int runs, int first_run, int peaks = 4);
+
+}  // namespace shakedown
