@@ -23,8 +23,14 @@ ProgressDisplay::~ProgressDisplay() {
   if (terminal_) std::fputs("\r\033[K", stderr);
 }
 
+void ProgressDisplay::rename(const std::string& what) {
+  if (what == what_) return;
+  what_ = what;
+  if (!terminal_) fmt::print(stderr, "{:6.1f} s  {}\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(), what_);
+}
+
 void ProgressDisplay::show(double fraction) {
-  if (!terminal_ && !announced_) fmt::print(stderr, "{}\n", what_);
+  if (!terminal_ && !announced_) fmt::print(stderr, "{}\n", what_), std::fflush(stderr);
   announced_ = true;
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_ || now - last_ < between_updates) return;

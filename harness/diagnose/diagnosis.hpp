@@ -38,14 +38,6 @@ struct LadderStep {
   double p_value = 1, scatter = 1;
 };
 
-/// Where the refitted model fails.
-struct FailureCell {
-  std::string run, observable, what;  ///< what: "landing", "flight", "0-2 s" ...
-  double from = 0, to = 0;            ///< s
-  double error = 0;                   ///< m, rms
-  double sigmas = 0;                  ///< in units of its expected spread, after allowing for the number of cells
-};
-
 struct Diagnosis {
   Verdict verdict = Verdict::adequate;
   std::string sentence;
@@ -53,6 +45,7 @@ struct Diagnosis {
   std::vector<DiagnosedParameter> parameters;
   std::vector<RankedEffect> ranking;
   std::vector<LadderStep> ladder;
+  /// Where the model fails before any effect is added, worst first: family-wise p below 0.05.
   std::vector<FailureCell> where;
   MomentumAudit momentum;
   std::string force_formula;  ///< for unknown forces: a user_force ready to try

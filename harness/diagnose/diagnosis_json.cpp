@@ -37,8 +37,8 @@ std::string diagnosis_json(const Diagnosis& d) {
     ladder.push_back({{"step", s.step}, {"error_box_mm", number(s.error_box * 1e3)}, {"error_com_mm", number(s.error_centre * 1e3)},
                       {"held_out_error_box_mm", number(s.held_out_error_box * 1e3)}, {"p_value", number(s.p_value)}, {"scatter", number(s.scatter)}});
   for (const FailureCell& c : d.where)
-    where.push_back({{"run", c.run}, {"observable", c.observable}, {"what", c.what}, {"from_s", c.from}, {"to_s", c.to},
-                     {"error_mm", number(c.error * 1e3)}, {"sigmas", number(c.sigmas)}});
+    where.push_back({{"run", c.run.empty() ? Json(nullptr) : Json(c.run)}, {"observable", c.observable}, {"what", c.what}, {"from_s", c.from}, {"to_s", c.to},
+                     {"error_mm", number(c.error * 1e3)}, {"sigmas", number(c.sigmas)}, {"p_value", number(c.p_value)}});
   const LadderStep last = d.ladder.empty() ? LadderStep{} : d.ladder.back();
   const Json all{{"schema_version", 1},
                  {"verdict", std::string(name_of(d.verdict))},

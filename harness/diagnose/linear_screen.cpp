@@ -37,55 +37,96 @@ Linear whitened(const std::vector<MeasuredFeatures>& measured, const std::vector
   return linear;
 }
 
+/// What the fitted parameters cannot take up of a column.
+class Outside {
+ public:
+  explicit Outside(const Eigen::MatrixXd& free)
+      : free_(free), normal_(free.transpose() * free + 1e-9 * Eigen::MatrixXd::Identity(free.cols(), free.cols())) {}
+  Eigen::VectorXd operator()(const Eigen::VectorXd& column) const { return column - free_ * normal_.solve(free_.transpose() * column); }
+
+ private:
+  Eigen::MatrixXd free_;
+  Eigen::LDLT<Eigen::MatrixXd> normal_;
+};
+
+struct Screening {
+  std::vector<ScreenedEffect> list;
+  std::vector<Eigen::VectorXd> signatures;  ///< of each in the list, whitened, with the fitted parameters projected out; empty: on or off
+};
+
+std::vector<Knob> straight(std::vector<Knob> knobs, double widths) {
+  for (Knob& knob : knobs) {
+    knob.width *= widths;
+    knob.curved = false;
+  }
+  return knobs;
+}
+
+/// Candidates with knobs, scattered together in `count` runs.
+/// Returns what the fitted parameters alone leave of the residual's square.
+double screen_together(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
+                     const std::vector<std::size_t>& members, const Workshop& workshop, int count, int first_run, Screening& screening) {
+  std::vector<Knob> knobs = straight(fitted, 0.5);
+  std::vector<std::size_t> candidate_of;
+  std::vector<MeasuredFeatures> with = measured;
+  for (const std::size_t c : members) {
+    for (const Knob& knob : straight(candidates[c].knobs, 1)) {
+      knobs.push_back(knob);
+      candidate_of.push_back(c);
+    }
+    for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidates[c], workshop.known);
+  }
+  const auto n_fitted = static_cast<Eigen::Index>(fitted.size());
+  const Linear linear = whitened(with, emulate(with, knobs, count, first_run, workshop), static_cast<Eigen::Index>(knobs.size()));
+  const Outside outside(linear.columns.leftCols(n_fitted));
+  const Eigen::VectorXd residual = outside(linear.residual);
+  for (std::size_t k = 0; k < candidate_of.size(); ++k) {
+    const Knob& knob = knobs[fitted.size() + k];
+    const Eigen::VectorXd signature = outside(linear.columns.col(n_fitted + static_cast<Eigen::Index>(k)));
+    const double square = signature.squaredNorm(), z = square > 0 ? signature.dot(residual) / square : 0;
+    const bool allowed = knob.at(z) != knob.at(0) || z == 0;  // a drag cannot push
+    screening.list.push_back({candidate_of[k], candidates[candidate_of[k]].effect, allowed ? z * z * square : 0, knob.at(z), {}});
+    screening.signatures.push_back(signature);
+  }
+  return residual.squaredNorm();
+}
+
+/// On or off: the model with it, beside the model without.
+void screen_switch(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
+                   std::size_t c, const Workshop& workshop, int count, int first_run, double without, Screening& screening) {
+  std::vector<MeasuredFeatures> with = measured;
+  for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidates[c], workshop.known);
+  const auto n_fitted = static_cast<Eigen::Index>(fitted.size());
+  const Linear linear = whitened(with, emulate(with, straight(fitted, 0.5), count, first_run, workshop), n_fitted);
+  screening.list.push_back({c, candidates[c].effect, without - Outside(linear.columns)(linear.residual).squaredNorm(), 0, {}});
+  screening.signatures.emplace_back();
+}
+
 }  // namespace
 
 std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
                                    const std::vector<Candidate>& candidates, const Workshop& workshop, int count, int first_run) {
-  std::vector<Knob> knobs = fitted;
-  std::vector<std::size_t> candidate_of;
-  for (Knob& knob : knobs) {
-    knob.width /= 2;
-    knob.curved = false;
-  }
+  Screening screening;
+  std::vector<std::size_t> cheap;
   for (std::size_t c = 0; c < candidates.size(); ++c)
-    for (Knob knob : candidates[c].knobs) {
-      knob.curved = false;
-      knobs.push_back(knob);
-      candidate_of.push_back(c);
-    }
-  const auto n_knobs = static_cast<Eigen::Index>(knobs.size()), n_fitted = static_cast<Eigen::Index>(fitted.size());
-  const Linear linear = whitened(measured, emulate(measured, knobs, count, first_run, workshop), n_knobs);
-  // What the fitted parameters cannot take up.
-  const Eigen::MatrixXd free = linear.columns.leftCols(n_fitted);
-  const Eigen::LDLT<Eigen::MatrixXd> normal(free.transpose() * free + 1e-9 * Eigen::MatrixXd::Identity(n_fitted, n_fitted));
-  const auto outside = [&](const Eigen::VectorXd& column) -> Eigen::VectorXd { return column - free * normal.solve(free.transpose() * column); };
-  const Eigen::VectorXd residual = outside(linear.residual);
-  std::vector<ScreenedEffect> list;
-  std::vector<Eigen::VectorXd> signatures;
-  for (Eigen::Index k = n_fitted; k < n_knobs; ++k) {
-    const Knob& knob = knobs[static_cast<std::size_t>(k)];
-    const Eigen::VectorXd signature = outside(linear.columns.col(k));
-    const double square = signature.squaredNorm(), z = square > 0 ? signature.dot(residual) / square : 0;
-    const bool allowed = knob.at(z) != knob.at(0) || z == 0;  // a drag cannot push
-    const std::size_t c = candidate_of[static_cast<std::size_t>(k - n_fitted)];
-    list.push_back({c, candidates[c].effect, allowed ? z * z * square : 0, knob.at(z), {}});
-    signatures.push_back(signature);
+    if (!candidates[c].dear && !candidates[c].knobs.empty()) cheap.push_back(c);
+  int batch = 0;
+  const auto next = [&] { return first_run + 5000 * batch++; };
+  const double without = screen_together(measured, fitted, candidates, cheap, workshop, count, next(), screening);
+  const int few = std::max(60, count / 4);
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    if (candidates[c].dear) screen_together(measured, fitted, candidates, {c}, workshop, few, next(), screening);
+    if (!candidates[c].knobs.empty()) continue;
+    screen_switch(measured, fitted, candidates, c, workshop, few, next(), without, screening);
   }
+  std::vector<ScreenedEffect>& list = screening.list;
+  const std::vector<Eigen::VectorXd>& signatures = screening.signatures;
   for (std::size_t a = 0; a < list.size(); ++a)
     for (std::size_t b = 0; b < list.size(); ++b) {
+      if (a == b || list[a].effect == list[b].effect || signatures[a].size() == 0 || signatures[b].size() == 0) continue;
       const double cosine = signatures[a].dot(signatures[b]) / std::max(1e-300, signatures[a].norm() * signatures[b].norm());
-      if (a != b && std::abs(cosine) > 0.9 && list[a].effect != list[b].effect) list[a].look_alikes.push_back(list[b].effect);
+      if (std::abs(cosine) > 0.9) list[a].look_alikes.push_back(list[b].effect);
     }
-  // On or off: the model with it, beside the model without.
-  for (std::size_t c = 0; c < candidates.size(); ++c) {
-    if (!candidates[c].knobs.empty()) continue;
-    std::vector<MeasuredFeatures> with = measured;
-    for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidates[c], workshop.known);
-    const Linear changed = whitened(with, emulate(with, fitted, std::max(60, count / 4), first_run + 50000, workshop), n_fitted);
-    const Eigen::MatrixXd columns = changed.columns;
-    const Eigen::VectorXd rest = changed.residual - columns * (columns.transpose() * columns).ldlt().solve(columns.transpose() * changed.residual);
-    list.push_back({c, candidates[c].effect, residual.squaredNorm() - rest.squaredNorm(), 0, {}});
-  }
   std::stable_sort(list.begin(), list.end(), [](const ScreenedEffect& a, const ScreenedEffect& b) { return a.gain > b.gain; });
   return list;
 }

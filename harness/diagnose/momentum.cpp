@@ -204,6 +204,17 @@ MomentumAudit audit_momentum(const std::vector<MomentumRun>& runs, const Plateau
     audit.why_not = "no run has both the box's and the grains' position over more than a few periods";
     return audit;
   }
+  // A box that sticks obeys no sgn v: judge it only where it moves by 30 standard deviations of the camera's noise.
+  const auto only_moving = [&] {
+    double noise = 0;
+    for (const MomentumRun& run : runs) noise = std::max(noise, run.box_noise.standard_deviation);
+    SelectionProblem moving = p;
+    moving.problem.keep_moving(30 * noise);
+    if (moving.problem.size() <= 20) return;
+    p = std::move(moving);
+    audit.only_moving = true;
+  };
+  if (std::any_of(runs.begin(), runs.end(), [](const MomentumRun& run) { return run.dry_friction; })) only_moving();
   for (std::size_t run = 0; run < p.problem.runs(); ++run) audit.runs.push_back(run_as_given(p.problem, run));
   audit.as_given = balance_of(regress(p.problem.impulse(), Eigen::MatrixXd(p.problem.size(), 0)));
   const Selection refitted = fit_terms(p, {{0, 0}});
@@ -211,19 +222,10 @@ MomentumAudit audit_momentum(const std::vector<MomentumRun>& runs, const Plateau
   audit.ranking = ranking_of(p, refitted);
 
   Selection selection = select_terms(p, options);
-  if (has_dry_friction(selection) ||
-      (audit.ranking.front().effect == "clamp_dry_friction" && audit.ranking.front().gain > 20)) {
-    // A box that sticks obeys no sgn v: judge it only where it moves by 30 standard deviations of the
-    // camera's noise.
-    double noise = 0;
-    for (const MomentumRun& run : runs) noise = std::max(noise, run.box_noise.standard_deviation);
-    SelectionProblem moving = p;
-    moving.problem.keep_moving(30 * noise);
-    if (moving.problem.size() > 20) {
-      p = std::move(moving);
-      selection = select_terms(p, options);
-      audit.only_moving = true;
-    }
+  const SingleTerm& first = audit.ranking.front();
+  if (!audit.only_moving && (has_dry_friction(selection) || (first.effect == "clamp_dry_friction" && first.gain > 20))) {
+    only_moving();
+    if (audit.only_moving) selection = select_terms(p, options);
   }
   settle_mass_or_bias(p, plateau, selection);
   MomentumOptions shorter = options;

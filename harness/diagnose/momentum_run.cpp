@@ -91,6 +91,7 @@ void add_model_forces(const Physics& physics, int grains, MomentumRun& run) {
       force += grains * f.newton(x, v, t);  // each grain near the box: no better known
     return force;
   };
+  run.dry_friction = box.dry_friction > 0;
   const Eigen::ArrayXd sign = known_sign(run).sign;
   constexpr double dx = 1e-5, dv = 1e-4;  // below the noise of x and v, far above rounding
   for (Eigen::Index i = 0; i < n; ++i) {

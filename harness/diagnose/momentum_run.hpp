@@ -27,6 +27,7 @@ struct MomentumRun {
   double v_noise = 0;  ///< m/s, standard deviation of v_smooth
   /// N, on box and grains from the setup's own effects; drag between box and air cancels.
   Eigen::ArrayXd model_force;
+  bool dry_friction = false;  ///< model_force has one: it is no force -F sgn v while the box sticks
   Eigen::ArrayXd model_force_dx, model_force_dv;  ///< N/m, N s/m, by the box's position and velocity
   std::vector<char> usable;                       ///< frame measured or well interpolated
   std::vector<char> filled;                       ///< frame interpolated

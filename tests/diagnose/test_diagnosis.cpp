@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// The whole diagnosis on small experiments from a laboratory of soft spheres.
+#include <gtest/gtest.h>
+
+
+#include "diagnosis.hpp"
+#include "effects.hpp"
+#include "engines.hpp"
+#include "experiment_file.hpp"
+#include "hidden_case.hpp"
+#include "next_experiment.hpp"
+#include "packing_choice.hpp"
+#include "parameter_knobs.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+struct Hidden {
+  std::vector<std::string> effects;
+  std::vector<Override> parameters{};
+  RecordingSettings recording{};
+  std::vector<double> lengths{0.065, 0.104};
+  std::uint64_t seed = 5;
+};
+
+/// What the user believes; long enough for the decay of these lengths.
+shakedown::Setup believed() { return parse_setup("[run]\nduration = \"5 s\"\n", "believed", all_effects()); }
+
+Experiment measured(const Hidden& hidden) {
+  std::vector<Override> overrides = hidden.parameters;
+  for (const std::string& effect : hidden.effects)
+    for (const Override& override : overrides_of_effect(effect)) overrides.push_back(override);
+  overrides.push_back({"run.duration", "5 s"});
+  const std::unique_ptr<Engine> engine = engine_named("soft");
+  const Laboratory laboratory{engine.get(), all_effects(), hidden.seed, 2, nullptr};
+  return make_measurements(parse_setup("", "truth", all_effects(), overrides), runs_of_lengths(hidden.lengths), hidden.recording, laboratory);
+}
+
+Diagnosis diagnosis_of(const Hidden& hidden, const std::vector<std::string>& effects = {}, int threads = 2) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  DiagnoseOptions options;
+  options.effects = effects;
+  options.known = all_effects();
+  options.threads = threads;
+  return diagnose(believed(), measured(hidden), *engine, options);
+}
+
+TEST(Diagnosis, NothingHiddenIsAdequate) {
+  const Diagnosis d = diagnosis_of({{}});
+  EXPECT_EQ(d.verdict, Verdict::adequate) << d.sentence;
+  EXPECT_TRUE(d.missing.empty());
+  EXPECT_EQ(write_setup(d.amended), write_setup(believed()));
+  EXPECT_GT(d.ladder.front().p_value, 0.03);
+}
+
+TEST(Diagnosis, AnotherPackingIsAParameterNotAnEffect) {
+  const Diagnosis d = diagnosis_of({{}, {{"release.packing", "random"}}});
+  EXPECT_EQ(d.verdict, Verdict::refit) << d.sentence;
+  EXPECT_TRUE(d.missing.empty());
+  ASSERT_FALSE(d.parameters.empty());
+  EXPECT_EQ(d.parameters.front().name, "release.packing");
+  EXPECT_EQ(d.parameters.front().word, "random");
+}
+
+TEST(Diagnosis, ABiasOfTheCameraIsNotTakenForAPacking) {
+  const Experiment experiment = measured({{"camera_com_bias=bias:0.08"}, {}, {}, {0.040, 0.104}});
+  EXPECT_EQ(packing_before_release(believed(), experiment, audit(experiment), all_effects()), believed().release.packing);
+}
+
+TEST(Diagnosis, ForcesInNoListAreUnknownAndAFormulaIsOffered) {
+  const Diagnosis d = diagnosis_of({{"user_force=force:\"-c*v*exp(-((x-x0)/w)^2)\",constants.c:0.8 N s/m,constants.x0:45mm,constants.w:12mm"}, {}, {}, {0.040, 0.065}});
+  EXPECT_EQ(d.verdict, Verdict::unknown) << d.sentence;
+  EXPECT_NE(d.force_formula.find("user_force"), std::string::npos);
+  ASSERT_FALSE(d.next_experiments.empty());
+  EXPECT_NE(d.next_experiments.front().find("alone"), std::string::npos);
+}
+
+TEST(Diagnosis, ABalanceWithDryFrictionInTheSetupHoldsThoughTheBoxSticks) {
+  const Experiment experiment = measured({{"clamp_dry_friction=force:20 mN"}});
+  shakedown::Setup amended = believed();
+  set_number(amended, "clamp_dry_friction.force", 0.02, all_effects());
+  const Audit found = audit(experiment);
+  EXPECT_LT(audit_momentum(experiment, found, setups_of_runs(believed(), experiment, all_effects())).as_given.p_value, 1e-6);
+  EXPECT_GT(audit_momentum(experiment, found, setups_of_runs(amended, experiment, all_effects())).as_given.p_value, 0.01);
+}
+
+TEST(SlowDiagnosis, OtherRestitutionsAreARefitThatCoversThem) {
+  const Diagnosis d = diagnosis_of({{}, {{"restitution.grain_grain", "0.6"}, {"restitution.grain_wall", "0.7"}}, {}, {0.040, 0.065, 0.104}});
+  EXPECT_EQ(d.verdict, Verdict::refit) << d.sentence;
+  for (const DiagnosedParameter& p : d.parameters) {
+    const double truth = p.name == "restitution.grain_grain" ? 0.6 : p.name == "restitution.grain_wall" ? 0.7 : 1.23;
+    EXPECT_LE(p.low, truth) << p.name;
+    EXPECT_GE(p.high, truth) << p.name;
+  }
+  EXPECT_LT(d.ladder.back().error_box, d.ladder.front().error_box);
+}
+
+TEST(SlowDiagnosis, FindsAForceOnTheBoxAndTheErrorFalls) {
+  const Diagnosis d = diagnosis_of({{"blade_viscous_damping=damping:0.08 N s/m"}});
+  EXPECT_EQ(d.missing, std::vector<std::string>{"blade_viscous_damping"}) << d.sentence;
+  EXPECT_LT(d.ladder.back().error_box, d.ladder.front().error_box / 2);
+  EXPECT_FALSE(d.where.empty());
+  // The amended setup is a setup, with the effect at a strength that covers the truth.
+  const shakedown::Setup amended = parse_setup(write_setup(d.amended), "amended", all_effects());
+  EXPECT_NEAR(get_number(amended, "blade_viscous_damping.damping", all_effects()), 0.08, 0.008);
+}
+
+TEST(SlowDiagnosis, TheAnswerDoesNotDependOnTheThreads) {
+  const Hidden hidden{{}, {{"restitution.grain_grain", "0.6"}}};
+  Diagnosis one = diagnosis_of(hidden, {"grain_friction"}, 1), three = diagnosis_of(hidden, {"grain_friction"}, 3);
+  one.seconds = three.seconds = 0;
+  EXPECT_EQ(diagnosis_json(one), diagnosis_json(three));
+}
+
+TEST(SlowDiagnosis, MeasurementsWithoutTheGrainsCentreConvictNobody) {
+  RecordingSettings no_centre;
+  no_centre.centre = false;
+  const Diagnosis d = diagnosis_of({{}, {}, no_centre});
+  EXPECT_TRUE(d.missing.empty()) << d.sentence;
+  EXPECT_FALSE(d.momentum.possible);
+}
+
+TEST(SlowNextExperiment, AStrongerEffectStandsOutMore) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  const Workshop workshop{engine.get(), all_effects(), 2, nullptr, {}, nullptr};
+  const Candidate rival = candidates_for(believed(), {"side_wall_restitution"}, all_effects()).front();
+  const std::vector<Design> designs{{"N = 37", believed()}};
+  std::vector<double> sigmas;
+  for (const double exponent : {0.05, 0.2}) {
+    shakedown::Setup setup = believed();
+    set_number(setup, "velocity_dependent_restitution.exponent", exponent, all_effects());
+    const std::vector<Knob> found{{"velocity_dependent_restitution.exponent", exponent, 0.05, 0, 1, true}};
+    sigmas.push_back(advise({{"N = 37", setup}}, free_parameters(setup), found, rival, 2e-4, 5e-4, workshop, 96, 1).front().sigmas);
+  }
+  EXPECT_GT(sigmas[1], 2 * sigmas[0]);  // linear in the strength but for noise: seen 3.2
+}
+
+}  // namespace
