@@ -4,12 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <memory>
 
 #include "command.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
 #include "experiment_file.hpp"
+#include "in_order.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
@@ -29,6 +31,7 @@ struct DiagnoseArguments {
   ReportOutput report;
   std::string data, out, effects;
   std::int64_t budget = 14000;
+  double seconds = 0;
   int threads = 0;
 };
 
@@ -56,6 +59,22 @@ std::string amended_setup(const Diagnosis& diagnosis) {
   return text + write_setup(diagnosis.amended);
 }
 
+/// Simulations that fit into the seconds: chosen once, before the start, so that the answer depends on this number alone.
+std::int64_t budget_for(double seconds, const Setup& setup, const Experiment& experiment, const Engine& engine, int threads) {
+  constexpr double dearer = 1.6;  // with effects and low restitutions, on average of whole diagnoses
+  std::vector<Setup> setups = setups_of_runs(setup, experiment, all_effects());
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t r = 0; r < setups.size(); ++r) {
+    setups[r].run.duration = experiment.runs[r].time.empty() ? 1.0 : std::max(0.5, experiment.runs[r].time.back());
+    RunOptions options;
+    options.run = static_cast<int>(r);
+    options.stop = catch_interruption();
+    engine.run(setups[r], options);
+  }
+  const double each = dearer * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / static_cast<double>(setups.size());
+  return std::max<std::int64_t>(1000, static_cast<std::int64_t>(seconds * threads_or_all(threads) / each) / 1000 * 1000);
+}
+
 int diagnose_data(const DiagnoseArguments& arguments) {
   const Setup setup = arguments.setup.read();
   const Experiment experiment = read_experiment(arguments.data);
@@ -65,10 +84,15 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   std::unique_ptr<OutputFolder> folder;
   if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
   const std::unique_ptr<Engine> engine = engine_named("hard");
+  std::int64_t budget = arguments.budget;
+  if (arguments.seconds > 0) {
+    budget = budget_for(arguments.seconds, setup, experiment, *engine, arguments.threads);
+    fmt::print(stderr, "about {:g} s: --budget {}\n", arguments.seconds, budget);
+  }
   Diagnosis diagnosis;
   {
-    ProgressDisplay display(fmt::format("{}: diagnosing, at most {} simulations", arguments.data, arguments.budget));
-    DiagnoseOptions options{effects, arguments.budget, arguments.threads, all_effects(), catch_interruption(), {}};
+    ProgressDisplay display(fmt::format("{}: diagnosing, at most {} simulations", arguments.data, budget));
+    DiagnoseOptions options{effects, budget, arguments.threads, all_effects(), catch_interruption(), {}};
     options.progress = [&](const std::string& stage, double fraction) {
       display.rename(stage);
       display.show(fraction);
@@ -104,6 +128,7 @@ Command add_diagnose_command(CLI::App& program) {
   command.add_option("--out", arguments->out, "write the amended setup and the diagnosis into this folder")->type_name("DIR");
   command.add_option("--effects", arguments->effects, "only these may be added")->type_name("a,b,...");
   command.add_option("--budget", arguments->budget, "simulations at most")->type_name("RUNS")->capture_default_str();
+  command.add_option("--seconds", arguments->seconds, "choose the budget for about this time and say which")->check(CLI::PositiveNumber);
   command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->capture_default_str();
   add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);

@@ -233,16 +233,20 @@ bool Pipeline::add_best_candidate(Refit& best) {
   });
   stage_ = "ranking the effects";
   const std::vector<Knob> fitted = together(theta_, chosen_);
-  const std::vector<ScreenedEffect> screened = screen(features(), fitted, candidates, workshop_, 320, 100000 * ++batch_);
+  std::vector<ScreenedEffect> screened = screen(features(), fitted, candidates, workshop_, 320, 100000 * ++batch_);
   for (const ScreenedEffect& effect : screened) result_.ranking.push_back({effect.effect, effect.gain, std::nan(""), std::nan(""), effect.value, effect.look_alikes});
   const Setup before = base_;
   std::vector<Rival> rivals;
+  const auto promise = [&](const ScreenedEffect& effect) { return effect.gain - candidates[effect.candidate].doubt; };
+  std::stable_sort(screened.begin(), screened.end(), [&](const ScreenedEffect& a, const ScreenedEffect& b) { return promise(a) > promise(b); });
+  double best_score = 0;
   for (const ScreenedEffect& effect : screened) {
-    const std::size_t tried = rivals.size();
-    if (tried >= most_tried || result_.runs_simulated > options_.budget) break;
-    if (effect.gain < least_gain / 2 || (tried > 0 && effect.gain < 0.25 * screened.front().gain)) continue;
+    if (rivals.size() >= most_tried || result_.runs_simulated > options_.budget) break;
+    // Linear gains rank well enough to leave out what promises half of what another has already brought.
+    if (effect.gain < least_gain / 2 || promise(effect) < std::max(0.25 * promise(screened.front()), 0.5 * best_score)) continue;
     try {
       rivals.push_back(try_candidate(effect, candidates[effect.candidate], before, fitted, best));
+      best_score = std::max(best_score, rivals.back().score());
     } catch (const PhysicsError& error) {
       result_.notes.push_back(effect.effect + " could not be tried: " + error.what());
     }
