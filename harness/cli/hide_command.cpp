@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
 #include "hidden_case.hpp"
 #include "interruption.hpp"
+#include "json_output.hpp"
 #include "output_file.hpp"
 #include "progress_display.hpp"
 #include "toml_document.hpp"
+#include "trial.hpp"
 #include "value_reading.hpp"
 
 namespace shakedown {
@@ -23,6 +26,10 @@ struct HideArguments {
   std::vector<std::string> effects, parameters, camera, runs;
   std::uint64_t seed = 1;
   int threads = 0;
+  bool power = false;
+  int repeats = 20;
+  std::int64_t budget = 14000;
+  JsonOutput json;
 };
 
 /// Collects violations of several arguments, so that all are reported at once.
@@ -106,6 +113,45 @@ int hide(const HideArguments& arguments) {
   return exit_done;
 }
 
+nlohmann::ordered_json json_of(const Share& share) {
+  return {{"hits", share.hits}, {"trials", share.trials}, {"share", share.value}, {"low", share.low}, {"high", share.high}};
+}
+
+std::string in_words(const Share& share) {
+  return fmt::format("{} of {} ({:.0f} %, 95 %: {:.0f} to {:.0f} %)", share.hits, share.trials, 100 * share.value, 100 * share.low, 100 * share.high);
+}
+
+/// Would a diagnosis see it? Nothing is written.
+int measure_power(const HideArguments& arguments) {
+  const Trial trial{hidden_case(arguments), planned_runs(arguments), recording_of(arguments), arguments.seed};
+  const std::unique_ptr<Engine> laboratory = engine_named(arguments.engine), model = engine_named("hard");
+  arguments.json.check();
+  const TrialTools tools{laboratory.get(), model.get(), all_effects(), arguments.budget, arguments.threads, catch_interruption()};
+  const Power power = power_of(trial, arguments.repeats, tools, [&](int done, const std::string& answer) {
+    fmt::print(stderr, "{:>3} of {}: {}\n", done, arguments.repeats, answer);
+  });
+  const std::vector<std::string> hidden = hidden_effects(trial.hidden);
+  std::string names;
+  for (const std::string& effect : hidden) names += (names.empty() ? "" : " + ") + effect;
+  fmt::print(arguments.json.for_people(), "hidden: {}\n  something is found missing: {}\n  answered exactly:           {}\n  answers:\n",
+             names.empty() ? "nothing" : names, in_words(power.detected), in_words(power.named));
+  nlohmann::ordered_json answers = nlohmann::ordered_json::object();
+  for (const auto& [answer, times] : power.answers) {
+    fmt::print(arguments.json.for_people(), "    {:>3}  {}\n", times, answer);
+    answers[answer] = times;
+  }
+  arguments.json.write(nlohmann::ordered_json{{"schema_version", 1}, {"hidden", hidden}, {"detected", json_of(power.detected)},
+                                              {"named", json_of(power.named)}, {"answers", answers}}.dump(2) + "\n");
+  return exit_done;
+}
+
+int hide_or_measure_power(const HideArguments& arguments) {
+  if (arguments.power) return measure_power(arguments);
+  if (arguments.out.empty())
+    throw InputError({{{"--out", 0, 0}, "", "is missing (where shall the measurements go?)", "name a folder, or ask for the --power of a diagnosis"}});
+  return hide(arguments);
+}
+
 }  // namespace
 
 Command add_hide_command(CLI::App& program) {
@@ -117,7 +163,7 @@ Command add_hide_command(CLI::App& program) {
   command.add_option("SETUP", a->setup, "setup file (TOML): what the user believes")->required()->type_name("");
   many("--effect", a->effects, "hide this effect (at its typical strength when no parameter is given); may be repeated", "NAME[=k:v,...]");
   many("--set", a->parameters, "what else is different in the laboratory, e.g. restitution.grain_grain=0.8; may be repeated", "KEY=VALUE");
-  command.add_option("--out", a->out, "folder for setup.toml, experiment.toml, the tables and truth.json")->type_name("DIR")->required();
+  command.add_option("--out", a->out, "folder for setup.toml, experiment.toml, the tables and truth.json")->type_name("DIR");
   command.add_option("--truth", a->truth, "put the answer there instead of DIR/truth.json")->type_name("FILE");
   command.add_option("--lengths", a->lengths, "box length of each run; \"\" for none")->type_name("L,L,...")->capture_default_str();
   many("--run", a->runs, "one more run with keys of its own, e.g. box.length=40mm,grains.count=0; may be repeated", "KEY=VALUE,...");
@@ -127,7 +173,11 @@ Command add_hide_command(CLI::App& program) {
   command.add_option("--title", a->title, "of the experiment");
   command.add_option("--seed", a->seed, "of initial states and noise")->capture_default_str();
   command.add_option("--threads", a->threads, "0: one for each core; the measurements do not depend on it")->capture_default_str();
-  return {&command, [a] { return hide(*a); }};
+  command.add_flag("--power", a->power, "write nothing; repeat measurement and diagnosis: how often is the effect seen, how often named?");
+  command.add_option("--repeats", a->repeats, "with --power")->check(CLI::Range(1, 100000))->capture_default_str();
+  command.add_option("--budget", a->budget, "with --power: simulations of one diagnosis at most")->type_name("RUNS")->capture_default_str();
+  add_json_option(command, a->json);
+  return {&command, [a] { return hide_or_measure_power(*a); }};
 }
 
 }  // namespace shakedown

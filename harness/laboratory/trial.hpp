@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// A diagnosis on trial: measure what is hidden, diagnose without being told, judge.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "diagnosis.hpp"
+#include "hidden_case.hpp"
+#include "shares.hpp"
+
+namespace shakedown {
+
+/// What is measured, and how.
+struct Trial {
+  HiddenCase hidden;
+  std::vector<PlannedRun> runs;
+  RecordingSettings recording;
+  std::uint64_t seed = 1;
+};
+
+struct TrialTools {
+  const Engine* laboratory = nullptr;  ///< measures
+  const Engine* model = nullptr;       ///< the diagnosis' engine
+  std::span<const EffectRecord* const> known;
+  std::int64_t budget = 14000;  ///< simulations of one diagnosis
+  int threads = 0;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Measures in memory and diagnoses the believed setup. Throws what these throw.
+Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools);
+
+/// What somebody who knows the answer says of a diagnosis.
+struct Judgement {
+  bool detected = false;  ///< it says that something is missing, known or unknown
+  bool named = false;     ///< verdict and missing effects are exactly the hidden ones (of a hidden formula: "unknown")
+  bool invented = false;  ///< an effect among the missing ones that is not hidden
+};
+/// With nothing hidden "adequate" and "refit" are right, with other parameters "refit" alone.
+Judgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict, const std::vector<std::string>& missing);
+
+/// What repeated trials of one hidden case come to.
+struct Power {
+  Share detected, named;
+  /// Verdict and missing effects of each trial, e.g. "missing grain_friction", and how often.
+  std::vector<std::pair<std::string, int>> answers;
+};
+
+/// Repeats the trial with seeds trial.seed, trial.seed + 1, ... `told` hears of each answer; may be empty.
+Power power_of(Trial trial, int repeats, const TrialTools& tools, const std::function<void(int done, const std::string& answer)>& told);
+
+}  // namespace shakedown
