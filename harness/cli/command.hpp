@@ -31,6 +31,7 @@ Command add_theory_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
 Command add_diagnose_command(CLI::App& program);
 Command add_hide_command(CLI::App& program);
+Command add_blind_suite_command(CLI::App& program);
 Command add_add_command(CLI::App& program);
 Command add_ladder_command(CLI::App& program);
 Command add_export_command(CLI::App& program);

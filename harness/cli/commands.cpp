@@ -17,6 +17,7 @@ std::vector<Command> add_commands(CLI::App& program) {
       add_add_command(program),
       add_ladder_command(program),
       add_hide_command(program),
+      add_blind_suite_command(program),
       add_export_command(program),
       add_report_command(program),
       add_effects_command(program),

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// shakedown blind-suite: the diagnosis on trial.
+#include "blind_suite.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "command.hpp"
+#include "effects.hpp"
+#include "engines.hpp"
+#include "interruption.hpp"
+#include "json_output.hpp"
+#include "output_file.hpp"
+
+namespace shakedown {
+
+namespace {
+
+struct BlindSuiteArguments {
+  std::string setup, out, cases, strengths, engine = "soft";
+  bool small = false, resume = false, score_only = false;
+  std::uint64_t seed = 1;
+  std::int64_t budget = 14000;
+  int threads = 0;
+  JsonOutput json;
+};
+
+int blind_suite(const BlindSuiteArguments& arguments) {
+  const Setup believed = arguments.setup.empty() ? Setup{} : read_setup(arguments.setup, all_effects());
+  const OutputFolder folder(arguments.out);
+  arguments.json.check();
+  const std::unique_ptr<Engine> laboratory = engine_named(arguments.engine), model = engine_named("hard");
+  const TrialTools tools{laboratory.get(), model.get(), all_effects(), arguments.budget, arguments.threads, catch_interruption()};
+  BlindSuiteOptions options;
+  options.counts = !arguments.cases.empty() ? parse_counts(arguments.cases) : arguments.small ? small_counts : full_counts;
+  options.small = arguments.small;
+  options.seed = arguments.seed;
+  options.resume = arguments.resume;
+  options.strengths = arguments.strengths;
+  options.told = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  bool interrupted = false;
+  if (!arguments.score_only) {
+    try {
+      run_blind_suite(folder.path(), believed, tools, options);
+    } catch (const Interrupted&) {
+      interrupted = true;
+      fmt::print(stderr, "interrupted; go on with --resume\n");
+      if (!std::filesystem::exists(folder.path() / "plan.json")) return exit_interrupted;
+    }
+  }
+  const BlindScore score = score_blind_suite(folder.path(), tools);
+  std::string lines;
+  for (const std::string& line : score.cases) lines += line + "\n";
+  folder.write("score.txt", blind_score_text(score) + "\n" + lines);
+  folder.write("score.json", blind_score_json(score));
+  fmt::print(arguments.json.for_people(), "{}cases: {}\n", blind_score_text(score), (folder.path() / "score.txt").string());
+  arguments.json.write(blind_score_json(score));
+  return interrupted ? exit_interrupted : exit_done;
+}
+
+}  // namespace
+
+Command add_blind_suite_command(CLI::App& program) {
+  CLI::App& command = *program.add_subcommand("blind-suite", "the diagnosis on trial: hundreds of hidden cases, answers sealed until they are scored");
+  const auto a = std::make_shared<BlindSuiteArguments>();
+  command.add_option("SETUP", a->setup, "what the user believes; default: the paper's damper")->type_name("");
+  command.add_option("--out", a->out, "folder for plan, sealed answers, diagnoses and score")->type_name("DIR")->required();
+  command.add_option("--cases", a->cases, "how many of each kind: nulls=60,parameters=60,singles=120,camera=30,pairs=30,unlisted=24,twins=20")
+      ->type_name("KIND=N,...");
+  command.add_flag("--small", a->small, "a few cases, two short runs each, strong signals");
+  command.add_flag("--resume", a->resume, "go on where an interrupted suite stopped");
+  command.add_flag("--score", a->score_only, "only open and score what is there");
+  command.add_option("--strengths", a->strengths, "strengths.json of an earlier suite of the same design, instead of measuring")->type_name("FILE");
+  command.add_option("--engine", a->engine, "the laboratory's")->type_name("NAME")->capture_default_str();
+  command.add_option("--seed", a->seed, "of the draw")->capture_default_str();
+  command.add_option("--budget", a->budget, "simulations of one diagnosis at most")->type_name("RUNS")->capture_default_str();
+  command.add_option("--threads", a->threads, "0: one for each core; the answers do not depend on it")->capture_default_str();
+  add_json_option(command, a->json);
+  return {&command, [a] { return blind_suite(*a); }};
+}
+
+}  // namespace shakedown

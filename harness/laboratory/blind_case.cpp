@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "blind_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "random.hpp"
+#include "quantity.hpp"
+#include "setup_keys.hpp"
+#include "suggestion.hpp"
+#include "toml_document.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// Two effects that one box length at a low signal cannot tell apart.
+struct TwinPair {
+  std::string_view hidden, twin;
+};
+constexpr std::array<TwinPair, 6> twin_pairs{{{"blade_viscous_damping", "blade_quadratic_drag"},
+                                              {"blade_quadratic_drag", "blade_viscous_damping"},
+                                              {"clamp_dry_friction", "blade_viscous_damping"},
+                                              {"grain_friction", "velocity_dependent_restitution"},
+                                              {"velocity_dependent_restitution", "grain_friction"},
+                                              {"camera_com_bias", "blade_mass"}}};
+constexpr double twin_signal = 8;
+
+PlannedRun lasting(PlannedRun run, double seconds) {
+  run.overrides.push_back({"run.duration", toml_string(write_quantity(seconds, "s")), "blind suite"});
+  return run;
+}
+
+std::vector<PlannedRun> lasting(std::vector<PlannedRun> runs, const std::vector<double>& seconds) {
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i] = lasting(std::move(runs[i]), seconds[i]);
+  return runs;
+}
+
+class Draw {
+ public:
+  Draw(const Setup& believed, const BlindDesign& design, const Strengths& strengths, std::uint64_t seed, std::span<const EffectRecord* const> known)
+      : believed_(believed), design_(design), strengths_(strengths), seed_(seed), known_(known) {}
+
+  BlindCase one(BlindKind kind, int index) const;
+
+ private:
+  double between(Random& random, double low, double high) const { return low + (high - low) * random.uniform(); }
+  std::size_t choice(Random& random, std::size_t count) const { return std::min(count - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(count))); }
+  void nuisances(Random& random, std::vector<Override>& truth, RecordingSettings& recording) const;
+  void parameters(Random& random, std::vector<Override>& truth) const;
+  void hide(Random& random, const Hideable& hideable, double signal, std::vector<Override>& truth, BlindCase& drawn) const;
+  void hide_pair(Random& random, std::vector<Override>& truth, BlindCase& drawn) const;
+  void hide_what_the_kind_says(Random& random, int index, std::vector<Override>& truth, BlindCase& drawn) const;
+
+  const Setup& believed_;
+  const BlindDesign& design_;
+  const Strengths& strengths_;
+  std::uint64_t seed_;
+  std::span<const EffectRecord* const> known_;
+};
+
+void Draw::nuisances(Random& random, std::vector<Override>& truth, RecordingSettings& recording) const {
+  const auto add = [&](const char* key, const std::string& value) { truth.push_back({key, value, "blind suite"}); };
+  add("soft.contact_time", toml_of(1e-4 * std::pow(5.0, random.uniform()), "ms"));  // 0.1 to 0.5 ms
+  const double packing = random.uniform();
+  if (packing > 0.8) add("release.packing", "\"random\"");
+  else if (packing > 0.6) add("release.packing", "\"square\"");
+  recording.box_noise = between(random, 0.1e-3, 0.4e-3);
+  recording.centre_noise = between(random, 0.3e-3, 0.8e-3);
+}
+
+void Draw::parameters(Random& random, std::vector<Override>& truth) const {
+  const auto add = [&](const char* key, double value, std::string_view unit) { truth.push_back({key, toml_of(value, unit), "blind suite"}); };
+  add("restitution.grain_grain", std::clamp(believed_.restitution.grain_grain + between(random, -0.1, 0.1), 0.3, 0.98), "");
+  add("restitution.grain_wall", std::clamp(believed_.restitution.grain_wall + between(random, -0.1, 0.1), 0.3, 0.98), "");
+  add("spring.frequency", believed_.spring.frequency * (1 + between(random, -0.004, 0.004)), "Hz");
+}
+
+void Draw::hide(Random& random, const Hideable& hideable, double signal, std::vector<Override>& truth, BlindCase& drawn) const {
+  const auto unit = strengths_.find(hideable.id);
+  const double of_unit = unit == strengths_.end() || unit->second <= 0 ? signal : unit->second;
+  const double strength = std::min(signal / of_unit, hideable.strongest);
+  const double frequency = between(random, 0.5, 6), phase = between(random, 0, 6);
+  for (Override& override : at_strength(hideable, strength, frequency, phase)) truth.push_back(std::move(override));
+  drawn.ids.emplace_back(hideable.id);
+  const double reached = strength * of_unit;
+  drawn.signal_to_noise = drawn.signal_to_noise > 0 ? std::min(drawn.signal_to_noise, reached) : reached;
+}
+
+/// One from outside, one from inside the contacts or the box.
+void Draw::hide_pair(Random& random, std::vector<Override>& truth, BlindCase& drawn) const {
+  constexpr std::array<std::string_view, 5> outside{"blade_viscous_damping", "clamp_dry_friction", "spring_cubic", "constant_acceleration.x", "camera_com_bias"};
+  constexpr std::array<std::string_view, 4> inside{"grain_friction", "velocity_dependent_restitution", "grain_cohesion", "side_wall_restitution"};
+  hide(random, *find_hideable(outside[choice(random, outside.size())]), 12, truth, drawn);
+  hide(random, *find_hideable(inside[choice(random, inside.size())]), 12, truth, drawn);
+}
+
+void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Override>& truth, BlindCase& drawn) const {
+  const double signal = design_.signals[static_cast<std::size_t>(index) % design_.signals.size()];
+  const auto from = [&](const std::vector<Hideable>& all, auto accepts) {
+    std::vector<const Hideable*> list;
+    for (const Hideable& hideable : all)
+      if (accepts(hideable)) list.push_back(&hideable);
+    // In turn, so that every one is met at every signal.
+    return list[(static_cast<std::size_t>(index) / design_.signals.size()) % list.size()];
+  };
+  switch (drawn.kind) {
+    case BlindKind::null: return;
+    case BlindKind::parameters: return;
+    case BlindKind::single: return hide(random, *from(hideable_effects(), [](const Hideable& h) { return !h.camera; }), signal, truth, drawn);
+    case BlindKind::camera: return hide(random, *from(hideable_effects(), [](const Hideable& h) { return h.camera; }), signal, truth, drawn);
+    case BlindKind::pair: return hide_pair(random, truth, drawn);
+    case BlindKind::unlisted: return hide(random, *from(hideable_forces(), [](const Hideable&) { return true; }), std::max(signal, 12.0), truth, drawn);
+    case BlindKind::twins: {
+      const TwinPair& pair = twin_pairs[static_cast<std::size_t>(index) % twin_pairs.size()];
+      hide(random, *find_hideable(pair.hidden), twin_signal, truth, drawn);
+      drawn.twin = pair.twin;
+      drawn.trial.runs = lasting(runs_of_lengths({0.04, 0.04}), {10, 10});
+      drawn.more = design_.runs;
+      drawn.more.push_back({"N60", {{"box.length", "\"65 mm\"", ""}, {"grains.count", "60", ""}, {"run.duration", "\"12 s\"", ""}}});
+      drawn.more.push_back({"N20", {{"box.length", "\"40 mm\"", ""}, {"grains.count", "20", ""}, {"run.duration", "\"20 s\"", ""}}});
+      drawn.more.push_back({"empty", {{"box.length", "\"40 mm\"", ""}, {"grains.count", "0", ""}, {"run.duration", "\"12 s\"", ""}}});
+    }
+  }
+}
+
+BlindCase Draw::one(BlindKind kind, int index) const {
+  Random random(seed_, static_cast<std::uint64_t>(index) + 1000 * static_cast<std::uint64_t>(kind), Stream::hidden);
+  BlindCase drawn;
+  drawn.kind = kind;
+  drawn.trial.runs = design_.runs;
+  std::vector<Override> truth;
+  nuisances(random, truth, drawn.trial.recording);
+  if (kind != BlindKind::null) parameters(random, truth);
+  hide_what_the_kind_says(random, index, truth, drawn);
+  drawn.trial.hidden = {believed_, changed(believed_, truth, known_)};
+  drawn.trial.seed = random.bits() >> 16;
+  return drawn;
+}
+
+}  // namespace
+
+BlindCounts parse_counts(std::string_view text, const std::string& origin) {
+  BlindCounts counts{};
+  for (const std::string& part : split_at_commas(text)) {
+    const auto [key, value, place] = parse_override(part, origin);
+    const auto found = std::find(blind_kind_names.begin(), blind_kind_names.end(), key);
+    if (found == blind_kind_names.end()) throw InputError({{{origin, 0, 0}, key, "is not a kind of case", "known: " + listed(blind_kind_names)}});
+    if (value.empty() || value.size() > 4 || value.find_first_not_of("0123456789") != value.npos)
+      throw InputError({{{origin, 0, 0}, key, "\"" + value + "\" is not a number of cases", "write a whole number below 10000"}});
+    counts[static_cast<std::size_t>(found - blind_kind_names.begin())] = std::stoi(value);
+  }
+  return counts;
+}
+
+BlindDesign full_design() { return {lasting(runs_of_lengths({0.04, 0.04, 0.065, 0.085, 0.104}), {20, 20, 12, 10, 8}), {3, 6, 12, 25}}; }
+
+BlindDesign small_design() { return {lasting(runs_of_lengths({0.04, 0.065}), {5, 4}), {25}}; }
+
+std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design, const Strengths& strengths, std::uint64_t seed,
+                                  std::span<const EffectRecord* const> known) {
+  const Draw draw(believed, design, strengths, seed, known);
+  std::vector<BlindCase> cases;
+  for (std::size_t kind = 0; kind < counts.size(); ++kind)
+    for (int index = 0; index < counts[kind]; ++index) cases.push_back(draw.one(static_cast<BlindKind>(kind), index));
+  Random random(seed, 999999, Stream::hidden);  // Fisher and Yates
+  for (std::size_t i = cases.size(); i > 1; --i) std::swap(cases[i - 1], cases[static_cast<std::size_t>(random.bits() % i)]);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    char name[32];
+    std::snprintf(name, sizeof name, "case_%04zu", i + 1);
+    cases[i].name = name;
+  }
+  return cases;
+}
+
+}  // namespace shakedown

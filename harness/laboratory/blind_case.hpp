@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The cases of a blind suite, drawn at random.
+#pragma once
+#include <array>
+#include <map>
+
+#include "hideable.hpp"
+
+namespace shakedown {
+
+enum class BlindKind { null, parameters, single, camera, pair, unlisted, twins };
+constexpr std::array<std::string_view, 7> blind_kind_names{"nulls", "parameters", "singles", "camera", "pairs", "unlisted", "twins"};
+
+/// How many of each kind.
+using BlindCounts = std::array<int, 7>;
+constexpr BlindCounts full_counts{60, 60, 120, 30, 30, 24, 20}, small_counts{2, 1, 3, 1, 1, 1, 0};
+
+/// "nulls=10,singles=20": those kinds alone. Throws InputError.
+BlindCounts parse_counts(std::string_view text, const std::string& origin = "--cases");
+
+struct BlindCase {
+  std::string name;  ///< "case_0017", in an order that tells nothing
+  BlindKind kind = BlindKind::null;
+  Trial trial;
+  std::vector<std::string> ids;  ///< of what is hidden
+  double signal_to_noise = 0;    ///< of each hidden thing by the table of strengths; 0: nothing hidden
+  std::string twin;              ///< effect that these measurements cannot tell from the hidden one
+  std::vector<PlannedRun> more;  ///< of twins: runs that tell them apart
+};
+
+struct BlindDesign {
+  std::vector<PlannedRun> runs;             ///< the experiment of every case but the twins'
+  std::vector<double> signals{3, 6, 12, 25};
+};
+/// Five runs as the open cases have them, the longer boxes for as long as they swing.
+BlindDesign full_design();
+/// Two short runs and strong signals, for a first look and for tests.
+BlindDesign small_design();
+
+/// Signal to noise of strength 1 of each hideable thing.
+using Strengths = std::map<std::string, double, std::less<>>;
+
+/// Laboratory and diagnosis differ in parameters drawn at random (of nulls the believed ones), in contact time, packing
+/// (three in five are as believed), camera noise and seed. Same arguments, same cases.
+std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design, const Strengths& strengths, std::uint64_t seed,
+                                  std::span<const EffectRecord* const> known);
+
+}  // namespace shakedown

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "blind_suite.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "output_file.hpp"
+#include "provenance.hpp"
+#include "sealed.hpp"
+#include "toml_document.hpp"
+
+namespace shakedown {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+class Suite {
+ public:
+  Suite(const fs::path& folder, const Setup& believed, const TrialTools& tools, const BlindSuiteOptions& options)
+      : folder_(folder), believed_(believed), tools_(tools), options_(options), design_(options.small ? small_design() : full_design()) {}
+
+  void run() {
+    open();
+    const std::vector<BlindCase> cases = draw_cases(believed_, options_.counts, design_, strengths(), options_.seed, tools_.known);
+    seal(cases);
+    int done = 0;
+    for (const BlindCase& one : cases) {
+      answer(one, one.name, one.trial);
+      if (!one.more.empty()) {
+        Trial more = one.trial;
+        more.runs = one.more;
+        answer(one, one.name + "_more", more);
+      }
+      tell(std::to_string(++done) + " of " + std::to_string(cases.size()) + " cases done");
+    }
+  }
+
+ private:
+  void tell(const std::string& line) const {
+    if (options_.told) options_.told(line);
+  }
+
+  Json plan() const {
+    Json counts = Json::object();
+    for (std::size_t kind = 0; kind < options_.counts.size(); ++kind) counts[std::string(blind_kind_names[kind])] = options_.counts[kind];
+    return {{"schema_version", 1}, {"seed", options_.seed}, {"small", options_.small}, {"counts", counts}, {"believed", digest(believed_)},
+            {"laboratory", tools_.laboratory->name()}, {"budget", tools_.budget}};
+  }
+
+  /// A folder holds one suite.
+  void open() const {
+    const fs::path file = folder_ / "plan.json";
+    if (!fs::exists(file)) return;
+    if (!options_.resume)
+      throw InputError({{{file.string(), 0, 0}, "", "a suite stands there already", "go on with --resume, or name another folder"}});
+    Json there = Json::parse(read_text_file(file));
+    there.erase("sealed");
+    there.erase("program");
+    if (there != plan())
+      throw InputError({{{file.string(), 0, 0}, "", "is the plan of another suite (other setup, seed or numbers of cases)",
+                         "go on with the same ones, or name another folder"}});
+  }
+
+  Strengths strengths() const {
+    const fs::path file = folder_ / "strengths.json";
+    Strengths table;
+    const fs::path given = fs::exists(file) ? file : options_.strengths;
+    if (!given.empty()) {
+      const Json document = Json::parse(read_text_file(given));
+      for (const auto& [id, value] : document.at("signal_of_strength_1").items()) table[id] = value.get<double>();
+    }
+    const std::vector<std::string> needed = needed_ids();
+    for (const std::string& id : needed) {
+      if (table.contains(id)) continue;
+      table[id] = signal_of_unit_strength(*find_hideable(id), believed_, options_.seed + 77, {design_.runs, options_.small ? 48 : 96}, tools_);
+      tell("a typical " + id + " has signal to noise " + std::to_string(table[id]).substr(0, 5));
+      save(file, table);
+    }
+    save(file, table);
+    return table;
+  }
+
+  static void save(const fs::path& file, const Strengths& table) {
+    Json values = Json::object();
+    for (const auto& [id, value] : table) values[id] = value;
+    write_file(file, Json{{"schema_version", 1}, {"signal_of_strength_1", values}}.dump(2) + "\n");
+  }
+
+  /// What these cases hide; drawn once with no table to learn it.
+  std::vector<std::string> needed_ids() const {
+    std::vector<std::string> ids;
+    for (const BlindCase& one : draw_cases(believed_, options_.counts, design_, {}, options_.seed, tools_.known))
+      for (const std::string& id : one.ids)
+        if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+    std::sort(ids.begin(), ids.end());
+    return ids;
+  }
+
+  void seal(const std::vector<BlindCase>& cases) const {
+    Json digests = Json::object();
+    for (const BlindCase& one : cases) {
+      Json sealed = Json::parse(truth_json(one.trial.hidden, one.trial.recording, std::string(tools_.laboratory->name()), one.trial.seed));
+      sealed["kind"] = blind_kind_names[static_cast<std::size_t>(one.kind)];
+      sealed["ids"] = one.ids;
+      sealed["signal_to_noise"] = one.signal_to_noise;
+      sealed["twin"] = one.twin;
+      const std::string text = sealed.dump(2) + "\n";
+      digests[one.name] = digest_of_text(text);
+      const fs::path file = folder_ / "sealed" / (one.name + ".json");
+      if (!fs::exists(file)) write_file(file, text);
+    }
+    Json document = plan();
+    document["program"] = version_line();
+    document["sealed"] = digests;
+    if (!fs::exists(folder_ / "plan.json")) write_file(folder_ / "plan.json", document.dump(2) + "\n");
+  }
+
+  void answer(const BlindCase& one, const std::string& name, const Trial& trial) const {
+    const fs::path file = folder_ / "answers" / (name + ".json");
+    if (fs::exists(file)) return;
+    Json document{{"case", one.name}};
+    try {
+      const Diagnosis diagnosis = diagnose_trial(trial, tools_);
+      document["diagnosis"] = Json::parse(diagnosis_json(diagnosis));
+      Json formulas = Json::array();
+      for (const ForceFormula& found : diagnosis.momentum.formulas) {
+        Json constants = Json::object();
+        for (const FormulaConstant& constant : found.constants) constants[constant.name] = constant.value;
+        formulas.push_back({{"formula", found.formula}, {"constants", constants}, {"look_alikes", found.look_alikes}});
+      }
+      document["formulas"] = formulas;
+    } catch (const PhysicsError& error) {  // a case lost is a wrong answer, not the end of the suite
+      document["error"] = error.what();
+    }
+    write_file(file, document.dump(2) + "\n");
+  }
+
+  fs::path folder_;
+  const Setup& believed_;
+  const TrialTools& tools_;
+  const BlindSuiteOptions& options_;
+  BlindDesign design_;
+};
+
+}  // namespace
+
+void run_blind_suite(const fs::path& folder, const Setup& believed, const TrialTools& tools, const BlindSuiteOptions& options) {
+  Suite(folder, believed, tools, options).run();
+}
+
+}  // namespace shakedown
