@@ -18,7 +18,7 @@ namespace shakedown {
 namespace {
 
 struct BlindSuiteArguments {
-  std::string setup, out, cases, strengths, engine = "soft";
+  std::string setup, out, cases, strengths, variant, engine = "soft";
   bool small = false, resume = false, score_only = false;
   std::uint64_t seed = 1;
   std::int64_t budget = 14000;
@@ -35,6 +35,7 @@ int blind_suite(const BlindSuiteArguments& arguments) {
   BlindSuiteOptions options;
   options.counts = !arguments.cases.empty() ? parse_counts(arguments.cases) : arguments.small ? small_counts : full_counts;
   options.small = arguments.small;
+  options.variant = arguments.variant;
   options.seed = arguments.seed;
   options.resume = arguments.resume;
   options.strengths = arguments.strengths;
@@ -69,6 +70,7 @@ Command add_blind_suite_command(CLI::App& program) {
   command.add_option("--cases", a->cases, "how many of each kind: nulls=60,parameters=60,singles=120,camera=30,pairs=30,unlisted=24,twins=20")
       ->type_name("KIND=N,...");
   command.add_flag("--small", a->small, "a few cases, two short runs each, strong signals");
+  command.add_option("--variant", a->variant, "a worse experiment: one-repeat, two-lengths, half-duration, 250fps, missing, outliers, no-centre")->type_name("NAME");
   command.add_flag("--resume", a->resume, "go on where an interrupted suite stopped");
   command.add_flag("--score", a->score_only, "only open and score what is there");
   command.add_option("--strengths", a->strengths, "strengths.json of an earlier suite of the same design, instead of measuring")->type_name("FILE");

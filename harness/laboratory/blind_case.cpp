@@ -130,6 +130,7 @@ BlindCase Draw::one(BlindKind kind, int index) const {
   BlindCase drawn;
   drawn.kind = kind;
   drawn.trial.runs = design_.runs;
+  drawn.trial.recording = design_.recording;
   std::vector<Override> truth;
   nuisances(random, truth, drawn.trial.recording);
   if (kind != BlindKind::null) parameters(random, truth);
@@ -154,9 +155,37 @@ BlindCounts parse_counts(std::string_view text, const std::string& origin) {
   return counts;
 }
 
-BlindDesign full_design() { return {lasting(runs_of_lengths({0.04, 0.04, 0.065, 0.085, 0.104}), {20, 20, 12, 10, 8}), {3, 6, 12, 25}}; }
+BlindDesign full_design() { return {lasting(runs_of_lengths({0.04, 0.04, 0.065, 0.085, 0.104}), {20, 20, 12, 10, 8}), {3, 6, 12, 25}, {}}; }
 
-BlindDesign small_design() { return {lasting(runs_of_lengths({0.04, 0.065}), {5, 4}), {25}}; }
+BlindDesign small_design() { return {lasting(runs_of_lengths({0.04, 0.065}), {5, 4}), {25}, {}}; }
+
+BlindDesign varied(BlindDesign design, std::string_view variant, const std::string& origin) {
+  const auto length_of = [](const PlannedRun& run) { return run.overrides.front().value; };
+  if (variant == "one-repeat" || variant == "two-lengths") {
+    std::vector<PlannedRun> kept;
+    for (const PlannedRun& run : design.runs)
+      if (kept.empty() || length_of(run) != length_of(kept.back())) kept.push_back(run);
+    design.runs = variant == "one-repeat" ? kept : std::vector<PlannedRun>{kept.front(), kept.back()};
+  } else if (variant == "half-duration") {
+    for (PlannedRun& run : design.runs)
+      for (Override& override : run.overrides)
+        if (override.key == "run.duration") {
+          const std::string text = override.value.substr(1, override.value.size() - 2);
+          override.value = toml_of(std::get<Quantity>(parse_quantity(text)).si / 2, "s");
+        }
+  } else if (variant == "250fps") {
+    design.recording.frame_rate = 250;
+  } else if (variant == "missing") {
+    design.recording.missing = 0.02;
+  } else if (variant == "outliers") {
+    design.recording.outliers = 0.05;
+  } else if (variant == "no-centre") {
+    design.recording.centre = false;
+  } else if (!variant.empty()) {
+    throw InputError({{{origin, 0, 0}, std::string(variant), "is not a variant of the experiment", "known: " + listed(variant_names)}});
+  }
+  return design;
+}
 
 std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design, const Strengths& strengths, std::uint64_t seed,
                                   std::span<const EffectRecord* const> known) {

@@ -31,11 +31,19 @@ struct BlindCase {
 struct BlindDesign {
   std::vector<PlannedRun> runs;             ///< the experiment of every case but the twins'
   std::vector<double> signals{3, 6, 12, 25};
+  RecordingSettings recording;              ///< but for its noise, which is drawn
 };
 /// Five runs as the open cases have them, the longer boxes for as long as they swing.
 BlindDesign full_design();
 /// Two short runs and strong signals, for a first look and for tests.
 BlindDesign small_design();
+
+/// How a worse experiment is made of a design.
+constexpr std::array<std::string_view, 7> variant_names{"one-repeat", "two-lengths", "half-duration", "250fps", "missing", "outliers", "no-centre"};
+
+/// One run a length; the shortest and the longest box alone; half of each run; 250 frames/s; 2 % of the frames lost; 5 % of the positions
+/// jump; grains not tracked. Throws InputError for another name.
+BlindDesign varied(BlindDesign design, std::string_view variant, const std::string& origin = "--variant");
 
 /// Signal to noise of strength 1 of each hideable thing.
 using Strengths = std::map<std::string, double, std::less<>>;

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 class Suite {
  public:
   Suite(const fs::path& folder, const Setup& believed, const TrialTools& tools, const BlindSuiteOptions& options)
-      : folder_(folder), believed_(believed), tools_(tools), options_(options), design_(options.small ? small_design() : full_design()) {}
+      : folder_(folder), believed_(believed), tools_(tools), options_(options), design_(varied(options.small ? small_design() : full_design(), options.variant)) {}
 
   void run() {
     open();
@@ -45,7 +45,7 @@ class Suite {
   Json plan() const {
     Json counts = Json::object();
     for (std::size_t kind = 0; kind < options_.counts.size(); ++kind) counts[std::string(blind_kind_names[kind])] = options_.counts[kind];
-    return {{"schema_version", 1}, {"seed", options_.seed}, {"small", options_.small}, {"counts", counts}, {"believed", digest(believed_)},
+    return {{"schema_version", 1}, {"seed", options_.seed}, {"small", options_.small}, {"variant", options_.variant}, {"counts", counts}, {"believed", digest(believed_)},
             {"laboratory", tools_.laboratory->name()}, {"budget", tools_.budget}};
   }
 
@@ -74,7 +74,9 @@ class Suite {
     const std::vector<std::string> needed = needed_ids();
     for (const std::string& id : needed) {
       if (table.contains(id)) continue;
-      table[id] = signal_of_unit_strength(*find_hideable(id), believed_, options_.seed + 77, {design_.runs, options_.small ? 48 : 96}, tools_);
+      // Of the experiment as designed: a worse one is given the same strengths.
+      const std::vector<PlannedRun> runs = (options_.small ? small_design() : full_design()).runs;
+      table[id] = signal_of_unit_strength(*find_hideable(id), believed_, options_.seed + 77, {runs, options_.small ? 48 : 96}, tools_);
       tell("a typical " + id + " has signal to noise " + std::to_string(table[id]).substr(0, 5));
       save(file, table);
     }

@@ -17,6 +17,7 @@ namespace shakedown {
 struct BlindSuiteOptions {
   BlindCounts counts = full_counts;
   bool small = false;        ///< two short runs a case, strong signals
+  std::string variant;       ///< a worse experiment, one of variant_names; empty: as designed
   std::uint64_t seed = 1;
   bool resume = false;       ///< go on in a folder that has a plan
   std::filesystem::path strengths;  ///< a table of an earlier suite instead of measuring one

@@ -104,6 +104,18 @@ TEST(BlindCases, StrengthsGiveTheSignalOfTheTable) {
   }
 }
 
+TEST(BlindCases, AVariantIsTheSameDesignRecordedWorse) {
+  const BlindDesign design = full_design();
+  EXPECT_EQ(varied(design, "one-repeat").runs.size(), 4u);
+  EXPECT_EQ(varied(design, "two-lengths").runs.size(), 2u);
+  EXPECT_EQ(varied(design, "two-lengths").runs.back().name, "L104");
+  EXPECT_EQ(varied(design, "half-duration").runs.front().overrides.back().value, "\"10 s\"");
+  EXPECT_EQ(varied(design, "250fps").recording.frame_rate, 250);
+  EXPECT_FALSE(varied(design, "no-centre").recording.centre);
+  EXPECT_THROW(varied(design, "no-camera"), InputError);
+  for (const std::string_view name : variant_names) EXPECT_NO_THROW(varied(design, name));
+}
+
 TEST(BlindCases, CountsAreReadOrRefusedWithTheReason) {
   EXPECT_EQ(parse_counts("singles=3, nulls=2"), (BlindCounts{2, 0, 3, 0, 0, 0, 0}));
   EXPECT_THROW(parse_counts("single=3"), InputError);
