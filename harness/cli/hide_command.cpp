@@ -34,14 +34,17 @@ struct HideArguments {
 
 /// Collects violations of several arguments, so that all are reported at once.
 template <class Read>
-void read_each(const std::vector<std::string>& texts, std::vector<Violation>& found, Read read) {
-  for (const std::string& text : texts) {
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      found.insert(found.end(), error.violations.begin(), error.violations.end());
-    }
+void collect(std::vector<Violation>& found, Read read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    found.insert(found.end(), error.violations.begin(), error.violations.end());
   }
+}
+
+template <class Read>
+void read_each(const std::vector<std::string>& texts, std::vector<Violation>& found, Read read) {
+  for (const std::string& text : texts) collect(found, [&] { read(text); });
 }
 
 HiddenCase hidden_case(const HideArguments& arguments) {
@@ -88,28 +91,45 @@ RecordingSettings recording_of(const HideArguments& arguments) {
   return parse_recording(parts);
 }
 
-Experiment measured(const HideArguments& arguments, const HiddenCase& hidden, const RecordingSettings& recording) {
+/// Everything that the arguments say, or everything that is wrong with them.
+Trial trial_of(const HideArguments& arguments) {
+  Trial trial;
+  std::vector<Violation> found;
+  collect(found, [&] { trial.hidden = hidden_case(arguments); });
+  collect(found, [&] { trial.runs = planned_runs(arguments); });
+  collect(found, [&] { trial.recording = recording_of(arguments); });
+  if (!arguments.power && arguments.out.empty())
+    found.push_back({{"--out", 0, 0}, "", "is missing (where shall the measurements go?)", "name a folder, or ask for the --power of a diagnosis"});
+  if (!found.empty()) throw InputError(std::move(found));
+  trial.seed = arguments.seed;
+  return trial;
+}
+
+Experiment measured(const HideArguments& arguments, const Trial& trial) {
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
   ProgressDisplay display(fmt::format("{}: measuring with engine {}", arguments.setup, arguments.engine));
   const Laboratory laboratory{engine.get(), all_effects(), arguments.seed, arguments.threads, catch_interruption(),
                               [&](double fraction) { display.show(fraction); }};
-  Experiment experiment = make_measurements(hidden.truth, planned_runs(arguments), recording, laboratory);
+  Experiment experiment = make_measurements(trial.hidden.truth, trial.runs, trial.recording, laboratory);
   experiment.title = arguments.title.empty() ? "granular damper, synthetic" : arguments.title;
   return experiment;
 }
 
-int hide(const HideArguments& arguments) {
-  const HiddenCase hidden = hidden_case(arguments);
-  const RecordingSettings recording = recording_of(arguments);
+int hide(const HideArguments& arguments, const Trial& trial) {
+  arguments.json.check();
   const OutputFolder folder(arguments.out);
   const std::filesystem::path truth = arguments.truth.empty() ? folder.path() / "truth.json" : std::filesystem::path(arguments.truth);
   expect_writable(truth);
-  const Experiment experiment = measured(arguments, hidden, recording);
-  folder.write("setup.toml", "# What the user believes; box.length is replaced by each run's.\n" + write_setup(hidden.believed));
+  const Experiment experiment = measured(arguments, trial);
+  folder.write("setup.toml", "# What the user believes; box.length is replaced by each run's.\n" + write_setup(trial.hidden.believed));
   write_measurements(folder.path(), experiment);
-  write_file(truth, truth_json(hidden, recording, arguments.engine, arguments.seed));
-  fmt::print("{} runs in {}\nwhat is hidden: {} (do not look before the diagnosis is made)\n", experiment.runs.size(), folder.path().string(), truth.string());
-  fmt::print("shakedown diagnose {0}/setup.toml --data {0}/experiment.toml\n", folder.path().string());
+  write_file(truth, truth_json(trial.hidden, trial.recording, arguments.engine, arguments.seed));
+  std::FILE* people = arguments.json.for_people();
+  fmt::print(people, "{} runs in {}\nwhat is hidden: {} (do not look before the diagnosis is made)\n", experiment.runs.size(), folder.path().string(), truth.string());
+  fmt::print(people, "shakedown diagnose {0}/setup.toml --data {0}/experiment.toml\n", folder.path().string());
+  std::vector<std::string> names;
+  for (const MeasuredRun& run : experiment.runs) names.push_back(run.name);
+  arguments.json.write(nlohmann::ordered_json{{"schema_version", 1}, {"folder", folder.path().string()}, {"truth", truth.string()}, {"runs", names}}.dump(2) + "\n");
   return exit_done;
 }
 
@@ -122,8 +142,7 @@ std::string in_words(const Share& share) {
 }
 
 /// Would a diagnosis see it? Nothing is written.
-int measure_power(const HideArguments& arguments) {
-  const Trial trial{hidden_case(arguments), planned_runs(arguments), recording_of(arguments), arguments.seed};
+int measure_power(const HideArguments& arguments, const Trial& trial) {
   const std::unique_ptr<Engine> laboratory = engine_named(arguments.engine), model = engine_named("hard");
   arguments.json.check();
   const TrialTools tools{laboratory.get(), model.get(), all_effects(), arguments.budget, arguments.threads, catch_interruption()};
@@ -146,10 +165,8 @@ int measure_power(const HideArguments& arguments) {
 }
 
 int hide_or_measure_power(const HideArguments& arguments) {
-  if (arguments.power) return measure_power(arguments);
-  if (arguments.out.empty())
-    throw InputError({{{"--out", 0, 0}, "", "is missing (where shall the measurements go?)", "name a folder, or ask for the --power of a diagnosis"}});
-  return hide(arguments);
+  const Trial trial = trial_of(arguments);
+  return arguments.power ? measure_power(arguments, trial) : hide(arguments, trial);
 }
 
 }  // namespace

@@ -22,7 +22,20 @@ TEST_F(HideCommand, WritesMeasurementsTheUsersSetupAndTheAnswerApart) {
 }
 
 TEST_F(HideCommand, SaysWhatIsWrongWithItsArguments) {
-  const Outcome outcome = shakedown_program({"hide", example("L040.toml"), "--effect", "grain_frictoin", "--out", in_folder("case")});
+  const Outcome outcome = shakedown_program({"hide", example("L040.toml"), "--effect", "grain_frictoin", "--camera", "fsp=500", "--lengths", "40"});
   EXPECT_EQ(outcome.code, 2);
+  for (const char* each : {"--camera: fsp", "--lengths", "--out"}) EXPECT_NE(outcome.err.find(each), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("did you mean 'grain_friction'"), std::string::npos) << outcome.err;
+}
+
+TEST_F(HideCommand, PowerCountsAnswersAndWritesNothing) {
+  // A budget of nothing and a model that holds: one comparison, about a second.
+  const Outcome outcome = shakedown_program({"hide", example("L040.toml"), "--engine", "hard", "--lengths", "40mm", "--duration", "2 s", "--power", "--repeats",
+                                             "1", "--budget", "1", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json power = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(power["detected"]["trials"], 1);
+  EXPECT_EQ(power["named"]["hits"], 1);
+  EXPECT_EQ(power["detected"]["low"], 0.0);
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
