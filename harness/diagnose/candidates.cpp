@@ -27,16 +27,20 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
   };
   list.push_back({"grain_friction", {{"grain_friction.grain_grain&grain_friction.grain_wall", 0, 0.2, 0, 1, true}}, {}, false, impulsive_friction, true});
   add("velocity_dependent_restitution", "exponent", false);
-  // Beyond some 6 mN over 0.1 mm the hard engine's wells hold the layer at the wall for good.
-  list.push_back({"grain_cohesion", {{"grain_cohesion.force", 0, 3e-3, 0, 6e-3, true}}, {{"grain_cohesion.range", 1e-4}}, false, 4, true});
+  // What matters to moving grains is force times range. Ranges beyond the gaps of the packing let the hard engine's wells hold the layer at
+  // the wall for good, and so do stronger forces.
+  list.push_back({"grain_cohesion", {{"grain_cohesion.force", 0, 8e-3, 0, 2e-2, true}}, {{"grain_cohesion.range", 2e-5}}, false, 4, true});
   list.push_back({"side_wall_restitution", {{"side_wall_restitution.restitution", setup.restitution.grain_wall, 0.2, 0.05, 0.999, true}}, {}, false});
   add("grain_polydispersity", "relative_deviation", false);
   add("grain_air_drag", "linear", false);
   list.back().dear = true;
   list.back().doubt = 10;  // air of 1 bar drags a grain some hundred times less than such data can show
   for (const char* axis : {".y", ".z"}) {
+    // Across the axis both signs do the same: nothing is linear about zero, so it is looked for about a strength.
     add("constant_acceleration", "acceleration", false, axis);
-    list.back().knobs[0].width = 0.2;
+    Knob& knob = list.back().knobs[0];
+    knob.centre = knob.width = 0.15;
+    knob.low = 0;
   }
   list.push_back({"blade_arc", {}, {{"blade_arc.blade_length", 0.59}}, false});
   add("camera_com_bias", "bias", true);

@@ -79,13 +79,16 @@ double screen_together(const std::vector<MeasuredFeatures>& measured, const std:
   const auto n_fitted = static_cast<Eigen::Index>(fitted.size());
   const Linear linear = whitened(with, emulate(with, knobs, count, first_run, workshop), static_cast<Eigen::Index>(knobs.size()));
   const Outside outside(linear.columns.leftCols(n_fitted));
-  const Eigen::VectorXd residual = outside(linear.residual);
+  Eigen::VectorXd without = linear.residual;  // of the model with all candidates absent
+  for (std::size_t k = fitted.size(); k < knobs.size(); ++k) without -= linear.columns.col(static_cast<Eigen::Index>(k)) * knobs[k].z_of(absent(knobs[k]));
+  const Eigen::VectorXd residual = outside(without);
   for (std::size_t k = 0; k < candidate_of.size(); ++k) {
     const Knob& knob = knobs[fitted.size() + k];
     const Eigen::VectorXd signature = outside(linear.columns.col(n_fitted + static_cast<Eigen::Index>(k)));
-    const double square = signature.squaredNorm(), z = square > 0 ? signature.dot(residual) / square : 0;
-    const bool allowed = knob.at(z) != knob.at(0) || z == 0;  // a drag cannot push
-    screening.list.push_back({candidate_of[k], candidates[candidate_of[k]].effect, allowed ? z * z * square : 0, knob.at(z), {}});
+    const double square = signature.squaredNorm(), by = square > 0 ? signature.dot(residual) / square : 0;
+    const double z = knob.z_of(absent(knob)) + by;
+    const bool allowed = by == 0 || knob.at(z) != absent(knob);  // a drag cannot push
+    screening.list.push_back({candidate_of[k], candidates[candidate_of[k]].effect, allowed ? by * by * square : 0, knob.at(z), {}});
     screening.signatures.push_back(signature);
   }
   return residual.squaredNorm();

@@ -235,7 +235,13 @@ MomentumAudit audit_momentum(const std::vector<MomentumRun>& runs, const Plateau
       find_fast_sine(fast, selection.chosen, p.highest_frequency, options.highest_frequency);
   if (sine) {
     selection.chosen.push_back({-1, sine->frequency});
-    selection = fit_terms(p, selection.chosen);
+    // What the longer windows chose in place of the sine they cannot see is no longer needed.
+    Selection all = fit_terms(fast, selection.chosen);
+    while (drop_needless(fast, all)) {
+    }
+    std::erase_if(all.chosen, [&](const ChosenTerm& c) { return c.term < 0 && c.frequency == sine->frequency; });
+    all.chosen.push_back({-1, sine->frequency});  // last, whatever the order
+    selection = fit_terms(p, all.chosen);
   }
   if (selection.chosen.size() > 1 || balance_of(selection.fit).p_value < options.accept_p) {
     // Known terms have the advantage: a formula must be better by more than the price of its parameters.
