@@ -7,31 +7,16 @@
 #include <cmath>
 #include <nlopt.hpp>
 
+#include "feature_covariance.hpp"
 #include "random.hpp"
 
 namespace shakedown {
 
 namespace {
 
-/// Correlations of bins are estimated from about a hundred simulations: shrunk towards none by this much.
-constexpr double shrinkage = 0.4;
 constexpr int pseudo_experiments = 400;
 /// How far out of the scattered box (1) a solution may lie before the box follows.
 constexpr double reach = 1.5;
-
-/// Chaos from run to run as seen in simulations `from` ... `to`, plus the camera's noise.
-Eigen::MatrixXd covariance_of(const Emulator& emulator, const FeaturePlan& plan, Eigen::Index from, Eigen::Index to, double model_error) {
-  const Eigen::MatrixXd rows = emulator.residuals.middleRows(from, to - from);
-  Eigen::MatrixXd covariance = rows.transpose() * rows / static_cast<double>(rows.rows());
-  const Eigen::VectorXd variance = covariance.diagonal();
-  covariance *= 1 - shrinkage;
-  for (Eigen::Index f = 0; f < variance.size(); ++f) {
-    const double noise = plan.features[static_cast<std::size_t>(f)].noise;
-    // A floor under the spread: two codes of the same physics agree no better than this.
-    covariance(f, f) += shrinkage * variance[f] + noise * noise + model_error * model_error;
-  }
-  return covariance;
-}
 
 /// One measured run, whitened.
 struct Whitened {
@@ -142,7 +127,7 @@ class Round {
       : measured_(measured), knobs_(knobs), emulators_(std::move(emulators)), half_(count / 2) {
     for (std::size_t r = 0; r < measured.size(); ++r) {
       const Eigen::MatrixXd covariance =
-          covariance_of(emulators_[r], measured[r].plan, 0, half_, options.model_error * measured[r].setup.release.displacement);
+          feature_covariance(emulators_[r].residuals.topRows(half_), measured[r].plan, options.model_error * measured[r].setup.release.displacement);
       Whitened w{Eigen::LLT<Eigen::MatrixXd>(covariance), {}, covariance.diagonal().cwiseSqrt()};
       w.model = w.root.matrixL().solve(emulators_[r].coefficients.transpose());
       const Eigen::Index unseen = emulators_[r].residuals.rows() - half_;

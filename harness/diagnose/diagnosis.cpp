@@ -62,7 +62,6 @@ class Pipeline {
 
  private:
   bool momentum_clean() const { return !result_.momentum.possible || result_.momentum.as_given.p_value > rejected; }
-  bool momentum_refits() const { return !result_.momentum.possible || (result_.momentum.terms.empty() && !result_.momentum.unexplained); }
 
   std::vector<MeasuredFeatures> features() const {
     return features_of(experiment_, audit_, setups_of_runs(base_, experiment_, options_.known));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feature_covariance.hpp"
+
 namespace shakedown {
 
 namespace {
@@ -21,15 +23,8 @@ Linear whitened(const std::vector<MeasuredFeatures>& measured, const std::vector
   Linear linear{Eigen::MatrixXd(total, knobs), Eigen::VectorXd(total)};
   for (std::size_t r = 0; r < measured.size(); ++r) {
     const Emulator& e = emulators[r];
-    Eigen::MatrixXd covariance = e.residuals.transpose() * e.residuals / static_cast<double>(e.residuals.rows());
-    const Eigen::VectorXd variance = covariance.diagonal();
-    covariance *= 0.8;
-    for (Eigen::Index f = 0; f < variance.size(); ++f) {
-      const double noise = measured[r].plan.features[static_cast<std::size_t>(f)].noise;
-      covariance(f, f) += 0.2 * variance[f] + noise * noise;
-    }
-    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
-    const Eigen::Index n = variance.size();
+    const Eigen::LLT<Eigen::MatrixXd> root(feature_covariance(e.residuals, measured[r].plan, 0));
+    const Eigen::Index n = measured[r].values.size();
     linear.columns.middleRows(at, n) = root.matrixL().solve(e.coefficients.middleRows(1, knobs).transpose());
     linear.residual.segment(at, n) = root.matrixL().solve(measured[r].values - e.coefficients.row(0).transpose());
     at += n;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "audit.hpp"
+#include "feature_covariance.hpp"
 #include "quantity.hpp"
 
 namespace shakedown {
@@ -43,11 +44,7 @@ MeasuredFeatures seen(const Design& design, double noise_box, double noise_centr
 
 /// Length of the found effect's signature, in standard errors, outside what the other columns can imitate.
 double standing_out(const Emulator& emulator, const FeaturePlan& plan, Eigen::Index others, const Eigen::VectorXd& strengths) {
-  Eigen::MatrixXd covariance = emulator.residuals.transpose() * emulator.residuals / static_cast<double>(emulator.residuals.rows());
-  const Eigen::VectorXd variance = covariance.diagonal();
-  covariance *= 0.6;
-  for (Eigen::Index f = 0; f < variance.size(); ++f) covariance(f, f) += 0.4 * variance[f] + std::pow(plan.features[static_cast<std::size_t>(f)].noise, 2);
-  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  const Eigen::LLT<Eigen::MatrixXd> root(feature_covariance(emulator.residuals, plan, 0));
   const Eigen::MatrixXd free = root.matrixL().solve(emulator.coefficients.middleRows(1, others).transpose());
   const Eigen::VectorXd effect = root.matrixL().solve(emulator.coefficients.middleRows(1 + others, strengths.size()).transpose() * strengths);
   const Eigen::VectorXd left = effect - free * (free.transpose() * free).ldlt().solve(free.transpose() * effect);

@@ -5,23 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "feature_covariance.hpp"
+
 namespace shakedown {
 
 namespace {
-
-constexpr double shrinkage = 0.2;  // as in a refit
-
-/// Chaos from run to run in these simulations, pulled towards no correlation, plus noise and the difference between models.
-Eigen::MatrixXd covariance(const Eigen::MatrixXd& residuals, const FeaturePlan& plan, double model_error) {
-  Eigen::MatrixXd found = residuals.transpose() * residuals / static_cast<double>(residuals.rows());
-  const Eigen::VectorXd variance = found.diagonal();
-  found *= 1 - shrinkage;
-  for (Eigen::Index f = 0; f < variance.size(); ++f) {
-    const double noise = plan.features[static_cast<std::size_t>(f)].noise;
-    found(f, f) += shrinkage * variance[f] + noise * noise + model_error * model_error;
-  }
-  return found;
-}
 
 /// Slopes of the features at the solution, a column a knob: terms 1 ... of the regression, which count in widths.
 Eigen::MatrixXd slopes_of(const std::vector<Knob>& knobs, const Emulator& emulator) {
@@ -45,10 +33,10 @@ ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::v
     const Emulator& emulator = emulators[r];
     const Eigen::Index half = emulator.residuals.rows() / 2;
     const Eigen::MatrixXd slopes = slopes_of(knobs, emulator) * width.asDiagonal();
-    const Eigen::LLT<Eigen::MatrixXd> weight(covariance(emulator.residuals.topRows(half), measured[r].plan, model_error));
+    const Eigen::LLT<Eigen::MatrixXd> weight(feature_covariance(emulator.residuals.topRows(half), measured[r].plan, model_error));
     const Eigen::MatrixXd weighted = weight.solve(slopes);
     information += slopes.transpose() * weighted;
-    scatter += weighted.transpose() * covariance(emulator.residuals.bottomRows(emulator.residuals.rows() - half), measured[r].plan, model_error) * weighted;
+    scatter += weighted.transpose() * feature_covariance(emulator.residuals.bottomRows(emulator.residuals.rows() - half), measured[r].plan, model_error) * weighted;
     // Slopes are known from chaotic runs: even those of a parameter that does nothing are not zero, and their squares would count as
     // information.
     const Eigen::MatrixXd chaos = emulator.residuals.transpose() * emulator.residuals / static_cast<double>(emulator.residuals.rows());
@@ -70,7 +58,7 @@ ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::v
 
 RunComparison foretold(const MeasuredFeatures& measured, const std::vector<Knob>& knobs, const Emulator& emulator, const Eigen::MatrixXd& parameters, double model_error) {
   const Eigen::MatrixXd slopes = slopes_of(knobs, emulator);
-  const Eigen::MatrixXd whole = covariance(emulator.residuals, measured.plan, model_error) + slopes * parameters * slopes.transpose();
+  const Eigen::MatrixXd whole = feature_covariance(emulator.residuals, measured.plan, model_error) + slopes * parameters * slopes.transpose();
   RunComparison run;
   run.run = measured.run;
   run.residual = measured.values - emulator.coefficients.row(0).transpose();
