@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 
@@ -15,6 +16,7 @@
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
+#include "parameter_knobs.hpp"
 #include "diagnose_report.hpp"
 #include "report_output.hpp"
 #include "progress_display.hpp"
@@ -29,25 +31,32 @@ struct DiagnoseArguments {
   SetupArguments setup;
   JsonOutput json;
   ReportOutput report;
-  std::string data, out, effects;
+  std::string data, out, effects, fixed;
   std::int64_t budget = 14000;
   double seconds = 0;
   int threads = 0;
 };
 
-/// "a,b" taken apart; every name must be an effect.
-std::vector<std::string> effect_names(const std::string& text) {
+std::vector<std::string> split_at_commas(const std::string& text) {
   std::vector<std::string> names;
-  std::vector<Violation> found;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(',', at), text.size());
     names.push_back(text.substr(at, end - at));
-    if (find_effect(names.back()) == nullptr)
-      found.push_back({{"--effects", 0, 0}, names.back(), "is not an effect", "`shakedown effects` lists them"});
     at = end + 1;
   }
-  if (!found.empty()) throw InputError(std::move(found));
   return names;
+}
+
+void check_names(const DiagnoseArguments& arguments) {
+  std::vector<Violation> found;
+  for (const std::string& name : split_at_commas(arguments.effects))
+    if (find_effect(name) == nullptr) found.push_back({{"--effects", 0, 0}, name, "is not an effect", "`shakedown effects` lists them"});
+  std::vector<std::string> fitted;
+  for (const Knob& knob : free_parameters(Setup{})) fitted.push_back(knob.key);
+  for (const std::string& name : split_at_commas(arguments.fixed))
+    if (std::find(fitted.begin(), fitted.end(), name) == fitted.end())
+      found.push_back({{"--fixed", 0, 0}, name, "is not fitted anyway", "restitution.grain_grain, restitution.grain_wall and spring.frequency are"});
+  if (!found.empty()) throw InputError(std::move(found));
 }
 
 /// The setup with effects and refitted values, and why.
@@ -78,7 +87,7 @@ std::int64_t budget_for(double seconds, const Setup& setup, const Experiment& ex
 int diagnose_data(const DiagnoseArguments& arguments) {
   const Setup setup = arguments.setup.read();
   const Experiment experiment = read_experiment(arguments.data);
-  const std::vector<std::string> effects = effect_names(arguments.effects);
+  check_names(arguments);
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
@@ -92,7 +101,8 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   Diagnosis diagnosis;
   {
     ProgressDisplay display(fmt::format("{}: diagnosing, at most {} simulations", arguments.data, budget));
-    DiagnoseOptions options{effects, budget, arguments.threads, all_effects(), catch_interruption(), {}};
+    DiagnoseOptions options{split_at_commas(arguments.effects), budget, arguments.threads, all_effects(), catch_interruption(), {}};
+    options.fixed = split_at_commas(arguments.fixed);
     options.progress = [&](const std::string& stage, double fraction) {
       display.rename(stage);
       display.show(fraction);
@@ -127,6 +137,7 @@ Command add_diagnose_command(CLI::App& program) {
   command.add_option("--data", arguments->data, "experiment file")->type_name("EXPERIMENT")->required();
   command.add_option("--out", arguments->out, "write the amended setup and the diagnosis into this folder")->type_name("DIR");
   command.add_option("--effects", arguments->effects, "only these may be added")->type_name("a,b,...");
+  command.add_option("--fixed", arguments->fixed, "not refitted, because known otherwise: restitution.grain_grain, restitution.grain_wall, spring.frequency")->type_name("KEY,KEY,...");
   command.add_option("--budget", arguments->budget, "simulations at most")->type_name("RUNS")->capture_default_str();
   command.add_option("--seconds", arguments->seconds, "choose the budget for about this time and say which")->check(CLI::PositiveNumber);
   command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->capture_default_str();

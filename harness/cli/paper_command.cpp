@@ -44,7 +44,7 @@ int paper(const PaperArguments& arguments) {
   folder.write("statements.csv", statements_csv(found.statements));
   folder.write("paper.json", paper_json(found));
   folder.write("paper.md", paper_markdown(found));
-  for (const Statement& s : found.statements) fmt::print(arguments.json.for_people(), "  {:<15} {:<26} (paper: {})\n", name_of(s.judgement), s.name, s.paper);
+  for (const Statement& s : found.statements) fmt::print(arguments.json.for_people(), "  {:<15} {:<26} (paper: {})\n{:18}holds when {}\n", name_of(s.judgement), s.name, s.paper, "", s.rule);
   fmt::print(arguments.json.for_people(), "{:.0f} s; read {}\n", found.seconds, (folder.path() / "paper.md").string());
   arguments.json.write(paper_json(found));
   return exit_done;

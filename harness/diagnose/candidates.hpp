@@ -10,7 +10,7 @@ namespace shakedown {
 
 struct Candidate {
   std::string effect;
-  std::vector<Knob> knobs;      ///< one typical strength wide, about the effect's absence where absent() is the centre; empty: on or off
+  std::vector<Knob> knobs;      ///< one typical strength wide, about the effect's absence where when_absent() is the centre; empty: on or off
   std::vector<std::pair<std::string, double>> fixed;  ///< setup paths and values (SI) that its presence needs besides, e.g. the length of the blade
   bool seen_by_momentum = false;  ///< a force from outside or a camera error that the momentum balance judges better
   double doubt = 0;               ///< chi2 that it must bring beyond a rival: how unlikely it is in such an experiment
@@ -18,7 +18,7 @@ struct Candidate {
 };
 
 /// The knob's value at which the effect is absent: zero for strengths, the centre for what replaces a parameter.
-inline double absent(const Knob& knob) { return knob.low <= 0 ? 0 : knob.centre; }
+inline double when_absent(const Knob& knob) { return knob.low <= 0 ? 0 : knob.centre; }
 
 /// Every effect that the hard engine models and that a diagnosis may add, given the setup's present values; effects that the setup has
 /// already, and those that replace the same part of the model, are left out. `only`: these alone (empty: all).

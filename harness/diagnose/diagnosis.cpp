@@ -203,6 +203,7 @@ void Pipeline::judge() {
   const double frequency = result_.momentum.possible ? result_.momentum.frequency : user_.spring.frequency;
   refitted_ = true;
   theta_ = free_parameters(base_, frequency, (result_.momentum.possible ? 0.004 : 0.01) * frequency);
+  std::erase_if(theta_, [&](const Knob& knob) { return std::find(options_.fixed.begin(), options_.fixed.end(), knob.key) != options_.fixed.end(); });
   add_momentum_terms();
   Refit best = fit(chosen_.empty() && result_.missing.empty() ? "refitting the parameters" : "refitting with the forces that the momentum balance convicts",
                    together(theta_, chosen_), 3);

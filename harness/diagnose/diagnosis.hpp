@@ -64,6 +64,7 @@ struct DiagnoseOptions {
   const std::atomic<bool>* stop = nullptr;
   /// Told of the stage in words and the fraction of the budget used; may be empty.
   std::function<void(const std::string& stage, double fraction)> progress;
+  std::vector<std::string> fixed{};  ///< of the restitutions and the spring's frequency: those known otherwise (a drop test), not refitted
 };
 
 /// Throws InputError when the setup does not fit the experiment, Interrupted when stopped.

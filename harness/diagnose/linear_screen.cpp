@@ -75,14 +75,14 @@ double screen_together(const std::vector<MeasuredFeatures>& measured, const std:
   const Linear linear = whitened(with, emulate(with, knobs, count, first_run, workshop), static_cast<Eigen::Index>(knobs.size()));
   const Outside outside(linear.columns.leftCols(n_fitted));
   Eigen::VectorXd without = linear.residual;  // of the model with all candidates absent
-  for (std::size_t k = fitted.size(); k < knobs.size(); ++k) without -= linear.columns.col(static_cast<Eigen::Index>(k)) * knobs[k].z_of(absent(knobs[k]));
+  for (std::size_t k = fitted.size(); k < knobs.size(); ++k) without -= linear.columns.col(static_cast<Eigen::Index>(k)) * knobs[k].z_of(when_absent(knobs[k]));
   const Eigen::VectorXd residual = outside(without);
   for (std::size_t k = 0; k < candidate_of.size(); ++k) {
     const Knob& knob = knobs[fitted.size() + k];
     const Eigen::VectorXd signature = outside(linear.columns.col(n_fitted + static_cast<Eigen::Index>(k)));
     const double square = signature.squaredNorm(), by = square > 0 ? signature.dot(residual) / square : 0;
-    const double z = knob.z_of(absent(knob)) + by;
-    const bool allowed = by == 0 || knob.at(z) != absent(knob);  // a drag cannot push
+    const double z = knob.z_of(when_absent(knob)) + by;
+    const bool allowed = by == 0 || knob.at(z) != when_absent(knob);  // a drag cannot push
     screening.list.push_back({candidate_of[k], candidates[candidate_of[k]].effect, allowed ? by * by * square : 0, knob.at(z), {}});
     screening.signatures.push_back(signature);
   }

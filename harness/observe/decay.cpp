@@ -55,8 +55,9 @@ double first_small_peak(const std::vector<Peak>& peaks) {
   return absent;
 }
 
-Decay decay_of(const std::vector<Peak>& peaks) {
-  const std::vector<Peak> kept = peaks_of_the_decay(peaks);
+Decay decay_of(const std::vector<Peak>& peaks) { return decay_through(peaks_of_the_decay(peaks)); }
+
+Decay decay_through(const std::vector<Peak>& kept) {
   const Eigen::Index count = static_cast<Eigen::Index>(kept.size());
   Eigen::VectorXd time(count), height(count);
   for (Eigen::Index n = 0; n < count; ++n) {

@@ -37,6 +37,9 @@ struct Decay {
 };
 Decay decay_of(const std::vector<Peak>& peaks);
 
+/// The same through all of these points.
+Decay decay_through(const std::vector<Peak>& points);
+
 /// Damping over one half period, from a peak to the next.
 struct HalfPeriodDamping {
   double amplitude = 0;  ///< m, mean of the two |peaks|

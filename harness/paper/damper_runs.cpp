@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "damper_runs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,6 +47,10 @@ void read_energy(const Trajectory& trajectory, RunReading& reading) {
   }
   const LeastSquares line = least_squares(columns, root);
   reading.energy_line_r2 = 1 - line.rms * line.rms / ((root.array() - root.mean()).square().mean());
+  std::vector<Peak> points;  // an exponential through the same, every 20 ms
+  for (std::size_t i = 0; i < end; i += 10) points.push_back({trajectory.time[i], root[static_cast<Eigen::Index>(i)]});
+  const Decay decay = decay_through(points);
+  reading.energy_line_ratio = decay.linear.rms / decay.exponential.rms;
   // Over 20 ms, so that single impacts do not count as steps.
   const std::size_t hop = 10;
   const double mean_rate = -line.coefficients[1];
@@ -118,6 +124,8 @@ Statistic DamperRuns::over(const std::function<double(const RunReading&)>& what)
 Statistic DamperRuns::over(double RunReading::*what) const {
   return over([what](const RunReading& run) { return run.*what; });
 }
+
+std::string name_of(const DamperRuns& runs) { return fmt::format("L = {:g} mm, {}", 1e3 * runs.setup.box.length, runs.engine); }
 
 DamperRuns damper_runs(const Engine& engine, const Setup& setup, const RunsWanted& wanted) {
   DamperRuns result{std::string(engine.name()), setup, {}, {}, {}, {}, {}, 0, 0};

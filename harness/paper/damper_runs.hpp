@@ -3,6 +3,7 @@
 #pragma once
 #include <atomic>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "engine.hpp"
@@ -17,6 +18,7 @@ struct RunReading {
   double friction = absent;            ///< N, mu M_tot of the third extremum (Eq. frictioncoeff)
   double friction_curve_r2 = absent;   ///< of x_box about that friction-damped oscillator, until the first peak below 10 mm
   double energy_line_r2 = absent;      ///< of sqrt(E)(t) about its linear fit, until then
+  double energy_line_ratio = absent;   ///< rms of sqrt(E)(t) about that line over rms about the best exponential
   double energy_flat = absent;         ///< share of that time in which energy falls slower than a fifth of the mean rate
   double leaving_speed_ratio = absent; ///< speed of the grains' centre in free flight over the box's top speed before
   double leaving_phase = absent;       ///< |x_box| over release at the moment of the box's top speed: 0 is mid-stroke
@@ -35,6 +37,9 @@ struct DamperRuns {
   Statistic over(double RunReading::*what) const;
   Statistic over(const std::function<double(const RunReading&)>& what) const;
 };
+
+/// "L = 40 mm, hard"
+std::string name_of(const DamperRuns& runs);
 
 struct RunsWanted {
   int runs = 1, threads = 0;

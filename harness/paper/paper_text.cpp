@@ -27,6 +27,16 @@ std::string quoted(const std::string& text) {
   return safe + "\"";
 }
 
+std::string diagnosis_markdown(const Diagnosis& diagnosis) {
+  if (diagnosis.ladder.empty()) return "";
+  std::string text = "\nDiagnosis of the model with 0.95 held fixed and no friction, from the two runs at L = 40 mm alone: " + diagnosis.sentence + "\n\n| step | error of x_box, mm | noise and spread, mm | p |\n|---|---|---|---|\n";
+  for (const LadderStep& step : diagnosis.ladder) text += fmt::format("| {} | {:.2f} | {:.2f} | {:.3f} |\n", step.step, 1e3 * step.error_box, 1e3 * step.floor_box, step.p_value);
+  text += "\n";
+  for (const DiagnosedParameter& p : diagnosis.parameters)
+    if (p.word.empty()) text += fmt::format("- {}: {:.4g} ({:.4g} to {:.4g}) {}\n", p.name, p.value, p.low, p.high, p.unit);
+  return text;
+}
+
 std::string puzzle_markdown(const Puzzle& puzzle) {
   std::string text =
       "\n## The puzzle: 0.95 or 0.75?\n\nLaboratory: soft engine, grain-grain restitution 0.95, grain-wall 0.76, Coulomb friction of grains and walls, two filmed runs at L = 40 mm (noise 0.2 mm and "
@@ -47,8 +57,7 @@ std::string puzzle_markdown(const Puzzle& puzzle) {
   }
   const FittedParameter& p = puzzle.with_friction.parameters.front();
   text += fmt::format("\n\nFriction fitted to L = 40 mm with 0.95 fixed: {:.3f} ({:.3f} to {:.3f}).\n", p.value, p.low, p.high);
-  if (!puzzle.diagnosis.empty()) text += "Diagnosis of the model with 0.95 and no friction: " + puzzle.diagnosis + "\n";
-  return text;
+  return text + diagnosis_markdown(puzzle.diagnosis);
 }
 
 Json puzzle_json(const Puzzle& puzzle) {
@@ -65,7 +74,7 @@ Json puzzle_json(const Puzzle& puzzle) {
     models.push_back({{"model", model.name}, {"runs", runs}});
   }
   return {{"points", points}, {"friction_that_looks_like_0.75", number(friction_that_looks_like(puzzle, 0.75))}, {"laboratory_friction", puzzle.friction}, {"models", models},
-          {"friction_fitted", fit(puzzle.with_friction)}, {"diagnosis", puzzle.diagnosis}, {"diagnosed", puzzle.diagnosed}};
+          {"friction_fitted", fit(puzzle.with_friction)}, {"diagnosis", puzzle.diagnosis.ladder.empty() ? Json(nullptr) : Json::parse(diagnosis_json(puzzle.diagnosis))}};
 }
 
 }  // namespace
@@ -77,10 +86,10 @@ std::string table_1_csv() {
 }
 
 std::string statements_csv(const std::vector<Statement>& statements) {
-  std::string text = "statement,paper,judgement,finding,value,low,high,unit\n";
+  std::string text = "statement,paper,judgement,rule,finding,value,low,high,unit\n";
   for (const Statement& s : statements)
     for (const Finding& f : s.findings)
-      text += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{}\n", quoted(s.name), quoted(s.paper), name_of(s.judgement), quoted(f.what), f.value, f.low, f.high, quoted(f.unit));
+      text += fmt::format("{},{},{},{},{},{:.6g},{:.6g},{:.6g},{}\n", quoted(s.name), quoted(s.paper), name_of(s.judgement), quoted(s.rule), quoted(f.what), f.value, f.low, f.high, quoted(f.unit));
   return text;
 }
 
@@ -95,10 +104,10 @@ std::string paper_json(const Paper& paper) {
 }
 
 std::string paper_markdown(const Paper& paper) {
-  std::string text = "# Movers and shakers, on trial\n\nNumbers are means with 95 % intervals of the mean. Every figure is a CSV and an SVG beside this file; Table I is table_1.csv.\n\n| statement | paper | judgement |\n|---|---|---|\n";
-  for (const Statement& s : paper.statements) text += fmt::format("| {} | {} | **{}** |\n", s.text, s.paper, name_of(s.judgement));
+  std::string text = "# Movers and shakers, on trial\n\nNumbers are means with 95 % intervals of the mean. Every figure is a CSV and an SVG beside this file; Table I is table_1.csv.\n\n| statement | paper | verdict | it holds when |\n|---|---|---|---|\n";
+  for (const Statement& s : paper.statements) text += fmt::format("| {} | {} | **{}** | {} |\n", s.text, s.paper, name_of(s.judgement), s.rule);
   for (const Statement& s : paper.statements) {
-    text += fmt::format("\n## {}: {}\n\n{} Paper: {}.\nJudged by: {}.\n\n", s.name, name_of(s.judgement), s.text, s.paper, s.rule);
+    text += fmt::format("\n## {}: {}\n\n{} Paper: {}.\nIt holds when: {}.\n\n", s.name, name_of(s.judgement), s.text, s.paper, s.rule);
     for (const Finding& f : s.findings) text += "- " + f.what + ": " + readable(f) + "\n";
     if (!s.remark.empty()) text += "\n" + s.remark + "\n";
   }

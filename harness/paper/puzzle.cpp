@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "diagnosis.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
 #include "experiment_file.hpp"
@@ -33,10 +32,12 @@ Experiment film(double restitution, double friction, const std::vector<double>& 
   return make_measurements(truth, runs_of_lengths(lengths), {}, {soft.get(), all_effects(), 7, options.threads, options.stop});
 }
 
+bool is_fitted(const MeasuredRun& run) { return run.box_length < 0.05; }
+
 Fit fitted(const Setup& start, const Experiment& experiment, const std::string& free, const PuzzleOptions& options) {
   FitOptions how;
   for (const MeasuredRun& run : experiment.runs)
-    if (run.box_length < 0.05) how.on.push_back(run.name);
+    if (is_fitted(run)) how.on.push_back(run.name);
   how.count = options.quick ? 64 : 128;
   how.threads = options.threads;
   how.known = all_effects();
@@ -54,15 +55,42 @@ PuzzleModel model_of(std::string name, const std::vector<RunComparison>& runs) {
   return model;
 }
 
+Experiment part_of(const Experiment& whole, bool fitted) {
+  Experiment part = whole;
+  std::erase_if(part.runs, [&](const MeasuredRun& run) { return is_fitted(run) != fitted; });
+  return part;
+}
+
 /// The model as it stands on the lengths that nobody fitted.
-PuzzleModel unfitted(const Setup& setup, const Experiment& experiment, const PuzzleOptions& options) {
-  Experiment others = experiment;
-  std::erase_if(others.runs, [](const MeasuredRun& run) { return run.box_length < 0.05; });
+PuzzleModel unfitted(const std::string& name, const Setup& setup, const Experiment& experiment, const PuzzleOptions& options) {
+  const Experiment others = part_of(experiment, false);
   const std::unique_ptr<Engine> hard = engine_named("hard");
   const Workshop workshop{hard.get(), all_effects(), options.threads, options.stop, {}, nullptr};
   RefitOptions how;
   how.count = options.quick ? 48 : 128;
-  return model_of("grain-grain 0.95, no friction", refit(features_of(others, audit(others), setups_of_runs(setup, others, all_effects())), {}, workshop, how).runs);
+  return model_of(name, refit(features_of(others, audit(others), setups_of_runs(setup, others, all_effects())), {}, workshop, how).runs);
+}
+
+/// What is missing, if the drop test is believed and nothing but L = 40 mm was filmed?
+Diagnosis diagnosed(const Experiment& experiment, const PuzzleOptions& options) {
+  DiagnoseOptions how;
+  how.threads = options.threads;
+  how.known = all_effects();
+  how.stop = options.stop;
+  how.fixed = {"restitution.grain_grain"};
+  return diagnose(believed(), part_of(experiment, true), *engine_named("hard"), how);
+}
+
+/// From the laboratory with friction back to the model, both ways: restitution fitted, and 0.95 with friction.
+void repair(Puzzle& puzzle, const Experiment& experiment, const Fit& frictionless, const PuzzleOptions& options) {
+  puzzle.models.push_back(unfitted("0.95, no friction", believed(), experiment, options));
+  puzzle.models.push_back(model_of("restitution fitted, no friction", frictionless.left_out));
+  if (!options.quick) {
+    puzzle.diagnosis = diagnosed(experiment, options);
+    puzzle.models.push_back(unfitted("0.95, with what the diagnosis of 40 mm adds", puzzle.diagnosis.amended, experiment, options));
+  }
+  puzzle.with_friction = fitted(believed(), experiment, "grain_friction.grain_grain&grain_friction.grain_wall", options);
+  puzzle.models.push_back(model_of("0.95, friction fitted", puzzle.with_friction.left_out));
 }
 
 }  // namespace
@@ -84,20 +112,8 @@ Puzzle solve_puzzle(const PuzzleOptions& options) {
     PuzzlePoint point{friction, fitted(start, experiment, "restitution.grain_grain", options), {}};
     if (!options.quick) point.both = fitted(start, experiment, "restitution.grain_grain,restitution.grain_wall", options);
     if (chosen) {
-      puzzle.models.push_back(unfitted(believed(), experiment, options));
-      puzzle.models.push_back(model_of("restitution fitted, no friction", point.one.left_out));
-      puzzle.with_friction = fitted(believed(), experiment, "grain_friction.grain_grain&grain_friction.grain_wall", options);
-      puzzle.models.push_back(model_of("grain-grain 0.95, friction fitted", puzzle.with_friction.left_out));
-      if (!options.quick) {
-        tell("the puzzle: diagnosis");
-        DiagnoseOptions how;
-        how.threads = options.threads;
-        how.known = all_effects();
-        how.stop = options.stop;
-        const Diagnosis diagnosis = diagnose(believed(), experiment, *engine_named("hard"), how);
-        puzzle.diagnosis = diagnosis.sentence;
-        puzzle.diagnosed = diagnosis.missing;
-      }
+      tell(options.quick ? "the puzzle: friction in the model" : "the puzzle: diagnosis");
+      repair(puzzle, experiment, point.one, options);
     }
     puzzle.points.push_back(std::move(point));
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis.hpp"
 #include "fit.hpp"
 
 namespace shakedown {
@@ -29,10 +30,9 @@ struct Puzzle {
   std::vector<PuzzlePoint> points;
   Fit as_the_paper;                  ///< both restitutions, where the laboratory has the paper's 0.75 and 0.76 and no friction
   double friction = 0.2;             ///< of the laboratory below
-  std::vector<PuzzleModel> models;   ///< 0.95 as it is, the frictionless fit, 0.95 with friction
+  std::vector<PuzzleModel> models;   ///< 0.95 as it is, the frictionless fit, 0.95 with what the diagnosis adds, 0.95 with friction fitted
   Fit with_friction;                 ///< grain_friction fitted to L = 40 mm, 0.95 fixed
-  std::string diagnosis;             ///< what `diagnose` says of the model with 0.95; empty in the quick version
-  std::vector<std::string> diagnosed;
+  Diagnosis diagnosis;               ///< of the model with 0.95 held fixed, by L = 40 mm alone; its ladder is empty in the quick version
 };
 
 struct PuzzleOptions {
