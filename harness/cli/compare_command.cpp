@@ -14,6 +14,7 @@
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "momentum.hpp"
+#include "output_file.hpp"
 #include "parameter_knobs.hpp"
 #include "progress_display.hpp"
 #include "refit.hpp"
@@ -29,7 +30,7 @@ struct CompareArguments {
   SetupArguments setup;
   JsonOutput json;
   ReportOutput report;
-  std::string data;
+  std::string data, out;
   int runs = 128, threads = 0;
 };
 
@@ -125,6 +126,8 @@ int compare(const CompareArguments& arguments) {
   const Experiment experiment = read_experiment(arguments.data);
   arguments.json.check();
   arguments.report.check();
+  std::unique_ptr<OutputFolder> folder;
+  if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
   const std::vector<Setup> setups = setups_of_runs(setup, experiment, all_effects());
   const Audit found = audit(experiment);
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
@@ -144,16 +147,18 @@ int compare(const CompareArguments& arguments) {
   }
   const MomentumAudit momentum = audit_momentum(experiment, found, setups);
   const bool holds = fit.p_value > 0.01 && (!momentum.possible || momentum.as_given.p_value > 0.01);
+  const std::string document = json_of(fit, momentum, decays, holds).dump(2) + "\n";
   fmt::print(arguments.json.for_people(), "{}", readable(fit, momentum, decays, holds));
-  if (arguments.report.wanted("")) {
+  if (folder) folder->write("compare.json", document);
+  if (arguments.report.wanted(arguments.out)) {
     CurveOptions drawn;
     drawn.threads = arguments.threads;
     drawn.known = all_effects();
     drawn.stop = catch_interruption();
     const std::vector<MeasuredAgainstModel> curves = measured_against_model(experiment, found, nullptr, setup, *engine, drawn);
-    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(fit, momentum, holds, experiment, setup, curves), ""));
+    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(fit, momentum, holds, experiment, setup, curves), arguments.out));
   }
-  arguments.json.write(json_of(fit, momentum, decays, holds).dump(2) + "\n");
+  arguments.json.write(document);
   return holds ? exit_done : exit_model_rejected;
 }
 
@@ -166,6 +171,7 @@ Command add_compare_command(CLI::App& program) {
   command.add_option("--data", arguments->data, "experiment file")->type_name("EXPERIMENT")->required();
   command.add_option("--runs", arguments->runs, "simulations of each different setup")->check(CLI::Range(16, 100000))->capture_default_str();
   command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->capture_default_str();
+  command.add_option("--out", arguments->out, "write compare.json and what `shakedown report` needs into this folder")->type_name("DIR");
   add_report_option(command, arguments->report);
   command.add_option("--engine", arguments->engine, "hard, soft or bullet")->type_name("NAME")->capture_default_str();
   add_json_option(command, arguments->json);

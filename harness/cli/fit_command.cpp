@@ -11,11 +11,13 @@
 #include "effects.hpp"
 #include "engines.hpp"
 #include "experiment_file.hpp"
+#include "fit_report.hpp"
 #include "free_parameters.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
 #include "progress_display.hpp"
+#include "report_output.hpp"
 #include "setup_arguments.hpp"
 #include "setup_file.hpp"
 
@@ -26,6 +28,7 @@ namespace {
 struct FitArguments {
   SetupArguments setup;
   JsonOutput json;
+  ReportOutput report;
   std::string data, free, on, out;
   int count = 160, threads = 0;
 };
@@ -35,7 +38,9 @@ int fit(const FitArguments& arguments) {
   const Experiment experiment = read_experiment(arguments.data);
   const std::vector<Knob> knobs = free_parameters(arguments.free, setup, all_effects());
   arguments.json.check();
-  if (!arguments.out.empty()) expect_writable(arguments.out);
+  arguments.report.check();
+  std::unique_ptr<OutputFolder> folder;
+  if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
   FitOptions options;
   std::stringstream names(arguments.on);
   for (std::string name; std::getline(names, name, ',');) options.on.push_back(name);
@@ -54,7 +59,18 @@ int fit(const FitArguments& arguments) {
     found = fit_parameters(setup, experiment, knobs, *engine_named("hard"), options);
   }
   fmt::print(arguments.json.for_people(), "{}", fit_text(found));
-  if (!arguments.out.empty()) write_file(arguments.out, "# Fitted by `shakedown fit` to " + arguments.data + "\n" + write_setup(found.fitted));
+  if (folder) {
+    folder->write("setup.toml", "# Fitted by `shakedown fit` to " + arguments.data + "\n" + write_setup(found.fitted));
+    folder->write("fit.json", fit_json(found));
+  }
+  if (arguments.report.wanted(arguments.out)) {
+    CurveOptions drawn;
+    drawn.threads = arguments.threads;
+    drawn.known = all_effects();
+    drawn.stop = catch_interruption();
+    const std::vector<MeasuredAgainstModel> curves = measured_against_model(experiment, audit(experiment), &setup, found.fitted, *engine_named("hard"), drawn);
+    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(found, experiment, curves), arguments.out));
+  }
   arguments.json.write(fit_json(found));
   return exit_done;
 }
@@ -68,7 +84,8 @@ Command add_fit_command(CLI::App& program) {
   command.add_option("--data", arguments->data, "experiment file")->type_name("EXPERIMENT")->required();
   command.add_option("--free", arguments->free, "keys to fit, starting at the setup's values; keys joined by & move together")->type_name("KEY,KEY,...")->required();
   command.add_option("--on", arguments->on, "fit these runs only, foretell the others")->type_name("RUN,RUN,...");
-  command.add_option("--out", arguments->out, "write the fitted setup")->type_name("FILE");
+  command.add_option("--out", arguments->out, "write the fitted setup, fit.json and what `shakedown report` needs into this folder")->type_name("DIR");
+  add_report_option(command, arguments->report);
   command.add_option("--runs", arguments->count, "simulations of each different setup in a round")->check(CLI::Range(32, 100000))->capture_default_str();
   command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->check(CLI::Range(0, 1024))->capture_default_str();
   add_json_option(command, arguments->json);

@@ -12,10 +12,13 @@
 #include "experiment_file.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
+#include "ladder_report.hpp"
 #include "momentum.hpp"
+#include "output_file.hpp"
 #include "parameter_knobs.hpp"
 #include "progress_display.hpp"
 #include "refit.hpp"
+#include "report_output.hpp"
 
 namespace shakedown {
 
@@ -27,13 +30,8 @@ struct LadderArguments {
   int runs = 128, threads = 0;
   bool refit = false;
   JsonOutput json;
-};
-
-struct Rung {
-  std::string setup, effects;
-  Refit fit;
-  MomentumAudit momentum;
-  bool holds() const { return fit.p_value > 0.01 && (!momentum.possible || momentum.as_given.p_value > 0.01); }
+  ReportOutput report;
+  std::string out;
 };
 
 std::string effects_of(const Setup& setup) {
@@ -118,9 +116,16 @@ int ladder(const LadderArguments& arguments) {
   if (!wrong.empty()) throw InputError(std::move(wrong));
   const Experiment experiment = read_experiment(arguments.data);
   arguments.json.check();
+  arguments.report.check();
+  std::unique_ptr<OutputFolder> folder;
+  if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
   const std::vector<Rung> rungs = climb_all(arguments, setups, experiment);
   fmt::print(arguments.json.for_people(), "{}", readable(rungs, arguments.refit));
-  arguments.json.write(json_of(rungs, arguments.refit));
+  const std::string document = json_of(rungs, arguments.refit);
+  if (folder) folder->write("ladder.json", document);
+  if (arguments.report.wanted(arguments.out))
+    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(rungs, arguments.refit, experiment, setups.back()), arguments.out));
+  arguments.json.write(document);
   const bool any = std::any_of(rungs.begin(), rungs.end(), [](const Rung& rung) { return rung.holds(); });
   return any ? exit_done : exit_model_rejected;
 }
@@ -135,6 +140,8 @@ Command add_ladder_command(CLI::App& program) {
   command.add_flag("--refit", arguments->refit, "refit both restitutions and the frequency of each, and predict each box length from the others");
   command.add_option("--runs", arguments->runs, "simulations of each different setup")->check(CLI::Range(16, 100000))->capture_default_str();
   command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->capture_default_str();
+  command.add_option("--out", arguments->out, "write ladder.json and what `shakedown report` needs into this folder")->type_name("DIR");
+  add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return ladder(*arguments); }};
 }

@@ -10,7 +10,9 @@
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
+#include "paper_report.hpp"
 #include "progress_display.hpp"
+#include "report_output.hpp"
 
 namespace shakedown {
 
@@ -19,12 +21,14 @@ namespace {
 struct PaperArguments {
   std::string folder;
   JsonOutput json;
+  ReportOutput report;
   bool quick = false;
   int threads = 0;
 };
 
 int paper(const PaperArguments& arguments) {
   arguments.json.check();
+  arguments.report.check();
   const OutputFolder folder(arguments.folder);
   Paper found;
   {
@@ -46,6 +50,7 @@ int paper(const PaperArguments& arguments) {
   folder.write("paper.md", paper_markdown(found));
   for (const Statement& s : found.statements) fmt::print(arguments.json.for_people(), "  {:<15} {:<26} (paper: {})\n{:18}holds when {}\n", name_of(s.judgement), s.name, s.paper, "", s.rule);
   fmt::print(arguments.json.for_people(), "{:.0f} s; read {}\n", found.seconds, (folder.path() / "paper.md").string());
+  fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(found), arguments.folder));
   arguments.json.write(paper_json(found));
   return exit_done;
 }
@@ -58,6 +63,7 @@ Command add_paper_command(CLI::App& program) {
   command.add_option("--out", arguments->folder, "folder for figures (CSV and SVG) and statements (Markdown, JSON, CSV)")->required()->type_name("DIR");
   command.add_flag("--quick", arguments->quick, "few runs: minutes instead of a quarter of an hour");
   command.add_option("--threads", arguments->threads, "0: one for each core; the numbers do not depend on it")->check(CLI::Range(0, 1024))->capture_default_str();
+  add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return paper(*arguments); }};
 }

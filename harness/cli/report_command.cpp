@@ -2,24 +2,43 @@
 // shakedown report: one page from the folders that other commands left.
 #include <fmt/format.h>
 
+#include <fstream>
 #include <memory>
 
 #include "command.hpp"
 #include "report_output.hpp"
 #include "report_joined.hpp"
+#include "sweep_report.hpp"
 
 namespace shakedown {
+
+namespace {
+
+/// A sweep's results are one file; everything else leaves a folder.
+bool is_result_file(const std::filesystem::path& file) {
+  constexpr std::string_view magic = "SQLite format 3";
+  std::string beginning(magic.size(), ' ');
+  std::ifstream stream(file, std::ios::binary);
+  return std::filesystem::is_regular_file(file) && stream.read(beginning.data(), static_cast<std::streamsize>(magic.size())) && beginning == magic;
+}
+
+NamedReport stored_report(const std::filesystem::path& place) {
+  const std::string name = (place / "").parent_path().filename().string();
+  return {name, is_result_file(place) ? report_of(ResultFile(place), name) : read_report(place)};
+}
+
+}  // namespace
 
 Command add_report_command(CLI::App& program) {
   CLI::App& command = *program.add_subcommand("report", "one HTML page from folders of results");
   const auto folders = std::make_shared<std::vector<std::string>>();
   const auto output = std::make_shared<ReportOutput>();
   output->file = "report.html";
-  command.add_option("DIR", *folders, "folders that run, compare, diagnose, crosscheck ... wrote with --out")->required();
+  command.add_option("DIR", *folders, "folders that run, compare, diagnose, fit, ladder, paper, crosscheck wrote with --out, and files of sweep")->required();
   command.add_option("--out", output->file, "the page")->type_name("FILE.html")->capture_default_str();
   return {&command, [folders, output] {
             std::vector<NamedReport> reports;
-            for (const std::string& folder : *folders) reports.push_back({std::filesystem::path(folder).lexically_normal().filename().string(), read_report(folder)});
+            for (const std::string& folder : *folders) reports.push_back(stored_report(folder));
             fmt::print("{}", output->write(joined(std::move(reports)), ""));
             return static_cast<int>(exit_done);
           }};

@@ -17,17 +17,32 @@
 #include "output_file.hpp"
 #include "progress_display.hpp"
 #include "provenance.hpp"
+#include "report_output.hpp"
 #include "setup_arguments.hpp"
+#include "sweep_report.hpp"
 
 namespace shakedown {
 
 namespace {
 
+/// What becomes of the results.
+struct Presentation {
+  JsonOutput json;
+  ReportOutput report;
+  std::string table;
+
+  void check() const {
+    json.check();
+    report.check();
+    if (!table.empty()) expect_writable(table);
+  }
+};
+
 struct SweepArguments {
   SetupArguments setup;
-  JsonOutput json;
+  Presentation results;
   std::vector<std::string> vary;
-  std::string engine = "hard", out = "sweep.sqlite", table, shard;
+  std::string engine = "hard", out = "sweep.sqlite", shard;
   int runs = 1, threads = 0;
   bool resume = false, estimate = false;
 };
@@ -53,11 +68,12 @@ nlohmann::ordered_json json_of(const std::vector<ResultRow>& rows, const SweepId
 }
 
 /// What is in the file at the end, for people and as table and JSON.
-void report(const ResultFile& file, const std::string& name, const std::string& table, const JsonOutput& json, bool complete) {
+void present(const ResultFile& file, const std::string& name, const Presentation& how, bool complete) {
   const std::vector<ResultRow> rows = file.rows();
-  if (!table.empty()) write_file(table, summary_csv(file.identity(), summaries_of(rows)));
-  fmt::print(json.for_people(), "{}: {} runs, digest {}\n", name, rows.size(), results_digest(rows));
-  json.write(json_of(rows, file.identity(), complete).dump(2) + "\n");
+  if (!how.table.empty()) write_file(how.table, summary_csv(file.identity(), summaries_of(rows)));
+  fmt::print(how.json.for_people(), "{}: {} runs, digest {}\n", name, rows.size(), results_digest(rows));
+  if (how.report.wanted("")) fmt::print(how.json.for_people(), "{}", how.report.write(report_of(file, name), ""));
+  how.json.write(json_of(rows, file.identity(), complete).dump(2) + "\n");
 }
 
 int sweep(const SweepArguments& arguments) {
@@ -65,9 +81,8 @@ int sweep(const SweepArguments& arguments) {
   const Setup setup = arguments.setup.read();
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
   const SweepPlan plan = plan_sweep(setup, parse_axes(arguments.vary, all_effects()), arguments.runs, *engine, all_effects());
-  arguments.json.check();
-  for (const std::string& file : {arguments.out, arguments.table})
-    if (!file.empty()) expect_writable(file);
+  arguments.results.check();
+  expect_writable(arguments.out);
   // Processes that share a file must not refuse what the others have begun.
   const auto opening = arguments.resume || share.of > 1 ? ResultFile::Opening::resume : ResultFile::Opening::fresh;
   ResultFile file(arguments.out, identity_of(plan, *engine), opening);
@@ -91,7 +106,7 @@ int sweep(const SweepArguments& arguments) {
   };
   const SweepOutcome outcome = run_sweep(*engine, plan, file, options);
   display.reset();
-  report(file, arguments.out, arguments.table, arguments.json, !outcome.interrupted);
+  present(file, arguments.out, arguments.results, !outcome.interrupted);
   if (outcome.failed > 0) fmt::print(stderr, "{} runs failed and are kept as such; the first: {}\n", outcome.failed, outcome.first_failure);
   if (outcome.interrupted && !arguments.estimate) {
     fmt::print(stderr, "interrupted; --resume goes on\n");
@@ -101,17 +116,22 @@ int sweep(const SweepArguments& arguments) {
 }
 
 struct MergeArguments {
-  std::string out, table;
+  std::string out;
   std::vector<std::string> files;
-  JsonOutput json;
+  Presentation results;
 };
 
+void add_presentation(CLI::App& command, Presentation& results) {
+  command.add_option("--table", results.table, "write mean and spread of every point as CSV")->type_name("FILE");
+  add_report_option(command, results.report);
+  add_json_option(command, results.json);
+}
+
 int merge(const MergeArguments& arguments) {
-  arguments.json.check();
-  for (const std::string& file : {arguments.out, arguments.table})
-    if (!file.empty()) expect_writable(file);
+  arguments.results.check();
+  expect_writable(arguments.out);
   const std::vector<std::filesystem::path> files(arguments.files.begin(), arguments.files.end());
-  report(merge_results(arguments.out, files), arguments.out, arguments.table, arguments.json, true);
+  present(merge_results(arguments.out, files), arguments.out, arguments.results, true);
   return exit_done;
 }
 
@@ -126,13 +146,12 @@ Command add_sweep_command(CLI::App& program) {
   command.add_option("--runs", arguments->runs, "runs of each point")->check(CLI::Range(1, 1000000))->type_name("N")->capture_default_str();
   command.add_option("--engine", arguments->engine, "hard, soft, bullet")->type_name("NAME")->capture_default_str();
   command.add_option("--out", arguments->out, "file of the results, a row a run; several processes may share it")->type_name("FILE")->capture_default_str();
-  command.add_option("--table", arguments->table, "write mean and spread of every point as CSV")->type_name("FILE");
   command.add_flag("--resume", arguments->resume, "go on with the file: what it holds is not done again");
   command.add_flag("--estimate", arguments->estimate, "say what the sweep would cost, and stop");
   command.add_option("--shard", arguments->shard, "do the i-th of n shares only; without it the launcher's environment says (mpirun, srun, job arrays)")->type_name("i/n");
   command.add_option("--threads", arguments->threads, "0: one for each core, one under a launcher; the numbers do not depend on it")
       ->check(CLI::Range(0, 1024))->type_name("T")->capture_default_str();
-  add_json_option(command, arguments->json);
+  add_presentation(command, arguments->results);
   return {&command, [arguments] { return sweep(*arguments); }};
 }
 
@@ -141,8 +160,7 @@ Command add_merge_command(CLI::App& program) {
   const auto arguments = std::make_shared<MergeArguments>();
   command.add_option("OUT", arguments->out, "file to put them into (made when missing)")->required()->type_name("");
   command.add_option("FILES", arguments->files, "files that `shakedown sweep` wrote")->required()->type_name("");
-  command.add_option("--table", arguments->table, "write mean and spread of every point as CSV")->type_name("FILE");
-  add_json_option(command, arguments->json);
+  add_presentation(command, arguments->results);
   return {&command, [arguments] { return merge(*arguments); }};
 }
 

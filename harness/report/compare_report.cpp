@@ -3,32 +3,28 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "diagnose_report.hpp"
 #include "page_figures.hpp"
 #include "report_parts.hpp"
 
 namespace shakedown {
 
-namespace {
-
-ReportSection errors_section(const Refit& fit) {
+ReportSection errors_section(const std::string& title, const std::vector<RunComparison>& runs) {
   ReportSection section;
-  section.title = "Error by run";
-  ReportBars bars;
-  bars.unit = "mm";
-  bars.names = {"box", "what noise and run-to-run spread make"};
-  ReportTable table{"The same as numbers", "", {"run", "box, mm", "floor, mm", "centre of the grains, mm", "floor, mm"}, {}, true};
-  for (const RunComparison& run : fit.runs) {
+  section.title = title;
+  ReportBars bars{"", "rms of measured less mean of the model.", "mm", {"box", "what noise and run-to-run spread make"}, {}, std::nan(""), ""};
+  MoreColumn centre{"centre of the grains, mm", {}}, spread{"its noise and spread, mm", {}};
+  for (const RunComparison& run : runs) {
     bars.lines.push_back({run.run, fmt::format("{} times the floor", for_people(run.error_box / run.floor_box)), {run.error_box * 1e3, run.floor_box * 1e3}});
-    table.rows.push_back({run.run, for_people(run.error_box * 1e3), for_people(run.floor_box * 1e3), for_people(run.error_centre * 1e3), for_people(run.floor_centre * 1e3)});
+    centre.cells.push_back(for_people(run.error_centre * 1e3));
+    spread.cells.push_back(for_people(run.floor_centre * 1e3));
   }
-  bars.caption = "rms of measured less mean of the model.";
   section.bars = {bars};
-  section.tables = {table};
+  section.tables = {numbers_of(bars, "run", {centre, spread})};
   return section;
 }
-
-}  // namespace
 
 Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, const Experiment& experiment, const Setup& setup,
                  const std::vector<MeasuredAgainstModel>& curves) {
@@ -48,7 +44,7 @@ Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, co
     report.replays = replays_of(curves);
     report.sections = {curves_section(curves, "Measured against model"), failure_section(curves)};
   }
-  report.sections.push_back(errors_section(fit));
+  report.sections.push_back(errors_section("Error by run", fit.runs));
   report.sections.push_back(momentum_section(momentum));
   if (!curves.empty()) report.sections.push_back(energy_section(curves));
   say_how_to_reproduce(report, setup);

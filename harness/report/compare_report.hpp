@@ -11,4 +11,7 @@ namespace shakedown {
 Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, const Experiment& experiment, const Setup& setup,
                  const std::vector<MeasuredAgainstModel>& curves);
 
+/// Error of each run as bars beside what noise and spread make.
+ReportSection errors_section(const std::string& title, const std::vector<RunComparison>& runs);
+
 }  // namespace shakedown

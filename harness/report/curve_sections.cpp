@@ -10,6 +10,7 @@
 #include "measured_against_model.hpp"
 #include "page_figures.hpp"
 #include "replay_tracks.hpp"
+#include "report_parts.hpp"
 
 namespace shakedown {
 
@@ -32,14 +33,8 @@ bool has_numbers(const std::vector<double>& values) {
 
 ReportPlot position_plot(const MeasuredAgainstModel& run, const char* what, const std::vector<double>& measured, const EnsembleCurve& model,
                          const EnsembleCurve* given) {
-  ReportPlot plot;
-  plot.title = what;
-  plot.x_label = "time since release, s";
-  plot.y_label = "position, mm";
-  plot.group = run.run;
-  plot.over_time = true;
-  plot.x = run.time;
-  plot.curves = {{"", CurveRole::band_low, off(model, -2, 1e3)}, {"two standard deviations of a run", CurveRole::band_high, off(model, 2, 1e3)}};
+  ReportPlot plot = time_plot(what, "position, mm", run.run, run.time);
+  plot.curves = band("two standard deviations of a run", off(model, -2, 1e3), off(model, 2, 1e3));
   if (given != nullptr) plot.curves.push_back({"as given", CurveRole::as_given, times(1e3, given->mean)});
   plot.curves.push_back({given != nullptr ? "final model" : "model", CurveRole::model, times(1e3, model.mean)});
   plot.curves.push_back({"measured", CurveRole::measured, times(1e3, measured)});
@@ -47,15 +42,9 @@ ReportPlot position_plot(const MeasuredAgainstModel& run, const char* what, cons
 }
 
 ReportPlot residual_plot(const MeasuredAgainstModel& run) {
-  ReportPlot plot;
-  plot.title = "Residual";
+  ReportPlot plot = time_plot("Residual", "expected spreads", run.run, run.time);
   plot.caption = "Measured less model, in units of what run-to-run spread and camera noise make. Dashed: three units. A click moves the grains there.";
-  plot.x_label = "time since release, s";
-  plot.y_label = "expected spreads";
-  plot.group = run.run;
-  plot.over_time = true;
   plot.level = 3;
-  plot.x = run.time;
   plot.curves = {{"box", CurveRole::model, run.box_residual}};
   if (has_numbers(run.centre_residual)) plot.curves.push_back({"centre of the grains", CurveRole::other, run.centre_residual});
   return plot;
@@ -63,14 +52,8 @@ ReportPlot residual_plot(const MeasuredAgainstModel& run) {
 
 /// Measured less model: what the eye cannot see beside a swing of 100 mm.
 ReportPlot error_plot(const MeasuredAgainstModel& run) {
-  ReportPlot plot;
-  plot.title = "Error of the box";
+  ReportPlot plot = time_plot("Error of the box", "error, mm", run.run, run.time);
   plot.caption = "Measured less mean of the model.";
-  plot.x_label = "time since release, s";
-  plot.y_label = "error, mm";
-  plot.group = run.run;
-  plot.over_time = true;
-  plot.x = run.time;
   const auto less = [&](const EnsembleCurve& model) {
     std::vector<double> error(run.box.size());
     for (std::size_t i = 0; i < error.size(); ++i) error[i] = 1e3 * (run.box[i] - model.mean[i]);
@@ -78,7 +61,7 @@ ReportPlot error_plot(const MeasuredAgainstModel& run) {
   };
   std::vector<double> low(run.time.size()), high(run.time.size());
   for (std::size_t i = 0; i < low.size(); ++i) high[i] = 2e3 * std::hypot(run.final_model.box.sd[i], run.box_noise), low[i] = -high[i];
-  plot.curves = {{"", CurveRole::band_low, low}, {"two expected spreads", CurveRole::band_high, high}};
+  plot.curves = band("two expected spreads", low, high);
   if (run.as_given.runs > 0) plot.curves.push_back({"as given", CurveRole::as_given, less(run.as_given.box)});
   plot.curves.push_back({run.as_given.runs > 0 ? "final model" : "model", CurveRole::model, less(run.final_model.box)});
   return plot;
@@ -188,17 +171,9 @@ ReportSection energy_section(const std::vector<MeasuredAgainstModel>& runs) {
   section.title = "Where the energy goes";
   section.paragraphs = {"Means of the final model's runs; what is lost in contacts of each class, and what is left in spring, box and grains."};
   for (const MeasuredAgainstModel& run : runs) {
-    ReportPlot plot;
-    plot.title = "Energy";
-    plot.x_label = "time since release, s";
-    plot.y_label = "energy, mJ";
-    plot.group = run.run;
-    plot.over_time = true;
-    plot.x = run.time;
-    plot.curves = {{"left", CurveRole::model, times(1e3, run.final_model.energy.mean)}};
-    const std::array<const char*, contact_classes> names{"lost between grains", "lost at end walls", "lost at side walls"};
-    for (std::size_t c = 0; c < contact_classes; ++c) plot.curves.push_back({names[c], CurveRole::other, times(1e3, run.final_model.loss[c].mean)});
-    section.plots.push_back(plot);
+    std::array<std::vector<double>, contact_classes> lost;
+    for (std::size_t c = 0; c < contact_classes; ++c) lost[c] = times(1e3, run.final_model.loss[c].mean);
+    section.plots.push_back(energy_plot(run.run, run.time, times(1e3, run.final_model.energy.mean), lost));
   }
   return section;
 }
@@ -209,21 +184,13 @@ std::vector<std::string> health_lines(const std::vector<MeasuredAgainstModel>& r
   int simulations = 0;
   for (const MeasuredAgainstModel& run : runs)
     for (const ModelMotion* motion : {&run.as_given, &run.final_model}) {
-      worst.ledger_error = std::max(worst.ledger_error, motion->health.ledger_error);
-      worst.momentum_error = std::max(worst.momentum_error, motion->health.momentum_error);
-      worst.deepest_overlap = std::max(worst.deepest_overlap, motion->health.deepest_overlap);
-      worst.elastic_rescues += motion->health.elastic_rescues;
-      for (const std::string& note : motion->health.notes)
-        if (std::find(worst.notes.begin(), worst.notes.end(), note) == worst.notes.end()) worst.notes.push_back(note);
+      worst = worse_of(std::move(worst), motion->health);
       collisions += motion->collisions;
       simulations += motion->runs;
     }
-  std::vector<std::string> lines{
-      fmt::format("Worst of the {} simulations drawn here ({} collisions): energy ledger open by {:.1e} of the initial energy, momentum off by {:.1e}, deepest overlap {:.1e} m.",
-                  simulations, collisions, worst.ledger_error, worst.momentum_error, worst.deepest_overlap),
-      fmt::format("{:.1f} % of the impacts were slow enough to be made elastic (what keeps layers from endless impacts).",
-                  collisions > 0 ? 100.0 * static_cast<double>(worst.elastic_rescues) / static_cast<double>(collisions) : 0.0)};
-  lines.insert(lines.end(), worst.notes.begin(), worst.notes.end());
+  std::vector<std::string> lines = health_in_words(worst, fmt::format("Worst of the {} simulations drawn here ({} collisions)", simulations, collisions));
+  lines.insert(lines.begin() + 1, fmt::format("{:.1f} % of the impacts were slow enough to be made elastic (what keeps layers from endless impacts).",
+                                              collisions > 0 ? 100.0 * static_cast<double>(worst.elastic_rescues) / static_cast<double>(collisions) : 0.0));
   return lines;
 }
 

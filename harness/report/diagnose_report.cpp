@@ -56,20 +56,18 @@ std::vector<ReportFact> facts_of(const Diagnosis& diagnosis) {
 ReportSection ladder_section(const Diagnosis& diagnosis) {
   ReportSection section;
   section.title = "How the error fell";
-  ReportBars bars;
-  bars.unit = "mm";
-  bars.names = {"fitted to", "held out (each box length predicted from the others)"};
-  for (const LadderStep& step : diagnosis.ladder)
+  ReportBars bars{"", "rms of measured less mean of the model, position of the box, over all runs.", "mm", {"fitted to", "held out (each box length predicted from the others)"}, {},
+                  std::nan(""), "noise floor"};
+  MoreColumn centre{"centre of the grains, mm", {}}, floor{"floor of the box, mm", {}}, p{"p", {}};
+  for (const LadderStep& step : diagnosis.ladder) {
     bars.lines.push_back({step.step, fmt::format("p = {}", for_people(step.p_value)), {step.error_box * 1e3, step.held_out_error_box * 1e3}});
+    centre.cells.push_back(for_people(step.error_centre * 1e3));
+    floor.cells.push_back(for_people(step.floor_box * 1e3));
+    p.cells.push_back(for_people(step.p_value));
+  }
   if (!diagnosis.ladder.empty()) bars.floor = diagnosis.ladder.back().floor_box * 1e3;
-  bars.floor_name = "noise floor";
-  bars.caption = "rms of measured less mean of the model, position of the box, over all runs.";
   section.bars = {bars};
-  ReportTable table{"The same as numbers", "", {"step", "box, mm", "held out, mm", "centre of the grains, mm", "floor of the box, mm", "p"}, {}, true};
-  for (const LadderStep& step : diagnosis.ladder)
-    table.rows.push_back({step.step, for_people(step.error_box * 1e3), for_people(step.held_out_error_box * 1e3), for_people(step.error_centre * 1e3),
-                          for_people(step.floor_box * 1e3), for_people(step.p_value)});
-  section.tables = {table};
+  section.tables = {numbers_of(bars, "step", {centre, floor, p})};
   return section;
 }
 
@@ -190,7 +188,8 @@ ReportSection momentum_section(const MomentumAudit& momentum) {
     plot.x = curve.argument;
     std::vector<double> low, high;
     for (std::size_t k = 0; k < curve.value.size(); ++k) low.push_back(curve.value[k] - 2 * curve.error[k]), high.push_back(curve.value[k] + 2 * curve.error[k]);
-    plot.curves = {{"", CurveRole::band_low, low}, {"two standard errors", CurveRole::band_high, high}, {"force", CurveRole::model, curve.value}};
+    plot.curves = band("two standard errors", low, high);
+    plot.curves.push_back({"force", CurveRole::model, curve.value});
     section.plots.push_back(plot);
   }
   ReportTable runs{"By run", "", {"run", "chi squared a degree of freedom", "force that the model lacks, mN rms", "noise of one window, mN"}, {}, false};

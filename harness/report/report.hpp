@@ -14,7 +14,7 @@ namespace shakedown {
 enum class Tone { plain, good, bad, unsure };
 
 /// How a curve is drawn. A band is a pair: band_low followed by band_high.
-enum class CurveRole { measured, model, as_given, band_low, band_high, other };
+enum class CurveRole { measured, model, as_given, band_low, band_high, other, points };
 
 struct ReportCurve {
   std::string name;       ///< "measured"
@@ -32,6 +32,12 @@ struct ReportPlot {
   bool logarithmic_y = false;
   std::vector<double> x;
   std::vector<ReportCurve> curves;
+  /// Upright dashed lines with a word.
+  struct Mark {
+    double x = 0;
+    std::string label;
+  };
+  std::vector<Mark> marks;
 };
 
 struct ReportTable {

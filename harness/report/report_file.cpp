@@ -16,9 +16,10 @@ using Json = nlohmann::ordered_json;
 constexpr int report_schema_version = 1;
 
 template <class F> void fields(F& f, ReportCurve& c) { f("name", c.name), f("role", c.role), f("y", c.y); }
+template <class F> void fields(F& f, ReportPlot::Mark& m) { f("x", m.x), f("label", m.label); }
 template <class F> void fields(F& f, ReportPlot& p) {
   f("title", p.title), f("caption", p.caption), f("x_label", p.x_label), f("y_label", p.y_label), f("group", p.group), f("over_time", p.over_time);
-  f("level", p.level), f("logarithmic_y", p.logarithmic_y), f("x", p.x), f("curves", p.curves);
+  f("level", p.level), f("logarithmic_y", p.logarithmic_y), f("x", p.x), f("curves", p.curves), f("marks", p.marks);
 }
 template <class F> void fields(F& f, ReportTable& t) {
   f("title", t.title), f("caption", t.caption), f("columns", t.columns), f("rows", t.rows), f("folded", t.folded);

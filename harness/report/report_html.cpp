@@ -15,7 +15,7 @@ namespace shakedown {
 
 namespace {
 
-constexpr std::array<const char*, 6> role_names{"measured", "model", "as_given", "band_low", "band_high", "other"};
+constexpr std::array<const char*, 7> role_names{"measured", "model", "as_given", "band_low", "band_high", "other", "points"};
 
 /// Scripts of the page run by this name; nothing that a report holds could.
 std::string nonce_of(const std::string& data) { return fmt::format("{:016x}", std::hash<std::string>{}(data)); }
@@ -27,9 +27,11 @@ std::string plot_json(const ReportPlot& plot) {
   for (const ReportCurve& curve : plot.curves)
     curves += fmt::format("{}{{\"n\":{},\"r\":\"{}\",\"y\":{}}}", curves.empty() ? "" : ",", quoted(curve.name),
                           role_names[static_cast<std::size_t>(curve.role)], packed_json(curve.y));
-  return fmt::format("{{\"group\":{},\"time\":{},\"log\":{},\"level\":{},\"xl\":{},\"yl\":{},\"x\":{},\"curves\":[{}]}}", quoted(plot.group), plot.over_time,
+  std::string marks;
+  for (const ReportPlot::Mark& mark : plot.marks) marks += fmt::format("{}[{},{}]", marks.empty() ? "" : ",", mark.x, quoted(mark.label));
+  return fmt::format("{{\"group\":{},\"time\":{},\"log\":{},\"level\":{},\"xl\":{},\"yl\":{},\"x\":{},\"curves\":[{}],\"marks\":[{}]}}", quoted(plot.group), plot.over_time,
                      plot.logarithmic_y, std::isfinite(plot.level) ? fmt::format("{}", plot.level) : "null", quoted(plot.x_label),
-                     quoted(plot.y_label), packed_json(plot.x), curves);
+                     quoted(plot.y_label), packed_json(plot.x), curves, marks);
 }
 
 /// The headline, and what follows it.

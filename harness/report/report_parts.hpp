@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What every report ends with.
 #pragma once
+#include <array>
+
 #include "report.hpp"
 #include "setup.hpp"
+#include "trajectory.hpp"
 
 namespace shakedown {
 
@@ -11,6 +14,28 @@ std::vector<std::string> citations_of(const Setup& setup);
 
 /// The command that is running, as one would type it.
 std::string this_command();
+
+/// An empty plot over the time of a run.
+ReportPlot time_plot(std::string title, std::string y_label, std::string group, std::vector<double> time);
+
+/// The curves of a band; the second carries the name.
+std::vector<ReportCurve> band(std::string name, std::vector<double> low, std::vector<double> high);
+
+/// Box and grains' energy over time, mJ: what is left and what each class of contact took.
+ReportPlot energy_plot(std::string group, std::vector<double> time, std::vector<double> left, const std::array<std::vector<double>, contact_classes>& lost);
+
+/// The numbers of bars as a table opened by a click; `more` columns follow, a cell a line.
+struct MoreColumn {
+  std::string title;
+  std::vector<std::string> cells;
+};
+ReportTable numbers_of(const ReportBars& bars, std::string first_column, const std::vector<MoreColumn>& more);
+
+/// The worse of both in each number; every note once.
+Health worse_of(Health a, const Health& b);
+
+/// How well the engines kept their promises, in words; `of` says of what.
+std::vector<std::string> health_in_words(const Health& worst, const std::string& of);
 
 /// Fills in command, setup, program and citations.
 void say_how_to_reproduce(Report& report, const Setup& setup);

@@ -48,19 +48,9 @@ ReportSection peaks_section(const Ensemble& ensemble) {
 
 std::vector<std::string> health_of(const Ensemble& ensemble) {
   Health worst;
-  for (const RunResult& run : ensemble.runs) {
-    const Health& health = run.trajectory.health;
-    worst.ledger_error = std::max(worst.ledger_error, health.ledger_error);
-    worst.momentum_error = std::max(worst.momentum_error, health.momentum_error);
-    worst.deepest_overlap = std::max(worst.deepest_overlap, health.deepest_overlap);
-    worst.elastic_rescues += health.elastic_rescues;
-    for (const std::string& note : health.notes)
-      if (worst.notes.empty() || worst.notes.back() != note) worst.notes.push_back(note);
-  }
-  std::vector<std::string> lines{fmt::format("Worst of all runs ({}): energy ledger open by {:.1e} of the initial energy, momentum off by {:.1e}, deepest overlap {:.1e} m.",
-                                             ensemble.runs.size(), worst.ledger_error, worst.momentum_error, worst.deepest_overlap),
-                                 fmt::format("{} impacts made elastic.", worst.elastic_rescues)};
-  lines.insert(lines.end(), worst.notes.begin(), worst.notes.end());
+  for (const RunResult& run : ensemble.runs) worst = worse_of(std::move(worst), run.trajectory.health);
+  std::vector<std::string> lines = health_in_words(worst, fmt::format("Worst of all runs ({})", ensemble.runs.size()));
+  lines.insert(lines.begin() + 1, fmt::format("{} impacts made elastic.", worst.elastic_rescues));
   return lines;
 }
 
@@ -103,13 +93,7 @@ Report RunCurves::report(const Ensemble& ensemble, const Setup& setup, const std
   for (std::size_t c = 0; c < contact_classes; ++c)
     report.facts.push_back({classes[c], plus_minus(ensemble.over_runs([c](const RunResult& r) { return r.observables.energy_loss[c]; }), 100, "%"), "of the initial energy", Tone::plain});
   const auto position = [&](const char* title, std::size_t s, const std::vector<double>& first) {
-    ReportPlot plot;
-    plot.title = title;
-    plot.x_label = "time since release, s";
-    plot.y_label = "position, mm";
-    plot.over_time = true;
-    plot.group = log_ ? "run" : "";
-    plot.x = time_;
+    ReportPlot plot = time_plot(title, "position, mm", log_ ? "run" : "", time_);
     if (runs_ > 1) {
       std::vector<double> low, high;
       for (std::size_t i = 0; i < time_.size(); ++i) {
@@ -117,7 +101,8 @@ Report RunCurves::report(const Ensemble& ensemble, const Setup& setup, const std
         low.push_back(moments_[s].mean[i] - 2 * sd);
         high.push_back(moments_[s].mean[i] + 2 * sd);
       }
-      plot.curves = {{"", CurveRole::band_low, low}, {"two standard deviations of a run", CurveRole::band_high, high}, {"mean", CurveRole::other, moments_[s].mean}};
+      plot.curves = band("two standard deviations of a run", low, high);
+      plot.curves.push_back({"mean", CurveRole::other, moments_[s].mean});
     }
     plot.curves.push_back({"first run", CurveRole::model, first});
     return plot;
@@ -126,18 +111,9 @@ Report RunCurves::report(const Ensemble& ensemble, const Setup& setup, const std
   motion.title = "Motion";
   motion.plots = {position("Box", 0, first_box_)};
   if (setup.grains.count > 0) motion.plots.push_back(position("Centre of the grains", 1, first_centre_));
-  ReportPlot energy;
-  energy.title = "Energy";
-  energy.x_label = "time since release, s";
-  energy.y_label = "energy, mJ";
-  energy.over_time = true;
-  energy.group = log_ ? "run" : "";
-  energy.x = time_;
-  const std::array<const char*, 4> names{"left", "lost between grains", "lost at end walls", "lost at side walls"};
-  for (std::size_t k = 0; k < names.size(); ++k) energy.curves.push_back({names[k], k == 0 ? CurveRole::model : CurveRole::other, moments_[2 + k].mean});
   ReportSection energies;
   energies.title = "Where the energy goes";
-  energies.plots = {energy};
+  energies.plots = {energy_plot(log_ ? "run" : "", time_, moments_[2].mean, {moments_[3].mean, moments_[4].mean, moments_[5].mean})};
   report.sections = {motion, peaks_section(ensemble), energies};
   if (log_) {
     const double first_landing = 0.25 / setup.spring.frequency;

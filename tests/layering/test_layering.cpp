@@ -34,7 +34,7 @@ std::map<std::string, Folder> folders() {
   const std::set<std::string> compare = with(run, {"harness/run", "harness/measure"});
   const std::set<std::string> diagnose = with(compare, {"harness/compare"});
   const std::set<std::string> laboratory = with(diagnose, {"harness/diagnose"});
-  const std::set<std::string> report = with(laboratory, {"harness/export"});
+  const std::set<std::string> report = with(laboratory, {"harness/export", "harness/sweep", "harness/fit", "harness/paper"});
   const std::set<std::string> json{"nlohmann/", "fmt/", "toml++/"};
   return {
       {"harness/problem", {{}, {"toml++/", "Eigen/"}, {"Eigen/"}}},
@@ -52,7 +52,7 @@ std::map<std::string, Folder> folders() {
       {"harness/paper", {with(laboratory, {"harness/fit", "harness/laboratory"}), with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/export", {diagnose, with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/report", {report, with(json, {"Eigen/", "zlib.h"}), {"Eigen/"}}},
-      {"harness/cli", {with(report, {"harness/report", "harness/laboratory", "harness/sweep", "harness/fit", "harness/paper"}), with(json, {"CLI/"}), {"CLI/"}}},
+      {"harness/cli", {with(report, {"harness/report", "harness/laboratory"}), with(json, {"CLI/"}), {"CLI/"}}},
   };
 }
 

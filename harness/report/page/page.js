@@ -35,6 +35,7 @@ const styles = {
   model: { stroke: "--model", width: 1.7 },
   as_given: { stroke: "--given", width: 1.4, dash: [6, 4] },
   other: { stroke: "--other", width: 1.5 },
+  points: { stroke: "--given", width: 0 },
   band_low: { stroke: null, width: 0 }, band_high: { stroke: null, width: 0 },
 };
 const more_colours = ["--other", "--c0", "--given", "--c3"];
@@ -46,7 +47,7 @@ function series_of(plot) {
     const stroke = curve.r === "other" ? more_colours[others++ % more_colours.length] : style.stroke;
     return {
       label: curve.n, stroke: stroke ? () => colour(stroke) : null, width: style.width, dash: style.dash, cap: style.cap,
-      points: { show: plot.x.length < 40 && style.width > 0, size: 5 }, spanGaps: false,
+      points: { show: curve.r === "points" || (plot.x.length < 40 && style.width > 0), size: curve.r === "points" ? 7 : 5 }, spanGaps: false,
     };
   });
 }
@@ -59,18 +60,27 @@ function bands_of(plot) {
   return bands;
 }
 
-function level_lines(plot) {
+/// Tolerances across, marks with their words upright.
+function guide_lines(plot) {
   return (u) => {
-    if (plot.level === null) return;
-    const { ctx, bbox } = u;
+    const { ctx, bbox } = u, px = devicePixelRatio;
+    const line = (x1, y1, x2, y2) => { ctx.beginPath(); ctx.moveTo(x1, y1); ctx.lineTo(x2, y2); ctx.stroke(); };
     ctx.save();
-    ctx.strokeStyle = colour("--faint");
-    ctx.lineWidth = devicePixelRatio;
-    ctx.setLineDash([4 * devicePixelRatio, 4 * devicePixelRatio]);
-    for (const level of [plot.level, -plot.level]) {
+    ctx.strokeStyle = ctx.fillStyle = colour("--faint");
+    ctx.lineWidth = px;
+    ctx.setLineDash([4 * px, 4 * px]);
+    for (const level of plot.level === null ? [] : [plot.level, -plot.level]) {
       const y = u.valToPos(level, "y", true);
-      if (y < bbox.top || y > bbox.top + bbox.height) continue;
-      ctx.beginPath(); ctx.moveTo(bbox.left, y); ctx.lineTo(bbox.left + bbox.width, y); ctx.stroke();
+      if (y >= bbox.top && y <= bbox.top + bbox.height) line(bbox.left, y, bbox.left + bbox.width, y);
+    }
+    ctx.font = `${12 * px}px system-ui, sans-serif`;
+    for (const [value, word] of plot.marks) {
+      const x = u.valToPos(value, "x", true);
+      if (x < bbox.left || x > bbox.left + bbox.width) continue;
+      line(x, bbox.top, x, bbox.top + bbox.height);
+      const left = x + ctx.measureText(word).width + 8 * px > bbox.left + bbox.width;
+      ctx.textAlign = left ? "right" : "left";
+      ctx.fillText(word, x + (left ? -5 : 5) * px, bbox.top + 14 * px);
     }
     ctx.restore();
   };
@@ -98,7 +108,7 @@ function make_plot(element, plot) {
     axes: [axis(plot.xl, 38), axis(plot.yl, 52)],
     series: [{}, ...series_of(plot)], bands: bands_of(plot),
     hooks: {
-      drawAxes: [level_lines(plot)],
+      drawAxes: [guide_lines(plot)],
       setCursor: [(u) => {
         const i = u.cursor.idx;
         outputs.forEach((output) => {

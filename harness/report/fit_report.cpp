@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "fit_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compare_report.hpp"
+#include "page_figures.hpp"
+#include "quantity.hpp"
+#include "report_parts.hpp"
+
+namespace shakedown {
+
+namespace {
+
+std::string value_with_interval(const FittedParameter& p, double si) {
+  return fmt::format("{}{} ({} to {})", for_people(p.value / si), p.unit.empty() ? "" : " " + p.unit, for_people(p.low / si), for_people(p.high / si));
+}
+
+double si_of(const FittedParameter& p) { return std::get<Unit>(parse_unit(p.unit)).si; }
+
+ReportSection parameters_section(const Fit& fit) {
+  ReportSection section;
+  section.title = "Parameters";
+  section.paragraphs = {"Best values with 95 % intervals; dashed: where the fit started."};
+  for (const FittedParameter& p : fit.parameters) {
+    const double si = si_of(p);
+    section.intervals.push_back({p.key, p.unit, "", p.value / si, p.low / si, p.high / si, p.start / si});
+    if (!p.remark.empty()) section.list.push_back(p.key + ": " + p.remark);
+  }
+  if (fit.parameters.size() < 2) return section;
+  ReportTable table{"Correlation of the estimates", "Near 1 or -1: only a combination is known.", {""}, {}, false};
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    table.columns.push_back(fit.parameters[i].key);
+    table.rows.push_back({fit.parameters[i].key});
+    for (std::size_t j = 0; j < fit.parameters.size(); ++j)
+      table.rows.back().push_back(for_people(fit.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
+  }
+  section.tables = {table};
+  return section;
+}
+
+std::vector<ReportFact> facts_of(const Fit& fit) {
+  std::vector<ReportFact> facts;
+  for (const FittedParameter& p : fit.parameters)
+    facts.push_back({p.key, for_people(p.value / si_of(p)) + (p.unit.empty() ? "" : " " + p.unit), p.told ? "95 %: " + for_people(p.low / si_of(p)) + " to " + for_people(p.high / si_of(p)) : "not told by these data",
+                     p.told ? Tone::plain : Tone::unsure});
+  facts.push_back({"Fit", "p = " + for_people(fit.p_value), for_people(fit.scatter) + " times the misfit of the model's own runs", fit.p_value > 0.01 ? Tone::good : Tone::bad});
+  facts.push_back({"Simulations", fmt::format("{}", fit.runs), fmt::format("in {:.0f} s", fit.seconds), Tone::plain});
+  return facts;
+}
+
+}  // namespace
+
+Report report_of(const Fit& fit, const Experiment& experiment, const std::vector<MeasuredAgainstModel>& curves) {
+  Report report;
+  report.kind = "fit";
+  report.title = experiment.title.empty() ? experiment.file : experiment.title;
+  const auto untold = std::count_if(fit.parameters.begin(), fit.parameters.end(), [](const FittedParameter& p) { return !p.told; });
+  report.verdict = fit.p_value <= 0.01 ? "No values fit" : untold > 0 ? "Not all is told" : "Fitted";
+  report.tone = fit.p_value <= 0.01 ? Tone::bad : untold > 0 ? Tone::unsure : Tone::good;
+  for (const FittedParameter& p : fit.parameters) report.sentence += (report.sentence.empty() ? "" : ", ") + p.key + " = " + value_with_interval(p, si_of(p));
+  report.subtitle = fmt::format("Fitted to {} run{}, {} left out.", fit.used.size(), fit.used.size() == 1 ? "" : "s", fit.left_out.size());
+  report.facts = facts_of(fit);
+  report.replays = replays_of(curves);
+  report.sections = {curves_section(curves, "Measured against model"), parameters_section(fit), errors_section("Runs fitted", fit.used)};
+  if (!fit.left_out.empty()) report.sections.push_back(errors_section("Runs left out, foretold", fit.left_out));
+  report.sections.push_back(failure_section(curves));
+  report.sections.push_back(energy_section(curves));
+  say_how_to_reproduce(report, fit.fitted);
+  report.health = health_lines(curves);
+  return report;
+}
+
+}  // namespace shakedown

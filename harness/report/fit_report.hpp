@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "fit.hpp"
+#include "measured_against_model.hpp"
+#include "report.hpp"
+
+namespace shakedown {
+
+/// The report of a fit; the curves must come from measured_against_model() with the setup as given and Fit::fitted.
+Report report_of(const Fit& fit, const Experiment& experiment, const std::vector<MeasuredAgainstModel>& curves);
+
+}  // namespace shakedown

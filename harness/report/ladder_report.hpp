@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "momentum.hpp"
+#include "refit.hpp"
+#include "report.hpp"
+
+namespace shakedown {
+
+/// One setup among several that are judged by the same measurements.
+struct Rung {
+  std::string setup;    ///< its file
+  std::string effects;  ///< "plain", or those it has
+  Refit fit;
+  MomentumAudit momentum;
+  bool holds() const { return fit.p_value > 0.01 && (!momentum.possible || momentum.as_given.p_value > 0.01); }
+};
+
+/// The report of a ladder; `last`: the last rung's setup.
+Report report_of(const std::vector<Rung>& rungs, bool refitted, const Experiment& experiment, const Setup& last);
+
+}  // namespace shakedown

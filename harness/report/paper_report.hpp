@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "paper.hpp"
+#include "report.hpp"
+
+namespace shakedown {
+
+/// The paper on trial as one page: statements, figures, the puzzle, and the grains in each box.
+Report report_of(const Paper& paper);
+
+}  // namespace shakedown
