@@ -98,6 +98,7 @@ class EventLoop {
   void go_on();
   double air_speed_left(double speed, double mass, double h) const;
   void account(double t);
+  void press_by_the_swing();
 
   // The ledger, with Neumaier's compensation: millions of small losses must not cost the closure its digits.
   void lose(std::size_t contact_class, double energy) {
@@ -109,9 +110,10 @@ class EventLoop {
 
   ContactLaw contact_;
   GrainForces forces_;
-  ElasticLimits limits_;
+  ElasticLimits limits_, limits_at_release_;
   Grains grains_;
   Motion box_;
+  double speed_at_release_;  // box's top speed then, m/s
   FallingFrame frame_;
   bool falling_, has_walls_, has_spring_;
   double arc_curvature_ = 0, release_x_ = 0;

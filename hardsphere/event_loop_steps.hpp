@@ -19,6 +19,13 @@ constexpr double grain_kick_interval = 2e-3;
 /// Diameters; how high grains hop at most on what they lie on. 0.005 to 0.04 give the same peaks within the spread of runs.
 constexpr double bed_hop = 0.025;
 
+inline ElasticLimits pressed_by(double pull, ElasticLimits limits, double diameter) {
+  limits.pull = pull;
+  limits.wall_speed = std::max({limits.wall_speed, 1e-3, std::sqrt(2 * pull * bed_hop * diameter)});
+  limits.pair_speed = std::max({limits.pair_speed, 1e-2, 2 * limits.wall_speed});
+  return limits;
+}
+
 inline ElasticLimits elastic_limits(const Setup& setup, const Physics& physics) {
   ElasticLimits limits{setup.hard.wall_elastic_fraction, setup.hard.pair_elastic_speed, setup.hard.wall_elastic_speed};
   // Friction, attraction and accelerations press layers on walls that may themselves be at rest, where a fraction of the box's speed is no
@@ -31,9 +38,7 @@ inline ElasticLimits elastic_limits(const Setup& setup, const Physics& physics) 
     // power of that speed: with 1 mm/s some runs at 0.2 m/s^2 made 5 million impacts a second of a layer at rest. Hops of `bed_hop`
     // keep it below a hundred thousand.
     const FallingFrame frame(physics.grains);
-    const double pull = std::hypot(frame.top(0), frame.top(1), frame.top(2));
-    limits.wall_speed = std::max({limits.wall_speed, 1e-3, std::sqrt(2 * pull * bed_hop * setup.grains.diameter)});
-    limits.pair_speed = std::max({limits.pair_speed, 1e-2, 2 * limits.wall_speed});
+    return pressed_by(std::hypot(frame.top(0), frame.top(1), frame.top(2)), limits, setup.grains.diameter);
   }
   return limits;
 }
@@ -58,8 +63,10 @@ EventLoop<Grains, Motion>::EventLoop(const State& state, const Physics& physics,
     : contact_(physics.contact),
       forces_(physics.grains),
       limits_(elastic_limits(setup, physics)),
+      limits_at_release_(limits_),
       grains_(std::move(grains)),
       box_(make_box<Motion>(physics, state)),
+      speed_at_release_(box_.top_speed()),
       frame_(physics.grains),
       falling_(!frame_.at_rest()),
       has_walls_(setup.domain != Domain::periodic),

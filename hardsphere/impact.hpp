@@ -15,6 +15,7 @@ struct ElasticLimits {
   double wall_fraction = 0.02;  ///< of the box's current top speed, end walls
   double pair_speed = 1e-3;     ///< m/s
   double wall_speed = 0;        ///< m/s, end and side walls
+  double pull = -1;             ///< m/s^2, acceleration that presses layers on walls and sets the last two; negative: none does
 };
 
 /// A tangential impulse and the energy that it takes out.

@@ -68,10 +68,11 @@ nlohmann::ordered_json json_of(const std::vector<ResultRow>& rows, const SweepId
 }
 
 /// What is in the file at the end, for people and as table and JSON.
-void present(const ResultFile& file, const std::string& name, const Presentation& how, bool complete) {
+void present(const ResultFile& file, const std::string& name, const Presentation& how, bool complete, std::size_t jobs = 0) {
   const std::vector<ResultRow> rows = file.rows();
   if (!how.table.empty()) write_file(how.table, summary_csv(file.identity(), summaries_of(rows)));
-  fmt::print(how.json.for_people(), "{}: {} runs, digest {}\n", name, rows.size(), results_digest(rows));
+  const std::string missing = rows.size() < jobs ? fmt::format(" of {} so far (the digest of all comes with the last)", jobs) : "";
+  fmt::print(how.json.for_people(), "{}: {} runs{}, digest {}\n", name, rows.size(), missing, results_digest(rows));
   if (how.report.wanted("")) fmt::print(how.json.for_people(), "{}", how.report.write(report_of(file, name), ""));
   how.json.write(json_of(rows, file.identity(), complete).dump(2) + "\n");
 }
@@ -106,7 +107,7 @@ int sweep(const SweepArguments& arguments) {
   };
   const SweepOutcome outcome = run_sweep(*engine, plan, file, options);
   display.reset();
-  present(file, arguments.out, arguments.results, !outcome.interrupted);
+  present(file, arguments.out, arguments.results, !outcome.interrupted, plan.points.size() * static_cast<std::size_t>(plan.runs));
   if (outcome.failed > 0) fmt::print(stderr, "{} runs failed and are kept as such; the first: {}\n", outcome.failed, outcome.first_failure);
   if (outcome.interrupted && !arguments.estimate) {
     fmt::print(stderr, "interrupted; --resume goes on\n");

@@ -54,7 +54,7 @@ Statement linear(const PaperRuns& runs) {
 }
 
 Statement strictly_linear(const PaperRuns& runs) {
-  Statement s{"strictly linear", "\"A linear decay of the amplitude is observed\", without limits in length or time.", "no number", "the slope changes by less than a tenth between the first peak and the last (t < 8 s, above 10 mm), 40 to 104 mm, hard engine; the tenth is ours, no verdict at any length but 104 mm hangs on it"};
+  Statement s{"strictly linear", "\"A linear decay of the amplitude is observed\", without limits in length or time.", "no number", "the slope changes by less than a tenth between the first peak and the last (t < 8 s, above 10 mm), 40 to 104 mm, hard engine"};
   std::vector<Judgement> all;
   for (std::size_t i = 0; i < 4; ++i) {
     s.findings.push_back(finding_of("change of slope, " + name_of(runs.hard[i]), runs.hard[i].over(bending), "of the slope"));
@@ -66,7 +66,7 @@ Statement strictly_linear(const PaperRuns& runs) {
 }
 
 Statement friction(const PaperRuns& runs) {
-  Statement s{"effective friction", "The third peak gives an effective friction mu M_tot that compares dampers.", "no number printed", "cannot be judged: the paper prints no numbers"};
+  Statement s{"effective friction", "The third peak gives an effective friction mu M_tot that compares dampers.", "no number printed", "its numbers are ours within their intervals; the paper prints none"};
   for (std::size_t i = 0; i < 5; ++i)
     for (const DamperRuns* r : {&runs.hard[i], &runs.soft[i]}) s.findings.push_back(finding_of(name_of(*r), r->over(&RunReading::friction), "mN", 1e3));
   s.remark = "The printed denominator 2n + 1 - (-1)^(2n) equals 2n: its last two terms cancel for every n, odd or even.";

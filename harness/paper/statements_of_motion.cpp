@@ -111,7 +111,7 @@ Statement scaling(const PaperRuns& runs) {
   };
   s.judgement = all_of({ratio("eighth peak", [](const RunReading& run) { return run.seen.peaks.size() < 8 ? absent : std::abs(run.seen.peaks[7].position); }, 1),
                         ratio("cycles to lose 95 %", [](const RunReading& run) { return run.seen.seconds_to_energy_fraction[3]; }, 2)});
-  s.remark = "The speed below which we make impacts between grains elastic, a rule of ours, is scaled with f here; so is the initial kinetic energy.";
+  s.remark = "The speed below which we make impacts between grains elastic, a rule of ours, is scaled with f here; so is the initial kinetic energy. Where the frequency is doubled, all numbers are doubled or halved without rounding, and each run is the other one bit for bit.";
   return s;
 }
 
@@ -126,7 +126,7 @@ Statement leaving(const PaperRuns& runs) {
 }
 
 Statement times_to_peak(const PaperRuns& runs) {
-  Statement s{"t_g,peak", "The landing is on the outward stroke, f t_g,peak < 1/4, for all lengths but 104 mm.", "< 1/4 for 40, 65, 85 mm; > 1/4 for 104 mm", "the printed formula, with f of the empty box and with f_loaded"};
+  Statement s{"t_g,peak", "The landing is on the outward stroke, f t_g,peak < 1/4, for all lengths but 104 mm.", "< 1/4 for 40, 65, 85 mm; > 1/4 for 104 mm", "the printed formula puts every length on the stated side of 1/4, with f of the empty box or with f_loaded"};
   bool with_empty = true, with_loaded = true;
   for (std::size_t i = 0; i < 4; ++i) {
     const Theory theory = theory_of(runs.hard[i].setup);

@@ -27,7 +27,7 @@ Finding over_the_best(std::string what, const LengthSweep& sweep) {
 }
 
 Statement formula(const PaperRuns& runs) {
-  Statement s{"L_opt", "The formula predicts L_opt = 311 mm.", "311 mm", "within rounding"};
+  Statement s{"L_opt", "The formula predicts L_opt = 311 mm.", "311 mm", "the formula rounds to it"};
   s.findings = {exact("pi Delta0 sqrt(M/(M + N m)) + 20 mm", 1e3 * theory_of(runs.hard[0].setup).optimal_length, "mm")};
   s.judgement = judge(s.findings[0], 310.5, 311.5);
   return s;

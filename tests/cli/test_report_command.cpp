@@ -54,3 +54,36 @@ TEST_F(ReportCommand, MistakesOfExportAreNamed) {
   EXPECT_NE(late.err.find("0.5 s"), std::string::npos) << late.err;
   EXPECT_EQ(shakedown_program({"report", in_folder("nothing")}).code, 4);
 }
+
+class SlowReportCommand : public ReportCommand {};
+
+TEST_F(SlowReportCommand, ComparisonsLaddersFitsAndSweepsAreShownAlone) {
+  ASSERT_EQ(shakedown_program({"hide", example("L040.toml"), "--engine", "hard", "--lengths", "40mm,65mm", "--duration", "1 s", "--out", in_folder("case")}).code, 0);
+  const std::string setup = in_folder("case/setup.toml"), data = in_folder("case/experiment.toml");
+  const std::vector<std::pair<std::string, std::vector<std::string>>> commands{
+      {"compare", {"compare", setup, "--data", data, "--runs", "16"}},
+      {"ladder", {"ladder", setup, setup, "--data", data, "--runs", "16"}},
+      {"fit", {"fit", setup, "--data", data, "--free", "restitution.grain_wall", "--on", "L040", "--runs", "32"}}};
+  for (const auto& [name, words] : commands) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--out", in_folder(name), "--report", in_folder(name + ".html")});
+    const Outcome made = shakedown_program(all);
+    ASSERT_LE(made.code, 1) << made.err;
+    EXPECT_NE(made.out.find("report: open "), std::string::npos) << made.out;
+    EXPECT_TRUE(fs::exists(in_folder(name + "/" + name + ".json")));
+    ASSERT_EQ(shakedown_program({"report", in_folder(name), "--out", in_folder("again.html")}).code, 0);
+    EXPECT_EQ(contents(in_folder("again.html")), contents(in_folder(name + ".html"))) << name;
+  }
+  const Outcome swept = shakedown_program({"sweep", example("L040.toml"), "--vary", "box.length=40:80:10 mm", "--vary", "restitution.grain_grain=0.6:0.9:0.1", "--set", "run.duration=1 s",
+                                           "--out", in_folder("sweep.sqlite"), "--report", in_folder("sweep.html")});
+  ASSERT_EQ(swept.code, 0) << swept.err;
+  const Outcome all = shakedown_program({"report", in_folder("sweep.sqlite"), in_folder("fit/"), "--out", in_folder("all.html")});
+  ASSERT_EQ(all.code, 0) << all.err;
+  EXPECT_NE(contents(in_folder("all.html")).find("fit: Parameters"), std::string::npos);
+  EXPECT_NE(contents(in_folder("all.html")).find("sweep.sqlite: What changes"), std::string::npos);
+}
+
+TEST_F(ReportCommand, DiagnoseKeepsWhatIsKnownOtherwise) {
+  const Outcome wrong = shakedown_program({"diagnose", example("L040.toml"), "--data", example("L040.toml"), "--fixed", "box.mass"});
+  EXPECT_EQ(wrong.code, 2);
+}

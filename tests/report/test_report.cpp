@@ -8,9 +8,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engines.hpp"
 #include "errors.hpp"
 #include "output_file.hpp"
 #include "packed_numbers.hpp"
+#include "paper_report.hpp"
 #include "report_joined.hpp"
 
 using namespace shakedown;
@@ -112,4 +114,26 @@ TEST(PackedNumbers, GzipIsGzip) {
   EXPECT_EQ(base64("Man"), "TWFu");
   EXPECT_EQ(base64("Ma"), "TWE=");
   EXPECT_EQ(base64("M"), "TQ==");
+}
+
+TEST(Report, ThePaperIsShownWithItsFiguresAndGrains) {
+  Paper paper;
+  shakedown::Setup setup;
+  setup.run.duration = 1;
+  paper.runs.hard = {damper_runs(*engine_named("hard"), setup, {2, 1})};
+  paper.statements = {{"a", "A < B", "1", "A is below B", {exact("A", 0.5, "mm")}, Judgement::fails, "A plain remark."}};
+  const std::vector<double> time{0, 1, 2};
+  paper.charts = {{"comp1_L40", "Box", {{"t, s", "x_box, mm", {{"one", time, {1, 2, 3}}, {"line", {0, 2}, {1, 3}, true}}}}},
+                  {"optimalLSweep", "Sweep", {{"L, mm", "time, s", {{"95 %", time, {3, 2, 1}}, {"censored", {1.5}, {60}, false, true}}, {{1.2, "L_opt"}}}}}};
+  paper.runs.puzzle.models = {{"one", {"L065"}, {1e-3}, {2e-3}}};
+  const Report report = report_of(paper);
+  EXPECT_EQ(report.replays.size(), 1u);
+  ASSERT_EQ(report.sections.front().plots.size(), 1u);
+  EXPECT_EQ(report.sections.front().plots[0].curves[1].y, (std::vector<double>{1, 2, 3}));  // a line between its ends
+  const ReportPlot& sweep = report.sections.back().plots.front();
+  ASSERT_EQ(sweep.x.size(), 4u);
+  EXPECT_TRUE(std::isnan(sweep.curves[1].y[1]));
+  EXPECT_EQ(sweep.curves[1].y[2], 60);
+  EXPECT_EQ(sweep.marks.size(), 1u);
+  EXPECT_NE(report_html(report).find("A &lt; B"), std::string::npos);
 }
