@@ -8,10 +8,7 @@
 #include <vector>
 
 #include "calendar_queue.hpp"
-#include "errors.hpp"
-#include "grain_event.hpp"
-#include "initial_state.hpp"
-#include "lanes.hpp"
+#include "grain_lines.hpp"
 
 namespace shakedown {
 
@@ -31,23 +28,23 @@ class CellLists {
   CellLists(const State& state, const CellListsPlan& plan);
 
   int size() const { return static_cast<int>(lines_.size()); }
-  Flight3 flight(int i) const {
-    const Line& line = lines_[static_cast<std::size_t>(i)];
-    return {{line.x, line.y, line.z}, {line.vx, line.vy, line.vz}, line.time};
+  Flight3 flight(int i) const { return lines_.flight(static_cast<std::size_t>(i)); }
+  void set_flight(int i, const Flight3& flight) {
+    move_to(i, flight);
+    ++lines_[static_cast<std::size_t>(i)].count;
   }
-  void set_flight(int i, const Flight3& flight);
-  void move_to(int i, const Flight3& flight);
+  void move_to(int i, const Flight3& flight) { lines_.move_to(static_cast<std::size_t>(i), flight); }
   void forget_side_walls() { half_width_ = {never, never}; }
   void set_bond(int, int, bool) { EXPECT(false && "wells need AllPairs"); }
   int bonds() const { return 0; }
-  double radius(int i) const { return radius_[static_cast<std::size_t>(i)]; }
-  double mass(int i) const { return mass_[static_cast<std::size_t>(i)]; }
+  double radius(int i) const { return lines_.radius(static_cast<std::size_t>(i)); }
+  double mass(int i) const { return lines_.mass(static_cast<std::size_t>(i)); }
   Next next() { return queue_.next(); }
   GrainEvent event(int i) const;
   bool is_stale(const GrainEvent& event) const {
     return event.partner >= 0 && lines_[static_cast<std::size_t>(event.partner)].count != event.partner_count;
   }
-  GrainSums sums(double t) const;
+  GrainSums sums(double t) const { return lines_.sums(t); }
   void predict(int i);
   void predict(int i, int j) {
     predict(i);
@@ -58,16 +55,10 @@ class CellLists {
   void leave_neighbourhood(int i);
   /// From a to b, the nearest image.
   std::array<double, 3> separation(const Flight3& a, const Flight3& b) const;
-  double deepest_overlap() const { return -smallest_room_ / (2 * smallest_reach_); }
+  double deepest_overlap() const { return lines_.deepest_overlap(); }
   double bytes_per_grain() const;
 
  private:
-  /// All that a neighbour must know of a grain, in one cache line.
-  struct alignas(64) Line {
-    double x, y, z, vx, vy, vz, time;
-    std::uint32_t count;  ///< impacts, to tell stale predictions
-    std::uint32_t unused;
-  };
   struct Event {
     std::int32_t partner;
     std::uint32_t partner_count;
@@ -76,28 +67,27 @@ class CellLists {
   std::size_t cell_of(const std::array<double, 3>& centre) const;
   void put_in_cell(std::size_t i);
   void take_from_cell(std::size_t i);
-  void find_neighbours(std::size_t i, bool both_ways);
+  void find_neighbours(std::size_t i);
   void add_neighbour(std::size_t i, std::int32_t neighbour);
   void remove_neighbour(std::size_t i, std::int32_t neighbour);
   void widen_lists();
-  double nearest(double r, std::size_t axis) const { return Periodic ? r - extent_[axis] * std::nearbyint(r * inverse_extent_[axis]) : r; }
+  double nearest(double r, std::size_t axis) const { return Periodic ? lines_.period().nearest(r, axis) : r; }
   double time_to_leave(std::size_t i, const Flight3& flight) const;
+  std::int32_t* list(std::size_t i) { return &list_[i * list_room_]; }
 
-  AlignedVector<Line> lines_;
-  std::vector<double> radius_, mass_;
-  std::vector<std::array<double, 3>> centre_;
-  std::vector<std::int32_t> list_;
+  GrainLines lines_;
+  AlignedVector<std::array<double, 3>> centre_;
+  AlignedVector<std::int32_t> list_;  // a row a grain, filled up with the grain itself
   std::vector<std::uint16_t> list_size_;
   std::size_t list_room_ = 24;
   std::vector<std::int32_t> cell_first_, cell_next_, cell_previous_, cell_;
+  std::vector<std::int32_t> near_, old_list_;  // for find_neighbours and leave_neighbourhood
   std::array<int, 3> cells_{};
-  std::array<double, 3> extent_{}, inverse_extent_{}, per_cell_{};
+  std::array<double, 3> per_cell_{};
   std::array<double, 2> half_width_{};
-  double shell_ = 0, leeway_ = 0, largest_reach_ = 0, smallest_reach_ = never;
-  bool equal_ = true;
+  double shell_ = 0, leeway_ = 0;
   std::vector<Event> event_;
   CalendarQueue queue_;
-  double smallest_room_ = 0;
 };
 
 extern template class CellLists<true>;

@@ -2,9 +2,15 @@
 // Vectors of doubles as wide as the machine, and arrays that they can be loaded from. The width never changes a result: every lane does
 // the same operations in the same order, and ties go to the lowest index.
 #pragma once
+#include <sys/mman.h>
+
+#include <cstdint>
 #include <experimental/simd>
 #include <new>
 #include <vector>
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
 
 namespace shakedown {
 
@@ -18,8 +24,16 @@ struct CacheLineAllocator {
   CacheLineAllocator() = default;
   template <class U>
   CacheLineAllocator(const CacheLineAllocator<U>&) {}
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64})); }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{64}); }
+  // Arrays of millions of grains are reached at random: on large pages their addresses stay in the processor's tables.
+  static constexpr std::size_t large_page = std::size_t{1} << 21;
+  static std::align_val_t alignment(std::size_t bytes) { return std::align_val_t{bytes >= large_page ? large_page : 64}; }
+  T* allocate(std::size_t n) {
+    const std::size_t bytes = n * sizeof(T);
+    void* memory = ::operator new(bytes, alignment(bytes));
+    if (bytes >= large_page) ::madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: refused, only speed is lost
+    return static_cast<T*>(memory);
+  }
+  void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n * sizeof(T))); }
   bool operator==(const CacheLineAllocator&) const { return true; }
 };
 
@@ -38,6 +52,19 @@ inline void store(AlignedVector<double>& array, std::size_t first, const Lanes& 
 /// 0, 1, 2, ... of the lanes.
 inline Lanes lane_index() {
   return Lanes([](auto lane) { return static_cast<double>(lane); });
+}
+
+/// first[stride * index[0]], first[stride * index[1]], ... for all lanes.
+template <std::size_t stride>
+Lanes gather(const double* first, const std::int32_t* index) {
+#ifdef __AVX512F__
+  if constexpr (lane_count == 8) {  // GCC 12 makes fifteen instructions of the general form
+    static_assert(stride * sizeof(double) % 8 == 0);
+    const __m256i at = _mm256_mullo_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(index)), _mm256_set1_epi32(stride));
+    return Lanes(_mm512_i32gather_pd(at, first, 8));
+  }
+#endif
+  return Lanes([&](auto lane) { return first[stride * static_cast<std::size_t>(index[lane])]; });
 }
 
 /// Smallest element of an array padded with infinities, and its (lowest) index.

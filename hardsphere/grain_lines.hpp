@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// What others must know of a grain, one cache line each, and the earliest touch of one grain with some others in vector lanes.
+#pragma once
+#include <vector>
+
+#include "errors.hpp"
+#include "grain_event.hpp"
+#include "initial_state.hpp"
+#include "lanes.hpp"
+
+namespace shakedown {
+
+/// A grain's flight in one cache line.
+struct alignas(64) GrainLine {
+  double x, y, z, vx, vy, vz, time;
+  std::uint32_t count;  ///< impacts, to tell stale predictions
+  std::int32_t next;    ///< in its cell
+};
+
+/// The extent of a periodic domain along each axis, m.
+struct Period {
+  std::array<double, 3> extent{}, inverse{};
+  explicit Period(const std::array<double, 3>& e) : extent(e), inverse{1 / e[0], 1 / e[1], 1 / e[2]} {}
+
+  /// The shortest of r + n extent. A sum so large that it has no digits behind the point rounds to whole numbers.
+  template <class Number>
+  Number nearest(const Number& r, std::size_t axis) const {
+    constexpr double whole = 0x1.8p52;
+    return r - extent[axis] * ((r * inverse[axis] + whole) - whole);
+  }
+};
+
+class GrainLines {
+ public:
+  GrainLines(const State& state, const std::array<double, 3>& extent)
+      : period_(extent), line_(state.size()), radius_(state.radius.begin(), state.radius.end()), mass_(state.mass.begin(), state.mass.end()) {
+    double largest = 0, smallest = never;
+    for (const double r : radius_) largest = std::max(largest, r), smallest = std::min(smallest, r);
+    equal_ = largest == smallest;
+    largest_reach_ = 2 * largest;
+    smallest_reach_ = 2 * smallest;
+    for (std::size_t i = 0; i < line_.size(); ++i) {
+      const Vec3 &r = state.position[i], &v = state.velocity[i];
+      line_[i] = {r.x(), r.y(), r.z(), v.x(), v.y(), v.z(), 0.0, 0, -1};
+    }
+  }
+
+  std::size_t size() const { return line_.size(); }
+  GrainLine& operator[](std::size_t i) { return line_[i]; }
+  const GrainLine& operator[](std::size_t i) const { return line_[i]; }
+  Flight3 flight(std::size_t i) const {
+    const GrainLine& line = line_[i];
+    return {{line.x, line.y, line.z}, {line.vx, line.vy, line.vz}, line.time};
+  }
+  void move_to(std::size_t i, const Flight3& flight) {
+    GrainLine& line = line_[i];
+    line = {flight.x[0], flight.x[1], flight.x[2], flight.v[0], flight.v[1], flight.v[2], flight.time, line.count, line.next};
+  }
+  double radius(std::size_t i) const { return radius_[i]; }
+  double mass(std::size_t i) const { return mass_[i]; }
+  const Period& period() const { return period_; }
+  bool equal() const { return equal_; }
+  double largest_reach() const { return largest_reach_; }
+  void prefetch(std::size_t i) const { __builtin_prefetch(&line_[i]); }
+
+  struct Touch {
+    double wait;           ///< s
+    std::int32_t partner;  ///< -1: none before
+  };
+  /// The earliest touch, before `wait`, of grain i flying as `self` with the grains `others`, an array that goes on with i itself up to
+  /// a whole number of vectors.
+  template <bool Periodic>
+  Touch first_touch(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait);
+
+  GrainSums sums(double t) const;
+  double deepest_overlap() const { return -std::min(0.0, simd::hmin(smallest_room_)) / (2 * smallest_reach_); }
+  static constexpr double bytes_per_grain() { return sizeof(GrainLine) + 2 * sizeof(double); }
+
+ private:
+  Period period_;
+  AlignedVector<GrainLine> line_;
+  AlignedVector<double> radius_, mass_;
+  double largest_reach_ = 0, smallest_reach_ = never;
+  bool equal_ = true;
+  Lanes smallest_room_ = 0.0;  // of r^2 - reach^2, m^2
+};
+
+template <bool Periodic>
+GrainLines::Touch GrainLines::first_touch(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait) {
+  constexpr std::size_t stride = sizeof(GrainLine) / sizeof(double);
+  const Lanes x = self.x[0], y = self.x[1], z = self.x[2], vx = self.v[0], vy = self.v[1], vz = self.v[2], zero = 0.0;
+  Lanes reach_squared = largest_reach_ * largest_reach_, best = wait, best_slot = -1.0, slot = lane_index();
+  const double* first = &line_[0].x;
+  for (std::size_t n = 0; n < size; n += lane_count, slot += static_cast<double>(lane_count)) {
+    const std::int32_t* index = others + n;
+    const Lanes flown = Lanes(self.time) - gather<stride>(first + 6, index);
+    const Lanes ux = gather<stride>(first + 3, index), uy = gather<stride>(first + 4, index), uz = gather<stride>(first + 5, index);
+    Lanes rx = gather<stride>(first, index) + ux * flown - x, ry = gather<stride>(first + 1, index) + uy * flown - y,
+          rz = gather<stride>(first + 2, index) + uz * flown - z;
+    if constexpr (Periodic) rx = period_.nearest(rx, 0), ry = period_.nearest(ry, 1), rz = period_.nearest(rz, 2);
+    const Lanes wx = ux - vx, wy = uy - vy, wz = uz - vz;
+    if (!equal_) {
+      const Lanes reach = gather<1>(radius_.data(), index) + Lanes(radius_[i]);
+      reach_squared = reach * reach;
+    }
+    const Lanes b = rx * wx + ry * wy + rz * wz, c = rx * rx + ry * ry + rz * rz - reach_squared;
+    simd::where(b < zero, smallest_room_) = simd::min(smallest_room_, c);
+    // t >= c / (-2 b): what cannot beat the best so far needs no root. The grain itself has b = 0.
+    const auto may_be_first = b < zero && c <= Lanes(-2.0) * b * best;
+    if (simd::none_of(may_be_first)) continue;
+    const Lanes discriminant = b * b - (wx * wx + wy * wy + wz * wz) * c;
+    const auto meets = may_be_first && discriminant >= zero;
+    if (simd::none_of(meets)) continue;
+    const Lanes touch = simd::max(c, zero) / (simd::sqrt(simd::max(discriminant, zero)) - b);
+    const auto sooner = meets && touch < best;
+    simd::where(sooner, best) = touch;
+    simd::where(sooner, best_slot) = slot;
+  }
+  const double earliest = simd::hmin(best);
+  if (!(earliest < wait)) return {wait, -1};
+  Lanes slots_of_first(never);
+  simd::where(best == Lanes(earliest), slots_of_first) = best_slot;
+  return {earliest, others[static_cast<std::size_t>(simd::hmin(slots_of_first))]};
+}
+
+inline GrainSums GrainLines::sums(double t) const {
+  GrainSums sums;
+  for (std::size_t i = 0; i < line_.size(); ++i) {
+    const GrainLine& line = line_[i];
+    const double m = mass_[i];
+    sums.mass += m;
+    sums.kinetic += m / 2 * (line.vx * line.vx + line.vy * line.vy + line.vz * line.vz);
+    sums.moment += m * (line.x + line.vx * (t - line.time));
+    sums.momentum[0] += m * line.vx;
+    sums.momentum[1] += m * line.vy;
+    sums.momentum[2] += m * line.vz;
+  }
+  return sums;
+}
+
+}  // namespace shakedown
