@@ -52,7 +52,7 @@ class AllPairs {
   void predict(int i);
   void predict(int i, int j);
   void predict_all();
-  void leave_neighbourhood(int) {}
+  void leave_neighbourhood(int, double) {}
   std::array<double, 3> separation(const Flight3& a, const Flight3& b) const {
     return {b.x[0] - a.x[0], b.x[1] - a.x[1], b.x[2] - a.x[2]};
   }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
+#include "lanes.hpp"
 #include "wall_root.hpp"
 
 namespace shakedown {
@@ -19,7 +19,7 @@ class CalendarQueue {
     int grain;
   };
 
-  explicit CalendarQueue(std::size_t grains) : time_(grains, never), next_(grains, none), previous_(grains, none), day_of_(grains, none) {
+  explicit CalendarQueue(std::size_t grains) : dates_(grains) {
     std::size_t days = 64;
     while (days < 4 * grains) days *= 2;
     first_.assign(days + 1, none);
@@ -29,17 +29,17 @@ class CalendarQueue {
   /// Gives grain i a new date (or `never`).
   void schedule(int i, double time) {
     const std::size_t k = static_cast<std::size_t>(i);
-    if (day_of_[k] != none) remove(k);
-    time_[k] = time;
+    if (dates_[k].day != none) remove(k);
+    dates_[k].time = time;
     if (time < never) insert(k);
     if (cached_ == i) cached_ = none;
-    if (cached_ != none && time < time_[static_cast<std::size_t>(cached_)]) cached_ = i;
+    if (cached_ != none && time < this->time(cached_)) cached_ = i;
   }
 
   /// The earliest date; grain -1 when there is none.
   Next next() {
     if (cached_ == none) find();
-    return cached_ == none ? Next{never, -1} : Next{time_[static_cast<std::size_t>(cached_)], cached_};
+    return cached_ == none ? Next{never, -1} : Next{time(cached_), cached_};
   }
 
   /// Sets the length of a day for this many events a second; dates may be scheduled already.
@@ -48,11 +48,16 @@ class CalendarQueue {
     rebuild(now, 0.5 / events_per_second);
   }
 
-  double time(int i) const { return time_[static_cast<std::size_t>(i)]; }
-  std::size_t bytes() const { return time_.size() * (8 + 3 * 4) + first_.size() * 4; }
+  double time(int i) const { return dates_[static_cast<std::size_t>(i)].time; }
+  std::size_t bytes() const { return dates_.size() * sizeof(Date) + first_.size() * sizeof(std::int32_t); }
 
  private:
   static constexpr std::int32_t none = -1;
+  /// A grain's date and its neighbours in the list of the day.
+  struct Date {
+    double time = never;
+    std::int32_t next = none, previous = none, day = none;
+  };
   std::size_t days() const { return first_.size() - 1; }
 
   void set_day_length(double length) {
@@ -62,32 +67,31 @@ class CalendarQueue {
 
   void insert(std::size_t k) {
     // Dates of the past (of rounding) belong to today.
-    const double day = std::max(std::floor((time_[k] - year_start_) * per_second_), static_cast<double>(today_));
+    Date& date = dates_[k];
+    const double day = std::max(std::floor((date.time - year_start_) * per_second_), static_cast<double>(today_));
     const std::size_t d = day < static_cast<double>(days()) ? static_cast<std::size_t>(day) : days();
-    day_of_[k] = static_cast<std::int32_t>(d);
-    previous_[k] = none;
-    next_[k] = first_[d];
-    if (first_[d] != none) previous_[static_cast<std::size_t>(first_[d])] = static_cast<std::int32_t>(k);
+    date.day = static_cast<std::int32_t>(d);
+    date.previous = none;
+    date.next = first_[d];
+    if (date.next != none) dates_[static_cast<std::size_t>(date.next)].previous = static_cast<std::int32_t>(k);
     first_[d] = static_cast<std::int32_t>(k);
   }
 
   void remove(std::size_t k) {
-    if (previous_[k] != none) next_[static_cast<std::size_t>(previous_[k])] = next_[k];
-    else first_[static_cast<std::size_t>(day_of_[k])] = next_[k];
-    if (next_[k] != none) previous_[static_cast<std::size_t>(next_[k])] = previous_[k];
-    day_of_[k] = none;
+    Date& date = dates_[k];
+    if (date.previous != none) dates_[static_cast<std::size_t>(date.previous)].next = date.next;
+    else first_[static_cast<std::size_t>(date.day)] = date.next;
+    if (date.next != none) dates_[static_cast<std::size_t>(date.next)].previous = date.previous;
+    date.day = none;
   }
 
   void find() {
     for (;; ++today_, ++days_passed_) {
       if (today_ == days() && !new_year()) return;
       ++looks_;
-      for (std::int32_t i = first_[today_]; i != none; i = next_[static_cast<std::size_t>(i)]) {
+      for (std::int32_t i = first_[today_]; i != none; i = dates_[static_cast<std::size_t>(i)].next) {
         ++looks_;
-        const std::size_t k = static_cast<std::size_t>(i);
-        if (cached_ == none || time_[k] < time_[static_cast<std::size_t>(cached_)] ||
-            (time_[k] == time_[static_cast<std::size_t>(cached_)] && i < cached_))
-          cached_ = i;
+        if (cached_ == none || time(i) < time(cached_) || (time(i) == time(cached_) && i < cached_)) cached_ = i;
       }
       if (cached_ != none) {
         ++found_;
@@ -100,8 +104,8 @@ class CalendarQueue {
   /// Moves the waiting dates into a new year; false when there are none.
   bool new_year() {
     double earliest = never;
-    for (std::int32_t i = first_[days()]; i != none; i = next_[static_cast<std::size_t>(i)])
-      earliest = std::min(earliest, time_[static_cast<std::size_t>(i)]);
+    for (std::int32_t i = first_[days()]; i != none; i = dates_[static_cast<std::size_t>(i)].next)
+      earliest = std::min(earliest, time(i));
     if (earliest == never) return false;
     // About one event in two days keeps both the empty days and the crowded ones cheap.
     const double events_per_day = static_cast<double>(found_) / static_cast<double>(std::max<std::int64_t>(1, days_passed_));
@@ -112,7 +116,7 @@ class CalendarQueue {
 
   /// Today is crowded far beyond the plan: shorten the days now.
   void retune() {
-    const double now = time_[static_cast<std::size_t>(cached_)];
+    const double now = time(cached_);
     rebuild(now, day_length_ * 0.25);
   }
 
@@ -122,13 +126,12 @@ class CalendarQueue {
     today_ = 0;
     days_passed_ = found_ = looks_ = 0;
     std::fill(first_.begin(), first_.end(), none);
-    for (std::size_t k = 0; k < time_.size(); ++k)
-      if (day_of_[k] != none) insert(k);
+    for (std::size_t k = 0; k < dates_.size(); ++k)
+      if (dates_[k].day != none) insert(k);
   }
 
-  std::vector<double> time_;
-  std::vector<std::int32_t> next_, previous_, day_of_;
-  std::vector<std::int32_t> first_;  // of each day; the last entry is the list of dates beyond the year
+  AlignedVector<Date> dates_;
+  AlignedVector<std::int32_t> first_;  // of each day; the last entry is the list of dates beyond the year
   double day_length_ = 1, per_second_ = 1, year_start_ = 0;
   std::size_t today_ = 0;
   std::int64_t found_ = 0, looks_ = 0, days_passed_ = 0;

@@ -192,8 +192,11 @@ inline bool contains(const std::int32_t* list, std::size_t size, std::int32_t j)
 }
 
 template <bool Periodic>
-void CellLists<Periodic>::leave_neighbourhood(int i) {
+void CellLists<Periodic>::leave_neighbourhood(int i, double now) {
   const std::size_t k = static_cast<std::size_t>(i);
+  Flight3 here = flight(i);
+  here.advance(now);
+  move_to(i, here);
   GrainLine& line = lines_[k];
   if (Periodic) {  // keep coordinates small, so that rounding does not grow with time
     line.x = nearest(line.x, 0);
@@ -213,6 +216,7 @@ void CellLists<Periodic>::leave_neighbourhood(int i) {
   std::fill_n(list(k), list_size_[k], i);
   list_size_[k] = 0;
   for (const std::int32_t j : near_) add_neighbour(k, j);
+  predict(i);
 }
 
 template <bool Periodic>

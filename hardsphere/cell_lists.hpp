@@ -52,7 +52,7 @@ class CellLists {
   }
   void predict_all();
   /// Renews the list of a grain that has reached its leeway.
-  void leave_neighbourhood(int i);
+  void leave_neighbourhood(int i, double now);
   /// From a to b, the nearest image.
   std::array<double, 3> separation(const Flight3& a, const Flight3& b) const;
   double deepest_overlap() const { return lines_.deepest_overlap(); }

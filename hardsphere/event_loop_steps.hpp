@@ -252,11 +252,14 @@ void EventLoop<Grains, Motion>::grain_event(int i) {
     fixed_side_impact(i, event.partner);
     return write_down(EventKind::wall, i, side_wall_axis(event.partner), side_wall_sign(event.partner));
   }
-  Flight3 flight = grains_.flight(i);  // the partner has been deflected, or the grain leaves its neighbourhood
-  flight.advance(now_);
-  grains_.move_to(i, flight);
-  if (event.partner == leaves_neighbourhood) grains_.leave_neighbourhood(i);
-  grains_.predict(i);
+  if (event.partner == leaves_neighbourhood) {
+    grains_.leave_neighbourhood(i, now_);
+  } else {  // the partner has been deflected
+    Flight3 flight = grains_.flight(i);
+    flight.advance(now_);
+    grains_.move_to(i, flight);
+    grains_.predict(i);
+  }
   write_down(EventKind::new_anchor, i);
 }
 

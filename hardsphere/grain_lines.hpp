@@ -70,56 +70,64 @@ class GrainLines {
   /// The earliest touch, before `wait`, of grain i flying as `self` with the grains `others`, an array that goes on with i itself up to
   /// a whole number of vectors.
   template <bool Periodic>
-  Touch first_touch(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait);
+  Touch first_touch(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait) {
+    if (size == 0) return {wait, -1};
+    if (size <= few_count) return first_touch_in<FewLanes, Periodic>(i, self, others, size, wait);
+    return first_touch_in<Lanes, Periodic>(i, self, others, size, wait);
+  }
 
   GrainSums sums(double t) const;
-  double deepest_overlap() const { return -std::min(0.0, simd::hmin(smallest_room_)) / (2 * smallest_reach_); }
+  double deepest_overlap() const { return -smallest_room_ / (2 * smallest_reach_); }
   static constexpr double bytes_per_grain() { return sizeof(GrainLine) + 2 * sizeof(double); }
 
  private:
+  template <class L, bool Periodic>
+  Touch first_touch_in(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait);
+
   Period period_;
   AlignedVector<GrainLine> line_;
   AlignedVector<double> radius_, mass_;
   double largest_reach_ = 0, smallest_reach_ = never;
   bool equal_ = true;
-  Lanes smallest_room_ = 0.0;  // of r^2 - reach^2, m^2
+  double smallest_room_ = 0;  // of r^2 - reach^2, m^2
 };
 
-template <bool Periodic>
-GrainLines::Touch GrainLines::first_touch(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait) {
+template <class L, bool Periodic>
+GrainLines::Touch GrainLines::first_touch_in(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait) {
   constexpr std::size_t stride = sizeof(GrainLine) / sizeof(double);
-  const Lanes x = self.x[0], y = self.x[1], z = self.x[2], vx = self.v[0], vy = self.v[1], vz = self.v[2], zero = 0.0;
-  Lanes reach_squared = largest_reach_ * largest_reach_, best = wait, best_slot = -1.0, slot = lane_index();
+  const L x = self.x[0], y = self.x[1], z = self.x[2], vx = self.v[0], vy = self.v[1], vz = self.v[2], zero = 0.0;
+  L reach_squared = largest_reach_ * largest_reach_, best = wait, smallest_room = smallest_room_, best_slot = -1.0, slot = lane_index<L>();
   const double* first = &line_[0].x;
-  for (std::size_t n = 0; n < size; n += lane_count, slot += static_cast<double>(lane_count)) {
+  for (std::size_t n = 0; n < size; n += L::size(), slot += static_cast<double>(L::size())) {
     const std::int32_t* index = others + n;
-    const Lanes flown = Lanes(self.time) - gather<stride>(first + 6, index);
-    const Lanes ux = gather<stride>(first + 3, index), uy = gather<stride>(first + 4, index), uz = gather<stride>(first + 5, index);
-    Lanes rx = gather<stride>(first, index) + ux * flown - x, ry = gather<stride>(first + 1, index) + uy * flown - y,
-          rz = gather<stride>(first + 2, index) + uz * flown - z;
+    const L flown = L(self.time) - gather<stride, L>(first + 6, index);
+    const L ux = gather<stride, L>(first + 3, index), uy = gather<stride, L>(first + 4, index), uz = gather<stride, L>(first + 5, index);
+    L rx = gather<stride, L>(first, index) + ux * flown - x, ry = gather<stride, L>(first + 1, index) + uy * flown - y,
+          rz = gather<stride, L>(first + 2, index) + uz * flown - z;
     if constexpr (Periodic) rx = period_.nearest(rx, 0), ry = period_.nearest(ry, 1), rz = period_.nearest(rz, 2);
-    const Lanes wx = ux - vx, wy = uy - vy, wz = uz - vz;
+    const L wx = ux - vx, wy = uy - vy, wz = uz - vz;
     if (!equal_) {
-      const Lanes reach = gather<1>(radius_.data(), index) + Lanes(radius_[i]);
+      const L reach = gather<1, L>(radius_.data(), index) + L(radius_[i]);
       reach_squared = reach * reach;
     }
-    const Lanes b = rx * wx + ry * wy + rz * wz, c = rx * rx + ry * ry + rz * rz - reach_squared;
-    simd::where(b < zero, smallest_room_) = simd::min(smallest_room_, c);
+    const L b = rx * wx + ry * wy + rz * wz, c = rx * rx + ry * ry + rz * rz - reach_squared;
     // t >= c / (-2 b): what cannot beat the best so far needs no root. The grain itself has b = 0.
-    const auto may_be_first = b < zero && c <= Lanes(-2.0) * b * best;
+    const auto may_be_first = b < zero && c <= L(-2.0) * b * best;
     if (simd::none_of(may_be_first)) continue;
-    const Lanes discriminant = b * b - (wx * wx + wy * wy + wz * wz) * c;
+    simd::where(may_be_first, smallest_room) = simd::min(smallest_room, c);
+    const L discriminant = b * b - (wx * wx + wy * wy + wz * wz) * c;
     const auto meets = may_be_first && discriminant >= zero;
     if (simd::none_of(meets)) continue;
-    const Lanes touch = simd::max(c, zero) / (simd::sqrt(simd::max(discriminant, zero)) - b);
+    const L touch = simd::max(c, zero) / (simd::sqrt(simd::max(discriminant, zero)) - b);
     const auto sooner = meets && touch < best;
     simd::where(sooner, best) = touch;
     simd::where(sooner, best_slot) = slot;
   }
   const double earliest = simd::hmin(best);
   if (!(earliest < wait)) return {wait, -1};
-  Lanes slots_of_first(never);
-  simd::where(best == Lanes(earliest), slots_of_first) = best_slot;
+  smallest_room_ = simd::hmin(smallest_room);
+  L slots_of_first(never);
+  simd::where(best == L(earliest), slots_of_first) = best_slot;
   return {earliest, others[static_cast<std::size_t>(simd::hmin(slots_of_first))]};
 }
 

@@ -5,13 +5,14 @@
 #include <variant>
 
 #include "all_pairs.hpp"
+#include "cell_crossings.hpp"
 #include "cell_lists.hpp"
 #include "event_loop.hpp"
 
 namespace shakedown {
 
 using Loop = std::variant<EventLoop<AllPairs, BoxMotion>, EventLoop<CellLists<false>, BoxMotion>, EventLoop<CellLists<true>, BoxMotion>,
-                          EventLoop<AllPairs, DrivenBox>, EventLoop<CellLists<false>, DrivenBox>>;
+                          EventLoop<AllPairs, DrivenBox>, EventLoop<CellLists<false>, DrivenBox>, EventLoop<CellCrossings, BoxMotion>>;
 
 struct HardSphereSystem::Inside {
   Loop loop;
@@ -23,6 +24,8 @@ namespace {
 
 /// Up to this size testing every pair in vector lanes beats lists and queue.
 constexpr std::size_t all_pairs_up_to = 128;
+/// Packing fraction of a periodic fluid up to which small cells beat lists.
+constexpr double crossings_below = 0.4;
 /// Square wells need a table of all pairs.
 constexpr std::size_t wells_up_to = 2000;
 
@@ -41,6 +44,8 @@ Loop loop_for(const Setup& setup, const Physics& physics, const State& state) {
     throw InputError({{{}, "domain.kind", "effects that drive box or grains, friction and attraction need a damper (other domains are for checks of the plain engine)",
                        "take domain.kind = \"damper\" or leave the effects out"}});
   if (setup.domain == Domain::periodic) {
+    if (fraction < crossings_below && CellCrossings::can_hold(state, cell))
+      return Loop(std::in_place_index<5>, state, physics, setup, CellCrossings(state, cell));
     const CellListsPlan plan{cell, true, {never, never}, fraction, 0};
     return Loop(std::in_place_index<2>, state, physics, setup, CellLists<true>(state, plan));
   }
@@ -80,7 +85,8 @@ void HardSphereSystem::advance_impacts(std::int64_t n) { SHAKEDOWN_IN_LOOP(loop.
 double HardSphereSystem::time() const { return SHAKEDOWN_IN_LOOP(loop.time()); }
 void HardSphereSystem::log_collisions(State initial) {
   EXPECT(time() == 0 && events() == 0);
-  const bool periodic = std::holds_alternative<EventLoop<CellLists<true>, BoxMotion>>(inside_->loop);
+  const bool periodic = std::holds_alternative<EventLoop<CellLists<true>, BoxMotion>>(inside_->loop) ||
+                        std::holds_alternative<EventLoop<CellCrossings, BoxMotion>>(inside_->loop);
   EXPECT(!periodic);
   inside_->writer = std::make_unique<EventWriter>(std::move(initial));
   SHAKEDOWN_IN_LOOP(loop.write_events_to(inside_->writer.get()));

@@ -50,21 +50,28 @@ inline void store(AlignedVector<double>& array, std::size_t first, const Lanes& 
   values.copy_to(array.data() + first, simd::vector_aligned);
 }
 /// 0, 1, 2, ... of the lanes.
-inline Lanes lane_index() {
-  return Lanes([](auto lane) { return static_cast<double>(lane); });
+template <class L = Lanes>
+L lane_index() {
+  return L([](auto lane) { return static_cast<double>(lane); });
 }
 
+/// Half as many lanes, where the machine has that many: roots and divisions take half the time.
+constexpr std::size_t few_count = lane_count > 4 ? lane_count / 2 : lane_count;
+using FewLanes = simd::simd<double, simd::simd_abi::deduce_t<double, few_count>>;
+
 /// first[stride * index[0]], first[stride * index[1]], ... for all lanes.
-template <std::size_t stride>
-Lanes gather(const double* first, const std::int32_t* index) {
-#ifdef __AVX512F__
-  if constexpr (lane_count == 8) {  // GCC 12 makes fifteen instructions of the general form
-    static_assert(stride * sizeof(double) % 8 == 0);
+template <std::size_t stride, class L = Lanes>
+L gather(const double* first, const std::int32_t* index) {
+#ifdef __AVX512VL__  // GCC 12 makes fifteen instructions of the general form
+  if constexpr (L::size() == 8) {
     const __m256i at = _mm256_mullo_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(index)), _mm256_set1_epi32(stride));
-    return Lanes(_mm512_i32gather_pd(at, first, 8));
+    return L(_mm512_i32gather_pd(at, first, 8));
+  } else if constexpr (L::size() == 4) {
+    const __m128i at = _mm_mullo_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(index)), _mm_set1_epi32(stride));
+    return L(_mm256_i32gather_pd(first, at, 8));
   }
 #endif
-  return Lanes([&](auto lane) { return first[stride * static_cast<std::size_t>(index[lane])]; });
+  return L([&](auto lane) { return first[stride * static_cast<std::size_t>(index[lane])]; });
 }
 
 /// Smallest element of an array padded with infinities, and its (lowest) index.

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "all_pairs.hpp"
+#include "cell_crossings.hpp"
 #include "cell_lists.hpp"
 #include "event_loop.hpp"
 #include "fluid.hpp"
@@ -24,6 +25,10 @@ EventLoop<CellLists<Periodic>, BoxMotion> with_lists(const shakedown::Setup& set
   CellListsPlan plan{{setup.box.length, setup.box.width[0], setup.box.width[1]}, Periodic, {never, never}, 0.4, shell};
   if (!Periodic) plan.half_width = {setup.box.width[0] / 2, setup.box.width[1] / 2};
   return {state, physics_of(setup), setup, CellLists<Periodic>(state, plan)};
+}
+
+EventLoop<CellCrossings, BoxMotion> with_crossings(const shakedown::Setup& setup, const State& state, double edge) {
+  return {state, physics_of(setup), setup, CellCrossings(state, {setup.box.length, setup.box.width[0], setup.box.width[1]}, edge)};
 }
 
 /// Impact for impact the same time and class; at the end the same state.
@@ -90,6 +95,22 @@ TEST(SameImpacts, ThroughListsOfAnyShellInAPeriodicCell) {
     expect_same_impacts(with_lists<true>(setup, state, 1.3), with_lists<true>(setup, state, 2.4), 1000,
                         Vec3::Constant(setup.box.length));
   }
+}
+
+TEST(SameImpacts, ThroughCellsOfAnyWidthAndThroughLists) {
+  for (const double packing_fraction : {0.05, 0.2, 0.45})
+    for (const double edge : {0.0, 1.3, 3.2}) {  // 3.2: three cells across
+      shakedown::Setup setup = periodic_fluid(256, packing_fraction);
+      const State state = initial_state(setup);
+      expect_same_impacts(with_lists<true>(setup, state, 1.4), with_crossings(setup, state, edge), 400, Vec3::Constant(setup.box.length));
+    }
+  shakedown::Setup setup = periodic_fluid(500, 0.2);  // cells that are no cubes; grains thrown far out of the cell they are described in
+  setup.box.length *= 3;
+  setup.box.width[0] /= 2;
+  State state = initial_state(setup);
+  for (std::size_t i = 0; i < state.size(); i += 3) state.position[i].x() += 5 * setup.box.length;
+  expect_same_impacts(with_lists<true>(setup, state, 1.3), with_crossings(setup, state, 0), 500,
+                      Vec3(setup.box.length, setup.box.width[0], setup.box.width[1]));
 }
 
 // --- End walls alone: grains that do not meet each other, thrown about now and then, in a box that feels every impact. ----------------

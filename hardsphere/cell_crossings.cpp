@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "cell_crossings.hpp"
+
+#include <algorithm>
+
+namespace shakedown {
+
+namespace {
+
+/// A touch across a cell must not be missed by rounding.
+constexpr double least_edge = 1 + 1e-6;
+constexpr int most_cells = 65000;  // along an axis
+
+int cells_across(double extent, double edge) { return std::min(most_cells, static_cast<int>(extent / edge)); }
+
+}  // namespace
+
+bool CellCrossings::can_hold(const State& state, const std::array<double, 3>& extent) {
+  if (state.size() == 0) return false;
+  for (std::size_t i = 0; i < state.size(); ++i)
+    if (state.radius[i] != state.radius[0]) return false;
+  return std::all_of(extent.begin(), extent.end(), [&](double e) { return cells_across(e, 2 * state.radius[0] * least_edge) >= 3; });
+}
+
+CellCrossings::CellCrossings(const State& state, const std::array<double, 3>& extent, double edge)
+    : lines_(state, extent), place_(state.size()), queue_(state.size()) {
+  EXPECT(can_hold(state, extent));
+  std::size_t all = 1;
+  for (std::size_t axis : {2, 1, 0}) {
+    cells_[axis] = std::max(3, cells_across(extent[axis], lines_.largest_reach() * std::max(edge, least_edge)));
+    edge_[axis] = extent[axis] / cells_[axis];
+    const auto n = static_cast<std::size_t>(cells_[axis]);
+    for (std::size_t cell = 0; cell < n + 2; ++cell) offset_[axis].push_back(static_cast<std::uint32_t>((cell + n - 1) % n * all));
+    all *= n;
+  }
+  EXPECT(all < std::size_t{1} << 32);
+  cell_first_.assign(all, -1);
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    std::array<double*, 3> x{&lines_[i].x, &lines_[i].y, &lines_[i].z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      *x[axis] -= extent[axis] * std::floor(*x[axis] / extent[axis]);
+      place_[i].cell[axis] = static_cast<std::uint16_t>(std::min(cells_[axis] - 1, static_cast<int>(*x[axis] / edge_[axis])));
+    }
+    put_in_cell(i);
+  }
+}
+
+std::array<double, 3> CellCrossings::separation(const Flight3& a, const Flight3& b) const {
+  const Period& period = lines_.period();
+  return {period.nearest(b.x[0] - a.x[0], 0), period.nearest(b.x[1] - a.x[1], 1), period.nearest(b.x[2] - a.x[2], 2)};
+}
+
+void CellCrossings::put_in_cell(std::size_t i) {
+  std::int32_t& first = cell_first_[index_of(place_[i].cell)];
+  lines_[i].next = first;
+  first = static_cast<std::int32_t>(i) | (first >= 0 ? has_next : 0);
+}
+
+void CellCrossings::take_from_cell(std::size_t i) {
+  std::int32_t *link = &cell_first_[index_of(place_[i].cell)], *link_before = nullptr;
+  while ((*link & ~has_next) != static_cast<std::int32_t>(i)) {
+    link_before = link;
+    link = &lines_[static_cast<std::size_t>(*link & ~has_next)].next;
+  }
+  *link = lines_[i].next;
+  if (*link < 0 && link_before != nullptr) *link_before &= ~has_next;
+}
+
+/// Takes the grains of cells: first the cells that are not empty, without a branch (most are, unpredictably), then the rare second grains,
+/// of which the link to the first tells, so that nobody's line is looked at too early.
+class CellCrossings::Collector {
+ public:
+  Collector(const CellCrossings& cells, Others& others) : first_(cells.cell_first_.data()), lines_(cells.lines_), others_(others) {}
+
+  void cell(std::size_t index) {
+    others_[size_] = first_[index];
+    size_ += others_[size_] >= 0;
+  }
+  /// Fills up with i.
+  std::size_t finish(std::int32_t i) {
+    const std::size_t cells = size_;
+    for (std::size_t n = 0; n < cells; ++n)
+      if (others_[n] & has_next) chain(others_[n]);
+    for (std::size_t n = 0; n < lane_count; ++n) others_[size_ + n] = i;
+    return size_;
+  }
+
+ private:
+  void chain(std::int32_t& link) {
+    link &= ~has_next;
+    for (std::int32_t next = lines_[static_cast<std::size_t>(link)].next; next >= 0;) {
+      EXPECT(size_ + lane_count < others_.size());
+      const std::int32_t j = next & ~has_next;
+      others_[size_++] = j;
+      next = next & has_next ? lines_[static_cast<std::size_t>(j)].next : -1;
+    }
+  }
+
+  const std::int32_t* first_;
+  const GrainLines& lines_;
+  Others& others_;
+  std::size_t size_ = 0;
+};
+
+std::size_t CellCrossings::collect_around(std::size_t i, Others& others) const {
+  const std::uint32_t *x = around(i, 0), *y = around(i, 1), *z = around(i, 2);
+  Collector collector(*this, others);
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < 3; ++b)
+      for (std::size_t c = 0; c < 3; ++c) collector.cell(x[a] + y[b] + z[c]);
+  return collector.finish(static_cast<std::int32_t>(i));
+}
+
+std::size_t CellCrossings::collect_ahead(std::size_t i, std::size_t axis, int step, Others& others) const {
+  const std::uint32_t layer = around(i, axis)[1 + step], *y = around(i, (axis + 1) % 3), *z = around(i, (axis + 2) % 3);
+  Collector collector(*this, others);
+  for (std::size_t b = 0; b < 3; ++b)
+    for (std::size_t c = 0; c < 3; ++c) collector.cell(layer + y[b] + z[c]);
+  return collector.finish(static_cast<std::int32_t>(i));
+}
+
+void CellCrossings::predict(int i) {
+  const std::size_t k = static_cast<std::size_t>(i);
+  const Flight3 self = flight(i);
+  Others others;
+  const std::size_t size = collect_around(k, others);
+  place_[k].pair_time = never;
+  place_[k].partner = no_partner;
+  remember(k, self.time, lines_.first_touch<true>(k, self, others.data(), size, never));
+  schedule(k, self, self.time);
+}
+
+void CellCrossings::leave_neighbourhood(int i, double now) {
+  const std::size_t k = static_cast<std::size_t>(i), axis = place_[k].axis;
+  const int step = lines_.flight(k).v[axis] > 0 ? 1 : -1;
+  take_from_cell(k);
+  int cell = place_[k].cell[axis] + step;
+  if (cell < 0 || cell == cells_[axis]) {
+    double* const x[] = {&lines_[k].x, &lines_[k].y, &lines_[k].z};
+    *x[axis] -= step * lines_.period().extent[axis];
+    cell -= step * cells_[axis];
+  }
+  place_[k].cell[axis] = static_cast<std::uint16_t>(cell);
+  put_in_cell(k);
+  Others others;
+  const std::size_t size = collect_ahead(k, axis, step, others);
+  // The flight keeps its anchor: a crossing rounds nothing.
+  const Flight3 anchor = flight(i);
+  Flight3 self = anchor;
+  self.advance(now);
+  remember(k, now, lines_.first_touch<true>(k, self, others.data(), size, place_[k].pair_time - now));
+  schedule(k, anchor, now);
+}
+
+void CellCrossings::remember(std::size_t i, double now, const GrainLines::Touch& touch) {
+  if (touch.partner < 0) return;
+  place_[i].pair_time = now + touch.wait;
+  place_[i].partner = touch.partner;
+  place_[i].partner_count = lines_[static_cast<std::size_t>(touch.partner)].count;
+}
+
+void CellCrossings::schedule(std::size_t i, const Flight3& anchor, double now) {
+  Place& place = place_[i];
+  // Signs and the nearest edge are as good as random: no branches on them.
+  std::array<double, 3> until;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double v = anchor.v[axis], edge = (place.cell[axis] + static_cast<int>(v > 0)) * edge_[axis];
+    until[axis] = v != 0 ? (edge - anchor.x[axis]) / v : never;
+  }
+  const double wait = std::min({until[0], until[1], until[2]});
+  place.axis = static_cast<std::uint8_t>((wait != until[0]) + ((wait != until[0]) & (wait != until[1])));
+  const double crossing = std::max(now, anchor.time + wait);  // rounding may have put it a little beyond its edge
+  place.crosses = crossing < place.pair_time;
+  queue_.schedule(static_cast<int>(i), std::min(crossing, place.pair_time));
+}
+
+void CellCrossings::predict_all() {
+  double sum = 0, count = 0, now = 0;
+  for (int i = 0; i < size(); ++i) {
+    predict(i);
+    now = lines_[static_cast<std::size_t>(i)].time;
+    if (const double wait = queue_.time(i) - now; wait < never) sum += wait, ++count;
+  }
+  if (sum > 0) queue_.plan(now, count * count / sum);
+}
+
+double CellCrossings::bytes_per_grain() const {
+  return GrainLines::bytes_per_grain() + sizeof(Place) +
+         static_cast<double>(cell_first_.size() * sizeof(std::int32_t) + queue_.bytes()) / static_cast<double>(lines_.size());
+}
+
+}  // namespace shakedown

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Grains of a periodic fluid of moderate density: cells little wider than a grain, no lists. A grain is tested against those in the 27
+// cells around it after an impact, and against those in the nine new ones when it crosses into the next cell. Its earliest impact is kept
+// beyond the crossing, so that a crossing costs few tests. Beside CellLists at packing fraction 0.1: 2.7 crossings an impact of two tests
+// each instead of 2.8 renewed lists, 14 pair tests an impact in all.
+#pragma once
+#include <vector>
+
+#include "calendar_queue.hpp"
+#include "grain_lines.hpp"
+
+namespace shakedown {
+
+class CellCrossings {
+ public:
+  using Next = CalendarQueue::Next;
+
+  /// Whether the cell is wide enough, and the grains are equal, as this needs.
+  static bool can_hold(const State& state, const std::array<double, 3>& extent);
+  /// `edge`: the least width of a cell in diameters, 0: the least possible.
+  CellCrossings(const State& state, const std::array<double, 3>& extent, double edge = 0);
+
+  int size() const { return static_cast<int>(lines_.size()); }
+  Flight3 flight(int i) const { return lines_.flight(static_cast<std::size_t>(i)); }
+  void set_flight(int i, const Flight3& flight) {
+    move_to(i, flight);
+    ++lines_[static_cast<std::size_t>(i)].count;
+  }
+  void move_to(int i, const Flight3& flight) { lines_.move_to(static_cast<std::size_t>(i), flight); }
+  void forget_side_walls() {}
+  void set_bond(int, int, bool) { EXPECT(false && "wells need AllPairs"); }
+  int bonds() const { return 0; }
+  double radius(int i) const { return lines_.radius(static_cast<std::size_t>(i)); }
+  double mass(int i) const { return lines_.mass(static_cast<std::size_t>(i)); }
+  Next next() { return queue_.next(); }
+  GrainEvent event(int i) const {
+    const Place& place = place_[static_cast<std::size_t>(i)];
+    if (place.crosses) return {queue_.time(i), leaves_neighbourhood, 0, Meeting::touch};
+    return {place.pair_time, place.partner, place.partner_count, Meeting::touch};
+  }
+  bool is_stale(const GrainEvent& event) const {
+    return event.partner >= 0 && lines_[static_cast<std::size_t>(event.partner)].count != event.partner_count;
+  }
+  GrainSums sums(double t) const { return lines_.sums(t); }
+  void predict(int i);
+  void predict(int i, int j) {
+    predict(i);
+    predict(j);
+  }
+  void predict_all();
+  /// Grain i crosses into the next cell.
+  void leave_neighbourhood(int i, double now);
+  /// From a to b, the nearest image.
+  std::array<double, 3> separation(const Flight3& a, const Flight3& b) const;
+  double deepest_overlap() const { return lines_.deepest_overlap(); }
+  double bytes_per_grain() const;
+
+ private:
+  struct Place {
+    double pair_time = never;
+    std::int32_t partner = no_partner;
+    std::uint32_t partner_count = 0;
+    std::array<std::uint16_t, 3> cell{};
+    std::uint8_t axis = 0;  ///< that will be crossed next
+    bool crosses = false;   ///< before the earliest impact
+  };
+  using Others = std::array<std::int32_t, 512>;
+  class Collector;
+  /// In a link to a grain: another follows it in its cell.
+  static constexpr std::int32_t has_next = 1 << 30;
+
+  std::size_t index_of(const std::array<std::uint16_t, 3>& cell) const {
+    return offset_[0][cell[0] + 1u] + offset_[1][cell[1] + 1u] + offset_[2][cell[2] + 1u];
+  }
+  /// Offsets along an axis of the cells before, at and after a grain's own.
+  const std::uint32_t* around(std::size_t i, std::size_t axis) const { return &offset_[axis][place_[i].cell[axis]]; }
+  void put_in_cell(std::size_t i);
+  void take_from_cell(std::size_t i);
+  /// The grains of the 27 cells around, filled up with i.
+  std::size_t collect_around(std::size_t i, Others& others) const;
+  /// Those of the nine cells one step ahead along an axis.
+  std::size_t collect_ahead(std::size_t i, std::size_t axis, int step, Others& others) const;
+  void remember(std::size_t i, double now, const GrainLines::Touch& touch);
+  void schedule(std::size_t i, const Flight3& anchor, double now);
+
+  GrainLines lines_;
+  AlignedVector<Place> place_;
+  AlignedVector<std::int32_t> cell_first_;
+  std::array<int, 3> cells_{};
+  std::array<double, 3> edge_{};
+  std::array<std::vector<std::uint32_t>, 3> offset_;  // of a cell's index, per axis; one step beyond both ends wraps around
+  CalendarQueue queue_;
+};
+
+}  // namespace shakedown
