@@ -2,8 +2,6 @@
 // Vectors of doubles as wide as the machine, and arrays that they can be loaded from. The width never changes a result: every lane does
 // the same operations in the same order, and ties go to the lowest index.
 #pragma once
-#include <sys/mman.h>
-
 #include <cstdint>
 #include <experimental/simd>
 #include <new>
@@ -18,22 +16,18 @@ namespace simd = std::experimental;
 using Lanes = simd::native_simd<double>;
 constexpr std::size_t lane_count = Lanes::size();
 
+/// Aligned to 64 bytes, and large arrays on large pages: reached at random, their addresses stay in the processor's tables.
+void* allocate_cache_lines(std::size_t bytes);
+void free_cache_lines(void* memory, std::size_t bytes);
+
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;
   CacheLineAllocator() = default;
   template <class U>
   CacheLineAllocator(const CacheLineAllocator<U>&) {}
-  // Arrays of millions of grains are reached at random: on large pages their addresses stay in the processor's tables.
-  static constexpr std::size_t large_page = std::size_t{1} << 21;
-  static std::align_val_t alignment(std::size_t bytes) { return std::align_val_t{bytes >= large_page ? large_page : 64}; }
-  T* allocate(std::size_t n) {
-    const std::size_t bytes = n * sizeof(T);
-    void* memory = ::operator new(bytes, alignment(bytes));
-    if (bytes >= large_page) ::madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: refused, only speed is lost
-    return static_cast<T*>(memory);
-  }
-  void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n * sizeof(T))); }
+  T* allocate(std::size_t n) { return static_cast<T*>(allocate_cache_lines(n * sizeof(T))); }
+  void deallocate(T* p, std::size_t n) { free_cache_lines(p, n * sizeof(T)); }
   bool operator==(const CacheLineAllocator&) const { return true; }
 };
 
