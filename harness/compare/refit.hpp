@@ -26,6 +26,9 @@ struct RunComparison {
   Eigen::VectorXd spread;                  ///< m, its expected standard deviation
 };
 
+/// Fills in errors and floors, rms over the features of each observable, from residual and spread.
+void set_errors(RunComparison& run, const FeaturePlan& plan);
+
 struct Refit {
   std::vector<Knob> knobs;
   std::vector<Eigen::MatrixXd> covariances;  ///< m^2, of each measured run's features: chaos, camera noise and model error

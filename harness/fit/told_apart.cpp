@@ -2,7 +2,6 @@
 #include "told_apart.hpp"
 
 #include <Eigen/Dense>
-#include <array>
 #include <cmath>
 
 #include "feature_covariance.hpp"
@@ -64,16 +63,7 @@ RunComparison foretold(const MeasuredFeatures& measured, const std::vector<Knob>
   run.residual = measured.values - emulator.coefficients.row(0).transpose();
   run.spread = whole.diagonal().cwiseSqrt();
   run.chi2 = run.residual.dot(whole.ldlt().solve(run.residual));
-  std::array<double, 2> squares{}, spread{}, count{};
-  for (Eigen::Index f = 0; f < run.residual.size(); ++f) {
-    const auto observable = static_cast<std::size_t>(measured.plan.features[static_cast<std::size_t>(f)].observable);
-    squares[observable] += run.residual[f] * run.residual[f];
-    spread[observable] += run.spread[f] * run.spread[f];
-    ++count[observable];
-  }
-  const auto mean = [&](const std::array<double, 2>& sum, std::size_t which) { return count[which] > 0 ? std::sqrt(sum[which] / count[which]) : 0.0; };
-  run.error_box = mean(squares, 0), run.floor_box = mean(spread, 0);
-  run.error_centre = mean(squares, 1), run.floor_centre = mean(spread, 1);
+  set_errors(run, measured.plan);
   return run;
 }
 

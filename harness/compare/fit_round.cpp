@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "fit_round.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "feature_covariance.hpp"
+#include "random.hpp"
+
+namespace shakedown {
+
+namespace {
+
+constexpr int pseudo_experiments = 400;
+
+}  // namespace
+
+FitRound::FitRound(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, std::vector<Emulator> emulators,
+                   const RefitOptions& options, int count)
+    : measured_(measured), knobs_(knobs), emulators_(std::move(emulators)), half_(count / 2) {
+  for (std::size_t r = 0; r < measured.size(); ++r) {
+    const Eigen::MatrixXd covariance =
+        feature_covariance(emulators_[r].residuals.topRows(half_), measured[r].plan, options.model_error * measured[r].setup.release.displacement);
+    Whitened w{Eigen::LLT<Eigen::MatrixXd>(covariance), {}, covariance.diagonal().cwiseSqrt()};
+    w.model = w.root.matrixL().solve(emulators_[r].coefficients.transpose());
+    const Eigen::Index unseen = emulators_[r].residuals.rows() - half_;
+    w.chaos = w.root.matrixL().solve(emulators_[r].residuals.bottomRows(unseen).transpose()).squaredNorm() / static_cast<double>(unseen);
+    Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(covariance.rows(), covariance.cols());
+    for (Eigen::Index f = 0; f < noise.rows(); ++f) noise(f, f) = measured[r].plan.features[static_cast<std::size_t>(f)].noise;
+    w.expected = w.chaos + w.root.matrixL().solve(noise).squaredNorm();
+    whitened_.push_back(std::move(w));
+  }
+  objective_ = objective_of(measured_values(), true);
+}
+
+Eigen::VectorXd FitRound::model(std::size_t r, const Eigen::VectorXd& z) const {
+  return emulators_[r].coefficients.transpose() * regression_terms(knobs_, z);
+}
+
+void FitRound::calibrate(const Eigen::VectorXd& z, double observed, Refit& result) const {
+  std::vector<double> sums;
+  const std::vector<Cell> cells = cells_of(measured_);
+  Eigen::MatrixXd cell_rows(pseudo_experiments, static_cast<Eigen::Index>(cells.size()));
+  std::vector<Eigen::VectorXd> spreads, residuals(measured_.size());
+  for (const Whitened& w : whitened_) spreads.push_back(w.spread);
+  int worse = 0;
+  for (int e = 0; e < pseudo_experiments; ++e) {
+    Random random(23, static_cast<std::uint64_t>(e), Stream::bootstrap);
+    std::vector<Eigen::VectorXd> values;
+    for (std::size_t r = 0; r < measured_.size(); ++r) {
+      const Eigen::Index rows = emulators_[r].residuals.rows() - half_;
+      const Eigen::Index row = half_ + static_cast<Eigen::Index>(random.uniform() * static_cast<double>(rows));
+      Eigen::VectorXd value = model(r, z) + emulators_[r].residuals.row(row).transpose();
+      for (Eigen::Index f = 0; f < value.size(); ++f) value[f] += measured_[r].plan.features[static_cast<std::size_t>(f)].noise * random.normal();
+      values.push_back(std::move(value));
+    }
+    const Objective pseudo = objective_of(values, false);
+    const Eigen::VectorXd refitted = minimum_of(pseudo, 2.5, 1, z).z;
+    const double least = pseudo.chi2(refitted);
+    for (std::size_t r = 0; r < measured_.size(); ++r) residuals[r] = values[r] - model(r, refitted);
+    cell_rows.row(e) = cell_sums(cells, residuals, spreads).transpose();
+    sums.push_back(least);
+    worse += least >= observed;
+  }
+  std::sort(sums.begin(), sums.end());
+  result.p_value = (1.0 + worse) / (1.0 + pseudo_experiments);
+  result.degrees = sums[sums.size() / 2];
+  result.scatter = observed / result.degrees;
+  for (std::size_t r = 0; r < measured_.size(); ++r) residuals[r] = measured_[r].values - model(r, z);
+  result.cells = judge_cells(cells, residuals, spreads, cell_rows);
+}
+
+void FitRound::hold_out(Refit& result, const std::vector<Rule>& rules) const {
+  std::vector<double> lengths;
+  for (const MeasuredFeatures& m : measured_)
+    if (std::find(lengths.begin(), lengths.end(), m.setup.box.length) == lengths.end()) lengths.push_back(m.setup.box.length);
+  result.held_out_error_box = result.held_out_error_centre = result.held_out_chi2 = result.judged_held_out_chi2 = std::nan("");
+  if (lengths.size() < 2) return;
+  double box = 0, centre = 0, chi2 = 0, judged = 0;
+  for (const double length : lengths) {
+    std::vector<char> used;
+    for (const MeasuredFeatures& m : measured_) used.push_back(m.setup.box.length != length);
+    const Minimum minimum = minimum_of(objective_of(measured_values(), true, used), reach, 2);
+    for (std::size_t r = 0; r < measured_.size(); ++r) {
+      if (used[r]) continue;
+      const RunComparison left_out = comparison(r, minimum.z);
+      box += left_out.error_box * left_out.error_box;
+      centre += left_out.error_centre * left_out.error_centre;
+      chi2 += left_out.chi2;
+      judged += judged_chi2(r, minimum.z, rules[r]);
+    }
+  }
+  const double count = static_cast<double>(measured_.size());
+  result.held_out_error_box = std::sqrt(box / count);
+  result.held_out_error_centre = std::sqrt(centre / count);
+  result.held_out_chi2 = chi2;
+  result.judged_held_out_chi2 = judged;
+}
+
+Eigen::MatrixXd FitRound::covariance_at(const Eigen::VectorXd& z, double open) const {
+  const Eigen::Index n = z.size();
+  if (n == 0) return Eigen::MatrixXd(0, 0);
+  const Eigen::VectorXd phi = regression_terms(knobs_, z);
+  const Eigen::MatrixXd slopes = slopes_at(z);
+  const double inflation = objective_.inflation(phi);
+  Eigen::MatrixXd information = slopes.transpose() * (objective_.square - objective_.error) * slopes;
+  Eigen::MatrixXd gradient = slopes.transpose() * objective_.error * slopes;
+  for (std::size_t r = 0; r < measured_.size(); ++r) {
+    // Columns: C^-1 J of this run, features x knobs.
+    const Eigen::MatrixXd weights = whitened_[r].root.matrixU().solve(whitened_[r].model * slopes);
+    const Eigen::Index unseen = emulators_[r].residuals.rows() - half_;
+    const Eigen::MatrixXd chaos = emulators_[r].residuals.bottomRows(unseen) * weights;
+    gradient += inflation * chaos.transpose() * chaos / static_cast<double>(unseen);
+    for (Eigen::Index f = 0; f < weights.rows(); ++f)
+      gradient += std::pow(measured_[r].plan.features[static_cast<std::size_t>(f)].noise, 2) * weights.row(f).transpose() * weights.row(f);
+  }
+  for (Eigen::Index a = 0; a < n; ++a) {
+    const Knob& knob = knobs_[static_cast<std::size_t>(a)];
+    if (knob.believed_error == 0) continue;
+    information(a, a) += std::pow(knob.width / knob.believed_error, 2);
+    gradient(a, a) += std::pow(knob.width / knob.believed_error, 2);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(information);
+  const Eigen::VectorXd inverse = axes.eigenvalues().array().max(1 / (open * open)).inverse().matrix();
+  Eigen::MatrixXd covariance = inverse.asDiagonal() * (axes.eigenvectors().transpose() * gradient * axes.eigenvectors()) * inverse.asDiagonal();
+  const Eigen::VectorXd within = (open / covariance.diagonal().array().sqrt()).min(1.0).matrix();
+  covariance = within.asDiagonal() * covariance * within.asDiagonal();
+  return axes.eigenvectors() * covariance * axes.eigenvectors().transpose();
+}
+
+double FitRound::judged_chi2(std::size_t r, const Eigen::VectorXd& z, const Rule& rule) const {
+  const Eigen::VectorXd phi = regression_terms(knobs_, z);
+  const double error = phi.dot(emulators_[r].inverse_normal * phi) / static_cast<double>(emulators_[r].residuals.rows());
+  const double wrong = rule.root.matrixL().solve(emulators_[r].residuals.transpose()).squaredNorm() * error;
+  return rule.root.matrixL().solve(measured_[r].values - model(r, z)).squaredNorm() * rule.expected / (rule.expected + wrong);
+}
+
+std::vector<Rule> FitRound::rules_of(const Refit* other) const {
+  std::vector<Rule> rules;
+  for (std::size_t r = 0; r < measured_.size(); ++r) {
+    Rule rule{whitened_[r].root, whitened_[r].expected};
+    if (other != nullptr) rule.root = Eigen::LLT<Eigen::MatrixXd>(other->covariances[r]);
+    rules.push_back(std::move(rule));
+  }
+  return rules;
+}
+
+std::vector<Eigen::MatrixXd> FitRound::covariances() const {
+  std::vector<Eigen::MatrixXd> list;
+  for (const Whitened& w : whitened_) list.push_back(w.root.reconstructedMatrix());
+  return list;
+}
+
+RunComparison FitRound::comparison(std::size_t r, const Eigen::VectorXd& z) const {
+  RunComparison c{measured_[r].run, 0, 0, 0, 0, 0, measured_[r].values - model(r, z), whitened_[r].spread};
+  const Eigen::VectorXd phi = regression_terms(knobs_, z);
+  c.chi2 = whitened_[r].root.matrixL().solve(c.residual).squaredNorm() /
+           (1 + whitened_[r].chaos / whitened_[r].expected * phi.dot(emulators_[r].inverse_normal * phi));
+  set_errors(c, measured_[r].plan);
+  return c;
+}
+
+std::vector<Eigen::VectorXd> FitRound::measured_values() const {
+  std::vector<Eigen::VectorXd> values;
+  for (const MeasuredFeatures& m : measured_) values.push_back(m.values);
+  return values;
+}
+
+Objective FitRound::objective_of(const std::vector<Eigen::VectorXd>& values, bool measured, const std::vector<char>& used) const {
+  const Eigen::Index terms = emulators_.front().coefficients.rows();
+  Objective objective{&knobs_, Eigen::MatrixXd::Zero(terms, terms), Eigen::VectorXd::Zero(terms), 0, 0};
+  if (measured) objective.error = Eigen::MatrixXd::Zero(terms, terms);
+  for (std::size_t r = 0; r < measured_.size(); ++r) {
+    if (!used.empty() && !used[r]) continue;
+    const Eigen::VectorXd white = whitened_[r].root.matrixL().solve(values[r]);
+    objective.square += whitened_[r].model.transpose() * whitened_[r].model;
+    objective.degrees += whitened_[r].expected;
+    if (measured) objective.error += whitened_[r].chaos * emulators_[r].inverse_normal;
+    objective.cross += whitened_[r].model.transpose() * white;
+    objective.constant += white.squaredNorm();
+  }
+  return objective;
+}
+
+Eigen::MatrixXd FitRound::slopes_at(const Eigen::VectorXd& z) const {
+  constexpr double step = 0.05;
+  Eigen::MatrixXd slopes(objective_.square.rows(), z.size());
+  for (Eigen::Index a = 0; a < z.size(); ++a) {
+    const Eigen::VectorXd moved = step * Eigen::VectorXd::Unit(z.size(), a);
+    slopes.col(a) = (regression_terms(knobs_, z + moved) - regression_terms(knobs_, z - moved)) / (2 * step);
+  }
+  return slopes;
+}
+
+}  // namespace shakedown

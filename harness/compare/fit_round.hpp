@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// One round of a fit: what a batch of scattered simulations tells of the measured runs, and what can be asked of it.
+#pragma once
+#include <Eigen/Cholesky>
+#include <vector>
+
+#include "objective.hpp"
+#include "refit.hpp"
+
+namespace shakedown {
+
+/// How far out of the scattered box (1) a solution may lie before the box follows.
+constexpr double reach = 1.5;
+
+/// One measured run, whitened.
+struct Whitened {
+  Eigen::LLT<Eigen::MatrixXd> root;
+  Eigen::MatrixXd model;  ///< L^-1 times the emulator's coefficients, features x terms
+  Eigen::VectorXd spread;
+  double chaos = 0;     ///< mean square of a simulation's whitened chaos, from simulations that the covariance has not seen
+  double expected = 0;  ///< of the whitened sum: chaos and camera noise
+};
+
+/// By which covariance a run's residual is judged.
+struct Rule {
+  Eigen::LLT<Eigen::MatrixXd> root;
+  double expected = 0;  ///< of the whitened sum
+};
+
+class FitRound {
+ public:
+  /// `measured` and `knobs` must outlive it; `count`: simulations of each different setup, the first half of which gives the weights.
+  FitRound(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, std::vector<Emulator> emulators,
+           const RefitOptions& options, int count);
+
+  const Objective& objective() const { return objective_; }
+  Eigen::VectorXd model(std::size_t r, const Eigen::VectorXd& z) const;
+
+  /// The smallest sum over pseudo-experiments: the model at z, a simulation that the covariance has not seen for each run, and camera
+  /// noise.
+  void calibrate(const Eigen::VectorXd& z, double observed, Refit& result) const;
+
+  /// Predicts each box length from the others, with the same simulations.
+  void hold_out(Refit& result, const std::vector<Rule>& rules) const;
+
+  /// Covariance of the fitted z, the sandwich A^-1 B A^-1. A: the sensitivities' square less what the emulator's error adds to it (second
+  /// derivatives times residuals are mostly noise of the emulator). B: what chaos that the weights have not seen, camera noise and the
+  /// emulator's error make of the gradient; weights that are far from the best make B larger than A. A direction that the data leave
+  /// open gets the size of the searched box.
+  Eigen::MatrixXd covariance_at(const Eigen::VectorXd& z, double open) const;
+
+  /// A run's chi2 by another fit's rule, the emulator's own error taken off.
+  double judged_chi2(std::size_t r, const Eigen::VectorXd& z, const Rule& rule) const;
+
+  /// The rules of `other`, or of this round where there is none.
+  std::vector<Rule> rules_of(const Refit* other) const;
+
+  std::vector<Eigen::MatrixXd> covariances() const;
+
+  RunComparison comparison(std::size_t r, const Eigen::VectorXd& z) const;
+
+ private:
+  std::vector<Eigen::VectorXd> measured_values() const;
+
+  /// `measured`: allows for the emulator's own error, which values that it has made itself do not have.
+  Objective objective_of(const std::vector<Eigen::VectorXd>& values, bool measured, const std::vector<char>& used = {}) const;
+
+  /// Derivatives of the regression's terms, terms x knobs.
+  Eigen::MatrixXd slopes_at(const Eigen::VectorXd& z) const;
+
+  const std::vector<MeasuredFeatures>& measured_;
+  const std::vector<Knob>& knobs_;
+  std::vector<Emulator> emulators_;
+  std::vector<Whitened> whitened_;
+  Eigen::Index half_;
+  Objective objective_;
+};
+
+}  // namespace shakedown

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "objective.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlopt.hpp>
+
+#include "random.hpp"
+
+namespace shakedown {
+
+namespace {
+
+double evaluate(const std::vector<double>& z, std::vector<double>& gradient, void* data) {
+  const auto& objective = *static_cast<const Objective*>(data);
+  const Eigen::Map<const Eigen::VectorXd> at(z.data(), static_cast<Eigen::Index>(z.size()));
+  if (!gradient.empty())
+    for (Eigen::Index k = 0; k < at.size(); ++k) {  // exact for a polynomial of degree four up to (1e-4)^2
+      Eigen::VectorXd up = at, down = at;
+      up[k] += 1e-4;
+      down[k] -= 1e-4;
+      gradient[static_cast<std::size_t>(k)] = (objective(up) - objective(down)) / 2e-4;
+    }
+  return objective(at);
+}
+
+}  // namespace
+
+double Objective::chi2(const Eigen::VectorXd& z) const {
+  const Eigen::VectorXd phi = regression_terms(*knobs, z);
+  return sum(phi) / inflation(phi) + disbelief(z);
+}
+
+double Objective::disbelief(const Eigen::VectorXd& z) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < knobs->size(); ++k) {
+    const Knob& knob = (*knobs)[k];
+    if (knob.believed_error > 0) sum += std::pow((knob.at(z[static_cast<Eigen::Index>(k)]) - knob.believed) / knob.believed_error, 2);
+  }
+  return sum;
+}
+
+double Objective::operator()(const Eigen::VectorXd& z) const {
+  const Eigen::VectorXd phi = regression_terms(*knobs, z);
+  const double wider = inflation(phi);
+  return sum(phi) / wider + degrees * std::log(wider) + disbelief(z);
+}
+
+Minimum minimum_of(const Objective& objective, double farthest, int starts, const Eigen::VectorXd& first) {
+  const std::vector<Knob>& knobs = *objective.knobs;
+  if (knobs.empty()) return {Eigen::VectorXd(0), objective(Eigen::VectorXd(0))};
+  std::vector<double> low, high;
+  for (const Knob& knob : knobs) {
+    low.push_back(std::max(-farthest, knob.z_of(knob.low)));
+    high.push_back(std::min(farthest, knob.z_of(knob.high)));
+  }
+  Minimum best{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs.size())), 0};
+  for (int start = 0; start < starts; ++start) {
+    Random random(17, static_cast<std::uint64_t>(start), Stream::other);
+    std::vector<double> z;
+    for (std::size_t k = 0; k < knobs.size(); ++k)
+      z.push_back(std::clamp(start > 0 ? 1.6 * random.uniform() - 0.8 : first.size() > 0 ? first[static_cast<Eigen::Index>(k)] : 0.0, low[k], high[k]));
+    nlopt::opt search(nlopt::LD_SLSQP, static_cast<unsigned>(knobs.size()));
+    search.set_lower_bounds(low);
+    search.set_upper_bounds(high);
+    search.set_min_objective(evaluate, const_cast<Objective*>(&objective));
+    search.set_xtol_abs(1e-6);
+    search.set_maxeval(200);
+    double value = 0;
+    try {
+      search.optimize(z, value);
+    } catch (const std::runtime_error&) {  // stopped by rounding at the minimum: z is good
+      std::vector<double> none;
+      value = evaluate(z, none, const_cast<Objective*>(&objective));
+    }
+    if (start == 0 || value < best.value) best = {Eigen::Map<Eigen::VectorXd>(z.data(), static_cast<Eigen::Index>(z.size())), value};
+  }
+  return best;
+}
+
+}  // namespace shakedown
