@@ -25,8 +25,9 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
     for (const EffectRecord* effect : known)
       if (effect->name == name) list.push_back({std::string(name), {knob_of(*effect, *effect->find(parameter), component)}, {}, momentum});
   };
-  list.push_back({"grain_friction", {{"grain_friction.grain_grain&grain_friction.grain_wall", 0, 0.2, 0, 1, true}}, {}, false, impulsive_friction, true});
+  list.push_back({"grain_friction", {{"grain_friction.grain_grain&grain_friction.grain_wall", 0, 0.2, 0, 1, true}}, {}, false, impulsive_friction, true, true});
   add("velocity_dependent_restitution", "exponent", false);
+  list.back().always = true;
   // What matters to moving grains is force times range. Ranges beyond the gaps of the packing let the hard engine's wells hold the layer at
   // the wall for good, and so do stronger forces.
   list.push_back({"grain_cohesion", {{"grain_cohesion.force", 0, 8e-3, 0, 2e-2, true}}, {{"grain_cohesion.range", 2e-5}}, false, 4, true});

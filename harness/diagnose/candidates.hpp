@@ -15,6 +15,8 @@ struct Candidate {
   bool seen_by_momentum = false;  ///< a force from outside or a camera error that the momentum balance judges better
   double doubt = 0;               ///< chi2 that it must bring beyond a rival: how unlikely it is in such an experiment
   bool dear = false;              ///< costs several times a plain run: screened by itself, with fewer runs
+  /// Tried whatever the linear estimate says: inside the contacts a refit hides most of what is linear, and at full strength it is not.
+  bool always = false;
 };
 
 /// The knob's value at which the effect is absent: zero for strengths, the centre for what replaces a parameter.

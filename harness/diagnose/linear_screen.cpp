@@ -113,6 +113,11 @@ std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured
   const double without = screen_together(measured, fitted, candidates, cheap, workshop, count, next(), screening);
   const int few = std::max(60, count / 4);
   for (std::size_t c = 0; c < candidates.size(); ++c) {
+    if (candidates[c].dear && candidates[c].always) {
+      screening.list.push_back({c, candidates[c].effect, 0, candidates[c].knobs.front().centre, {}});
+      screening.signatures.emplace_back();
+      continue;
+    }
     if (candidates[c].dear) screen_together(measured, fitted, candidates, {c}, workshop, few, next(), screening);
     if (!candidates[c].knobs.empty()) continue;
     screen_switch(measured, fitted, candidates, c, workshop, few, next(), without, screening);

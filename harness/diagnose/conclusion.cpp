@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// What a diagnosis says in the end: the sentence, the parameters, the formula of an unknown force and the experiment to do next.
+#include <algorithm>
+#include <cmath>
+
+#include "next_experiment.hpp"
+#include "pipeline.hpp"
+#include "quantity.hpp"
+#include "setup_keys.hpp"
+
+namespace shakedown {
+
+namespace {
+
+std::string unit_of(const std::string& key, std::span<const EffectRecord* const> known) {
+  const std::string first = key.substr(0, key.find('&'));
+  if (const SetupKey* found = find_setup_key(first)) return std::string(found->unit.empty() ? "" : found->unit == "Hz" ? "Hz" : found->unit);
+  for (const EffectRecord* record : known)
+    if (record->name == effect_of(first)) {
+      std::string parameter = first.substr(first.find('.') + 1);
+      if (const std::size_t dot = parameter.find('.'); dot != parameter.npos) parameter.resize(dot);
+      if (const Parameter* found = record->find(parameter)) return std::string(found->unit);
+    }
+  return "";
+}
+
+}  // namespace
+
+/// The experiment that would tell what these data tell badly.
+void Pipeline::advise_experiments() {
+  std::vector<std::string>& list = result_.next_experiments;
+  for (const FoundTerm& term : result_.momentum.terms)
+    if (!term.look_alikes.empty())
+      list.push_back("the box alone, grains.count = 0, ringing down: tells " + term.effect + " from " + term.look_alikes.front() + " without any grains");
+  if (result_.verdict == Verdict::unknown)
+    list.push_back(result_.force_formula.empty() ? "the same box with half the grains and with none: what stays acts on the box, what goes lies in the contacts"
+                                                 : "the box alone, grains.count = 0, ringing down: shows whether the force acts on the box or on the grains");
+  for (const FittedValue& value : final_.values)
+    if (refitted_ && value.key.starts_with("restitution") && value.error > 0.03) {
+      list.push_back("N = 20, L = 40 mm: tells the two restitutions apart, which these runs know only together (" + value.key + " +- " +
+                     write_number(std::round(value.error * 1e3) / 1e3) + ")");
+      break;
+    }
+  if (result_.verdict != Verdict::missing || !runner_up_ || chosen_.empty()) return;
+  stage_ = "which experiment would decide";
+  const std::vector<Knob> found(chosen_.end() - 1, chosen_.end());
+  const RunAudit& camera = audit_.runs.front();
+  std::vector<Design> designs = possible_designs(result_.amended);
+  const std::string effect = effect_of(found.front().key);
+  for (Design& design : designs) std::erase_if(design.setup.effects, [&](const EffectChoice& choice) { return choice.record->name == runner_up_->effect; });
+  for (const Advice& advice : advise(designs, theta_, found, *runner_up_, camera.box.standard_deviation, camera.com.standard_deviation, workshop_, 96, 100000 * ++batch_))
+    if (list.size() < 4 && advice.sigmas > 1)
+      list.push_back(advice.words + ": tells " + effect + " from " + runner_up_->effect + " at " + write_number(std::round(advice.sigmas * 10) / 10) + " sigma a run");
+}
+
+void Pipeline::conclude_unknown() {
+  result_.verdict = Verdict::unknown;
+  result_.missing.clear();
+  if (result_.momentum.formulas.empty()) return;
+  const ForceFormula& found = result_.momentum.formulas.front();
+  std::string constants;
+  for (const FormulaConstant& c : found.constants)
+    constants += (constants.empty() ? "" : ", ") + c.name + " = \"" + write_quantity(c.value, c.unit) + "\"";
+  result_.force_formula = "[[effect]]\nname = \"user_force\"\non = \"box\"\nforce = \"" + found.formula + "\"\nconstants = {" + constants + "}\n";
+  for (const std::string& alike : found.look_alikes) result_.notes.push_back("the force could as well be " + alike);
+}
+
+/// What was found first, then by gain.
+void Pipeline::sort_ranking() {
+  const auto place = [&](const RankedEffect& ranked) { return std::find(result_.missing.begin(), result_.missing.end(), ranked.effect) - result_.missing.begin(); };
+  std::stable_sort(result_.ranking.begin(), result_.ranking.end(), [&](const RankedEffect& a, const RankedEffect& b) {
+    return place(a) != place(b) ? place(a) < place(b) : a.gain > b.gain;
+  });
+}
+
+void Pipeline::finish() {
+  sort_ranking();
+  result_.amended = base_;
+  result_.amended.hard.pair_elastic_speed = user_.hard.pair_elastic_speed;
+  for (const FittedValue& value : final_.values) {
+    if (!refitted_) break;  // as given, within what codes differ by: nothing to change
+    std::string keys = value.key;
+    for (std::size_t at = 0; at < keys.size();) {
+      const std::size_t end = std::min(keys.find('&', at), keys.size());
+      const std::string key = keys.substr(at, end - at);
+      result_.parameters.push_back({key, value.value, value.low, value.high, unit_of(key, options_.known), ""});
+      set_number(result_.amended, key, value.value, options_.known);
+      at = end + 1;
+    }
+  }
+  result_.sentence = "";
+  const auto percent = [](double p) { return std::to_string(static_cast<int>(std::round(100 * p))) + " %"; };
+  switch (result_.verdict) {
+    case Verdict::adequate:
+      result_.sentence = "The model holds as given: what remains is within camera noise and the spread from run to run (" +
+                         percent(final_.p_value) + " of the model's own runs fit no better).";
+      break;
+    case Verdict::refit: result_.sentence = "No effect is missing: other values of the parameters explain the measurements."; break;
+    case Verdict::missing: {
+      std::string names;
+      for (const std::string& effect : result_.missing) names += (names.empty() ? "" : " and ") + effect;
+      result_.sentence = "Missing in the model: " + names + ". With it the rms error of the box falls from " +
+                         std::to_string(result_.ladder.front().error_box * 1e3).substr(0, 4) + " to " +
+                         std::to_string(final_.error_box() * 1e3).substr(0, 4) + " mm (noise and run-to-run spread: " +
+                         std::to_string(final_.floor_box() * 1e3).substr(0, 4) + " mm).";
+      break;
+    }
+    case Verdict::unknown:
+      result_.sentence = result_.momentum.unexplained || result_.momentum.unlisted
+                             ? "Something that is not in the library acts on the box: no known force brings the momentum balance into order."
+                             : "None of the known effects explains the measurements; momentum is in order, so it lies inside the contacts.";
+      break;
+  }
+}
+
+}  // namespace shakedown

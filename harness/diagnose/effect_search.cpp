@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// Which effect, added and fitted, brings the error down.
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline.hpp"
+#include "setup_keys.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// Without the effect the restitutions were led astray: the box reaches from there to what the user gave.
+std::vector<Knob> covering_the_users_values(std::vector<Knob> knobs) {
+  for (Knob& knob : knobs) {
+    if (knob.believed_error == 0) continue;
+    const double apart = std::abs(knob.centre - knob.believed);
+    knob.centre = (knob.centre + knob.believed) / 2;
+    knob.width = apart / 2 + 0.08;
+  }
+  return knobs;
+}
+
+}  // namespace
+
+/// Tries the most promising effects with everything refitted; takes the best when it pays. False: none does.
+bool Pipeline::add_best_candidate(Refit& best) {
+  std::vector<Candidate> candidates = candidates_for(base_, options_.effects, options_.known);
+  // What the momentum balance sees better it has judged already.
+  if (result_.momentum.possible) std::erase_if(candidates, [](const Candidate& candidate) { return candidate.seen_by_momentum; });
+  // What showed nothing before is not looked for again.
+  std::erase_if(candidates, [&](const Candidate& candidate) {
+    return std::any_of(result_.ranking.begin(), result_.ranking.end(), [&](const RankedEffect& r) { return r.effect == candidate.effect; }) &&
+           std::none_of(result_.ranking.begin(), result_.ranking.end(),
+                        [&](const RankedEffect& r) { return r.effect == candidate.effect && r.gain > least_gain / 3; });
+  });
+  stage_ = "ranking the effects";
+  const std::vector<Knob> fitted = together(theta_, chosen_);
+  std::vector<ScreenedEffect> screened = screen(features(), fitted, candidates, workshop_, 320, 100000 * ++batch_);
+  for (const ScreenedEffect& effect : screened) result_.ranking.push_back({effect.effect, effect.gain, std::nan(""), std::nan(""), effect.value, effect.look_alikes});
+  const Setup before = base_;
+  std::vector<Rival> rivals;
+  const auto promise = [&](const ScreenedEffect& effect) { return effect.gain - candidates[effect.candidate].doubt; };
+  const auto always = [&](const ScreenedEffect& effect) { return candidates[effect.candidate].always; };
+  std::stable_sort(screened.begin(), screened.end(), [&](const ScreenedEffect& a, const ScreenedEffect& b) { return promise(a) > promise(b); });
+  std::stable_partition(screened.begin(), screened.end(), always);
+  const auto first = std::find_if_not(screened.begin(), screened.end(), always);
+  double best_score = 0;
+  for (const ScreenedEffect& effect : screened) {
+    if (rivals.size() >= most_tried || result_.runs_simulated > options_.budget) break;
+    // Linear gains rank well enough to leave out what promises half of what another has already brought.
+    if (!always(effect) && (effect.gain < least_gain / 2 || promise(effect) < std::max(0.25 * promise(*first), 0.5 * best_score))) continue;
+    try {
+      rivals.push_back(try_candidate(effect, candidates[effect.candidate], before, fitted, best));
+      best_score = std::max(best_score, rivals.back().score());
+    } catch (const PhysicsError& error) {
+      result_.notes.push_back(effect.effect + " could not be tried: " + error.what());
+    }
+  }
+  std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.score() > b.score(); });
+  // Too close to call: more simulations for both.
+  if (rivals.size() > 1 && rivals[0].score() - rivals[1].score() < too_close && rivals[0].score() > least_gain) {
+    rivals.resize(2);
+    for (Rival& rival : rivals) rival = decide(rival, best);
+    if (rivals[1].score() > rivals[0].score()) std::swap(rivals[0], rivals[1]);
+  }
+  base_ = before;
+  if (rivals.empty()) return false;
+  runner_up_.reset();
+  if (rivals.size() > 1 && rivals[1].score() > 0)
+    for (const Candidate& candidate : candidates)
+      if (candidate.effect == rivals[1].effect && !candidate.knobs.empty()) runner_up_ = candidate;
+  const Rival& winner = rivals.front();
+  // A model that is rejected must be mended; one that is merely doubtful needs a better reason.
+  // Beside friction, whose two models leave a difference, too.
+  const bool doubt = best.p_value > rejected || std::find(result_.missing.begin(), result_.missing.end(), "grain_friction") != result_.missing.end();
+  const double least = doubt ? 2 * least_gain : least_gain;
+  if (winner.gain < least * std::max(1.0, winner.fit.scatter) || winner.gain < least_share * best.judged_chi2) return false;
+  base_ = winner.setup;
+  for (const Knob& knob : winner.knobs) chosen_.push_back(knob);
+  result_.missing.push_back(winner.effect);
+  keep(winner.fit);
+  for (const Knob& knob : chosen_) set_knob(base_, knob, options_.known);  // present from now on, so that it is no candidate again
+  best = winner.decided ? winner.fit : fit("refitting with " + winner.effect, together(theta_, chosen_), to_conclude);
+  concluded_ = !winner.decided;
+  keep(best);
+  std::string step = "refitted";
+  for (const std::string& effect : result_.missing) step += " + " + effect;
+  result_.ladder.push_back(step_of(step, best));
+  return true;
+}
+
+/// One candidate with everything refitted.
+Pipeline::Rival Pipeline::try_candidate(const ScreenedEffect& effect, const Candidate& candidate, const Setup& before, const std::vector<Knob>& fitted,
+                                        const Refit& best) {
+  base_ = prepared(before, candidate, options_.known);
+  std::vector<Knob> added = candidate.knobs;
+  for (Knob& knob : added)
+    if (candidate.always) {  // its whole usual range
+      knob.centre += knob.width;
+    } else {  // where the linear estimate points
+      knob.centre = std::clamp(effect.value, knob.low, knob.high);
+      knob.width = std::max(knob.width, 0.5 * std::abs(effect.value));
+    }
+  Rival rival{candidate.effect, candidate.doubt, base_, added, fit("trying " + candidate.effect, together(covering_the_users_values(fitted), added), to_try, &best), 0, 0, false};
+  rank(rival, best);
+  return rival;
+}
+
+/// The same again, closer and with more simulations.
+Pipeline::Rival Pipeline::decide(Rival rival, const Refit& best) {
+  base_ = rival.setup;
+  std::vector<Knob> knobs = rival.fit.knobs;
+  for (std::size_t k = 0; k < knobs.size(); ++k) {
+    knobs[k].centre = rival.fit.values[k].value;
+    knobs[k].width = std::clamp(2 * rival.fit.values[k].error, 0.3 * knobs[k].width, knobs[k].width);
+  }
+  rival.fit = fit("comparing " + rival.effect + " closely", knobs, to_decide, &best);
+  rival.decided = true;
+  rank(rival, best);
+  return rival;
+}
+
+void Pipeline::rank(Rival& rival, const Refit& best) {
+  rival.gain = best.judged_chi2 - rival.fit.judged_chi2;
+  rival.held_out_gain = best.judged_held_out_chi2 - rival.fit.judged_held_out_chi2;
+  // The latest entry: an earlier one tells how it stood before other effects joined.
+  for (auto entry = result_.ranking.rbegin(); entry != result_.ranking.rend(); ++entry) {
+    RankedEffect& ranked = *entry;
+    if (ranked.effect != rival.effect) continue;
+    ranked.gain = rival.gain;
+    ranked.held_out_gain = rival.held_out_gain;
+    ranked.standard_error = 2 * std::sqrt(std::abs(rival.held_out_gain));
+    ranked.value = rival.knobs.empty() ? 0 : rival.fit.values.back().value;
+    break;
+  }
+}
+
+/// Each effect but the last must still be needed beside those added after it.
+void Pipeline::prune(Refit& best) {
+  if (result_.missing.size() < 2) return;
+  for (std::size_t i = 0; i + 1 < result_.missing.size(); ++i) {
+    const std::string effect = result_.missing[i];
+    if (std::any_of(result_.momentum.terms.begin(), result_.momentum.terms.end(), [&](const FoundTerm& t) { return t.effect == effect; })) continue;
+    const Setup before = base_;
+    std::erase_if(base_.effects, [&](const EffectChoice& choice) { return choice.record->name == effect; });
+    std::vector<Knob> rest = chosen_;
+    std::erase_if(rest, [&](const Knob& knob) { return effect_of(knob.key) == effect; });
+    const Refit without = fit("is " + effect + " still needed?", together(theta_, rest), to_prune);
+    if (without.p_value <= rejected && (without.scatter - best.scatter) * best.degrees > least_gain) {
+      base_ = before;
+      continue;
+    }
+    chosen_ = rest;
+    result_.missing.erase(result_.missing.begin() + static_cast<std::ptrdiff_t>(i));
+    best = without;
+    concluded_ = false;
+    keep(best);
+    result_.ladder.push_back(step_of("without " + effect, best));
+    return prune(best);
+  }
+}
+
+}  // namespace shakedown

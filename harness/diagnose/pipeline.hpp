@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// The steps of a diagnosis and what they know of each other; diagnosis.hpp is what others see.
+#pragma once
+#include <optional>
+
+#include "diagnosis.hpp"
+#include "experiment_file.hpp"
+#include "linear_screen.hpp"
+
+namespace shakedown {
+
+/// Below this a model is rejected.
+constexpr double rejected = 0.01;
+/// Misfit (chi2 over that of the model's own runs) that two codes of the same physics may have: hard and soft friction differ by 1.3.
+constexpr double codes_differ = 1.2;
+/// Below this an effect with a signature of its own is looked for.
+constexpr double doubtful = 0.05;
+/// A step up the ladder must bring chi2 down by this much and this share: a free parameter and the choice among some twenty effects.
+constexpr double least_gain = 14, least_share = 0.08;
+constexpr int most_effects = 3;
+constexpr std::size_t most_cells = 12;
+constexpr std::size_t most_tried = 4;
+/// Differences of chi2 below this are within the emulators' own noise.
+constexpr double too_close = 15;
+constexpr double quick_elastic_speed = 1e-2;  // m/s
+
+inline std::string effect_of(const std::string& key) { return key.substr(0, key.find('.')); }
+
+/// Simulations of each different setup in a fit's last round, and re-centrings at least.
+struct Effort {
+  int rounds, count;
+};
+constexpr Effort only_look{1, 128}, to_refit{3, 192}, to_try{3, 160}, to_decide{1, 256}, to_prune{2, 160}, to_conclude{2, 256};
+
+class Pipeline {
+ public:
+  Pipeline(const Setup& setup, const Experiment& experiment, const Engine& engine, const DiagnoseOptions& options);
+  Diagnosis run();
+
+ private:
+  // diagnosis.cpp: the course of it
+  bool momentum_clean() const { return !result_.momentum.possible || result_.momentum.as_given.p_value > rejected; }
+
+  std::vector<MeasuredFeatures> features() const {
+    return features_of(experiment_, audit_, setups_of_runs(base_, experiment_, options_.known));
+  }
+
+  void choose_packing();
+  void judge();
+  Refit fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by = nullptr);
+  void add_momentum_terms();
+  bool possible(const FoundTerm& term) const;
+  void keep(const Refit& refit);
+  void note_failures(const Refit& fit);
+
+  // effect_search.cpp
+  /// A candidate that was fitted.
+  struct Rival {
+    std::string effect;
+    double doubt;
+    Setup setup;
+    std::vector<Knob> knobs;
+    Refit fit;
+    double gain, held_out_gain;
+    bool decided;
+    double score() const { return gain + 0.5 * (std::isfinite(held_out_gain) ? std::clamp(held_out_gain, -gain, gain) : 0.0) - doubt; }
+  };
+  bool add_best_candidate(Refit& best);
+  Rival try_candidate(const ScreenedEffect& effect, const Candidate& candidate, const Setup& before, const std::vector<Knob>& fitted, const Refit& best);
+  Rival decide(Rival rival, const Refit& best);
+  void rank(Rival& rival, const Refit& best);
+  void prune(Refit& best);
+
+  // conclusion.cpp
+  void finish();
+  void sort_ranking();
+  void conclude_unknown();
+  void advise_experiments();
+
+  Setup user_, base_;
+  const Experiment& experiment_;
+  const DiagnoseOptions& options_;
+  Audit audit_;
+  Workshop workshop_;
+  Diagnosis result_;
+  std::string stage_;
+  std::vector<Knob> chosen_;       // of the effects added
+  std::vector<Knob> theta_;        // what the user may refit, at its latest values
+  Refit final_;
+  bool refitted_ = false;
+  bool concluded_ = false;  // the latest fit was made with full effort
+  std::optional<Candidate> runner_up_;  // to the effect added last
+  int batch_ = 0;
+};
+
+/// A fit as a step of the ladder.
+LadderStep step_of(const std::string& name, const Refit& fit);
+
+std::vector<Knob> together(const std::vector<Knob>& a, const std::vector<Knob>& b);
+
+}  // namespace shakedown
