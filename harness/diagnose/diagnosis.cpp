@@ -92,19 +92,35 @@ bool Pipeline::possible(const FoundTerm& term) const {
   return parameter == nullptr || term.effect == "oscillating_acceleration" || (term.value >= parameter->low && term.value <= parameter->high);
 }
 
+/// A sine is known to its error in all three: over a run of length T a relative error of the amplitude goes with sqrt(6) / (pi T) as much
+/// in the frequency, and twice as much in the phase at the release (rad).
+void Pipeline::add_sine(const FoundTerm& term) {
+  double longest = 0;
+  for (const MeasuredRun& run : experiment_.runs)
+    if (!run.time.empty()) longest = std::max(longest, run.time.back() - run.time.front());
+  const double error = std::max((term.high - term.low) / 3.92, 0.01 * std::abs(term.value)), relative = std::min(1.0, error / std::abs(term.value));
+  const auto knob = [&](const char* key, double value, double width) {
+    set_number(base_, key, value, options_.known);
+    chosen_.push_back({key, value, width, value - 10 * width, value + 10 * width, false});
+  };
+  knob("oscillating_acceleration.amplitude.x", term.value, 4 * error);
+  knob("oscillating_acceleration.frequency", term.frequency, 4 * relative * 0.78 / std::max(longest, 1.0));
+  knob("oscillating_acceleration.phase", term.phase, 8 * relative);
+}
+
 /// Forces that the momentum balance convicts go in first, at the strength that it finds.
 void Pipeline::add_momentum_terms() {
-  for (const FoundTerm& term : result_.momentum.terms) {
+  const std::vector<FoundTerm>& terms = result_.momentum.terms;
+  for (const FoundTerm& term : terms) {
     // A drag that pushes, a mass below zero: no such effect, though the balance takes it.
     if (!possible(term)) continue;
     if (!options_.effects.empty() && std::find(options_.effects.begin(), options_.effects.end(), term.effect) == options_.effects.end()) continue;
-    if (std::find(result_.missing.begin(), result_.missing.end(), term.effect) != result_.missing.end()) continue;  // a second sine
+    // Of several sines the strongest.
+    if (std::any_of(terms.begin(), terms.end(), [&](const FoundTerm& other) { return other.effect == term.effect && other.gain > term.gain; })) continue;
     result_.missing.push_back(term.effect);
     const std::string component = term.effect == "constant_acceleration" ? ".x" : "";
     if (term.effect == "oscillating_acceleration") {
-      set_number(base_, "oscillating_acceleration.amplitude.x", term.value, options_.known);
-      set_number(base_, "oscillating_acceleration.frequency", term.frequency, options_.known);
-      set_number(base_, "oscillating_acceleration.phase", term.phase, options_.known);
+      add_sine(term);
       continue;
     }
     const std::string key = term.effect + "." + term.parameter + component;

@@ -198,15 +198,16 @@ Selection fit_terms(SelectionProblem& p, std::vector<ChosenTerm> chosen) {
 }
 
 bool drop_needless(SelectionProblem& p, Selection& selection) {
-  const double price = std::log(static_cast<double>(p.problem.size())) + price_of_a_term;
+  const double bits = std::log(static_cast<double>(p.problem.size()));
   Eigen::Index column = 1;
   for (std::size_t out = 1; out < selection.chosen.size(); ++out) {
     const ChosenTerm c = selection.chosen[out];
-    const double ratio = selection.fit.strength[column] / std::max(selection.fit.error[column], 1e-300);
-    column += c.term < 0 ? 2 : 1;
-    if (c.term < 0) continue;
-    const bool forbidden = p.terms[static_cast<std::size_t>(c.term)].never_negative && ratio < 0;
-    if (ratio * ratio > price && !forbidden) continue;
+    const bool sine = c.term < 0;
+    double gain = 0;
+    for (const Eigen::Index last = column + (sine ? 2 : 1); column < last; ++column)
+      gain += std::pow(selection.fit.strength[column] / std::max(selection.fit.error[column], 1e-300), 2);
+    const bool forbidden = !sine && p.terms[static_cast<std::size_t>(c.term)].never_negative && selection.fit.strength[column - 1] < 0;
+    if (gain > (sine ? 2 : 1) * bits + price_of_a_term && !forbidden) continue;
     selection.chosen.erase(selection.chosen.begin() + static_cast<std::ptrdiff_t>(out));
     selection = fit_terms(p, selection.chosen);
     return true;

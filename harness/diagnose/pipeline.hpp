@@ -39,7 +39,7 @@ class Pipeline {
 
  private:
   // diagnosis.cpp: the course of it
-  bool momentum_clean() const { return !result_.momentum.possible || result_.momentum.as_given.p_value > rejected; }
+  bool momentum_clean() const { return !result_.momentum.possible || result_.momentum.as_given.p_value > MomentumOptions{}.reject_p; }
 
   std::vector<MeasuredFeatures> features() const {
     return features_of(experiment_, audit_, setups_of_runs(base_, experiment_, options_.known));
@@ -50,6 +50,7 @@ class Pipeline {
   Refit fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by = nullptr);
   void add_momentum_terms();
   bool possible(const FoundTerm& term) const;
+  void add_sine(const FoundTerm& term);
   void keep(const Refit& refit);
   void note_failures(const Refit& fit);
 
