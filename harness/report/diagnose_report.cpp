@@ -85,8 +85,14 @@ std::string sentence_of(const std::string& effect) {
 
 ReportSection suspects_section(const Diagnosis& diagnosis) {
   ReportSection section;
-  section.title = "Suspects";
+  section.title = diagnosis.ranking.empty() ? "What to measure next" : "Suspects";
+  section.list = diagnosis.next_experiments;
+  if (diagnosis.ranking.empty()) {
+    section.paragraphs = {diagnosis.missing.empty() ? "No effect had to be ranked." : "The balance of momentum told what is missing; nothing inside the contacts had to be ranked."};
+    return section;
+  }
   section.paragraphs = {"What each effect would explain if it were added and everything else refitted: fall of the misfit, on the runs fitted to and on box lengths left out of the fit."};
+  if (!section.list.empty()) section.paragraphs.push_back("Experiments that would tell more:");
   ReportBars bars;
   bars.names = {"fall of the misfit", "of held-out lengths"};
   for (const RankedEffect& r : diagnosis.ranking) {
@@ -102,7 +108,6 @@ ReportSection suspects_section(const Diagnosis& diagnosis) {
   for (const RankedEffect& r : diagnosis.ranking)
     table.rows.push_back({r.effect, for_people(r.gain), for_people(r.held_out_gain), for_people(r.standard_error), for_people(r.value), joined(r.look_alikes)});
   section.tables = {table};
-  if (!diagnosis.next_experiments.empty()) section.list = diagnosis.next_experiments;
   return section;
 }
 
@@ -154,10 +159,13 @@ const char* value_of(ShapeOf of) {
 
 ReportSection failing_cells(const Diagnosis& diagnosis, ReportSection section) {
   if (diagnosis.where.empty()) return section;
-  ReportTable table{"The refitted model fails most at", "Significance after allowing for the number of places looked at.", {"run", "observable", "where", "from, s", "to, s", "error, mm", "sigma"}, {}, false};
+  ReportTable table{diagnosis.missing.empty() ? "The refitted model fails most at" : "Without the effects found the model fails most at", "Worst first, after allowing for the number of places looked at.",
+                    {"run", "observable", "where", "from, s", "to, s", "error, mm", "times its spread"}, {}, false};
   for (const FailureCell& cell : diagnosis.where) {
     if (table.rows.size() == 12) break;
-    table.rows.push_back({cell.run, cell.observable, cell.what, for_people(cell.from), for_people(cell.to), for_people(cell.error * 1e3), for_people(cell.sigmas)});
+    const bool timed = cell.to > cell.from;
+    table.rows.push_back({cell.run.empty() ? "all" : cell.run, cell.observable, cell.what, timed ? for_people(cell.from) : "–", timed ? for_people(cell.to) : "–", for_people(cell.error * 1e3),
+                          for_people(cell.sigmas)});
   }
   section.tables.push_back(table);
   return section;
@@ -215,7 +223,7 @@ Report report_of(const Diagnosis& diagnosis, const Experiment& experiment, const
   }
   report.sections.push_back(ladder_section(diagnosis));
   if (!curves.empty()) report.sections.push_back(failing_cells(diagnosis, failure_section(curves)));
-  report.sections.push_back(suspects_section(diagnosis));
+  if (!diagnosis.ranking.empty() || !diagnosis.next_experiments.empty()) report.sections.push_back(suspects_section(diagnosis));
   report.sections.push_back(parameters_section(diagnosis, given));
   report.sections.push_back(momentum_section(diagnosis.momentum));
   if (!curves.empty()) report.sections.push_back(energy_section(curves));

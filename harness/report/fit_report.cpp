@@ -15,7 +15,8 @@ namespace shakedown {
 namespace {
 
 std::string value_with_interval(const FittedParameter& p, double si) {
-  return fmt::format("{}{} ({} to {})", for_people(p.value / si), p.unit.empty() ? "" : " " + p.unit, for_people(p.low / si), for_people(p.high / si));
+  const std::string text = with_interval(p.value / si, p.low / si, p.high / si);
+  return p.unit.empty() ? text : text + " " + p.unit;
 }
 
 double si_of(const FittedParameter& p) { return std::get<Unit>(parse_unit(p.unit)).si; }
@@ -43,9 +44,11 @@ ReportSection parameters_section(const Fit& fit) {
 
 std::vector<ReportFact> facts_of(const Fit& fit) {
   std::vector<ReportFact> facts;
-  for (const FittedParameter& p : fit.parameters)
-    facts.push_back({p.key, for_people(p.value / si_of(p)) + (p.unit.empty() ? "" : " " + p.unit), p.told ? "95 %: " + for_people(p.low / si_of(p)) + " to " + for_people(p.high / si_of(p)) : "not told by these data",
-                     p.told ? Tone::plain : Tone::unsure});
+  for (const FittedParameter& p : fit.parameters) {
+    const std::string text = with_interval(p.value / si_of(p), p.low / si_of(p), p.high / si_of(p));
+    const std::size_t interval = std::min(text.find(" ("), text.size());
+    facts.push_back({p.key, text.substr(0, interval) + (p.unit.empty() ? "" : " " + p.unit), p.told ? "95 %:" + text.substr(interval) : "not told by these data", p.told ? Tone::plain : Tone::unsure});
+  }
   facts.push_back({"Fit", "p = " + for_people(fit.p_value), for_people(fit.scatter) + " times the misfit of the model's own runs", fit.p_value > 0.01 ? Tone::good : Tone::bad});
   facts.push_back({"Simulations", fmt::format("{}", fit.runs), fmt::format("in {:.0f} s", fit.seconds), Tone::plain});
   return facts;

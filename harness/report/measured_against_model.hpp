@@ -62,6 +62,6 @@ ReportSection energy_section(const std::vector<MeasuredAgainstModel>& runs);
 std::vector<std::string> health_lines(const std::vector<MeasuredAgainstModel>& runs);
 
 /// A replay of each measured run (the first `most`), simulated by the hard engine with the final setup.
-std::vector<ReportReplay> replays_of(const std::vector<MeasuredAgainstModel>& runs, std::size_t most = 5, std::size_t bytes = 560'000);
+std::vector<ReportReplay> replays_of(const std::vector<MeasuredAgainstModel>& runs, std::size_t most = 5, std::size_t bytes = 760'000);
 
 }  // namespace shakedown

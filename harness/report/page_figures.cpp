@@ -14,7 +14,7 @@ std::string caption_html(const std::string& caption) { return caption.empty() ? 
 std::string title_html(const std::string& title) { return title.empty() ? "" : "<h3>" + escaped(title) + "</h3>"; }
 
 std::string bare_table(const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& rows) {
-  std::string text = "<div class=\"scroll\" tabindex=\"0\"><table><thead><tr>";
+  std::string text = fmt::format("<div class=\"scroll\" tabindex=\"0\"><table{}><thead><tr>", columns.size() > 5 ? " class=\"wide\"" : "");
   for (const std::string& column : columns) text += "<th scope=\"col\">" + escaped(column) + "</th>";
   text += "</tr></thead><tbody>";
   for (const std::vector<std::string>& row : rows) {
@@ -75,9 +75,16 @@ std::string for_people(double value) {
   const double size = std::abs(value);
   if (size != 0 && (size < 1e-3 || size >= 1e6)) return fmt::format("{:.2e}", value);
   if (size >= 1000) return fmt::format("{:.0f}", value);
-  std::string text = fmt::format("{:#.3g}", value);
-  if (text.back() == '.') text.pop_back();
-  return value == 0 ? "0" : text;
+  return value == 0 ? "0" : size >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:#.3g}", value);
+}
+
+std::string with_interval(double value, double low, double high) {
+  const double width = high - low;
+  if (!std::isfinite(width)) return for_people(value);
+  const int decimals = width > 0 ? static_cast<int>(std::ceil(1 - std::log10(width))) : 3;
+  if (decimals > 7) return fmt::format("{} ({} to {})", for_people(value), for_people(low), for_people(high));
+  const auto number = [&](double v) { return fmt::format("{:.{}f}", v, std::max(0, decimals)); };
+  return number(value) + " (" + number(low) + " to " + number(high) + ")";
 }
 
 std::string_view css_class(Tone tone) {
@@ -153,8 +160,10 @@ std::string intervals_html(const std::vector<ReportInterval>& intervals) {
     text += "<span class=\"track\">";
     if (given) text += "<u style=\"left:" + at(v.given) + "\" title=\"in the setup\"></u>";
     if (whiskers) text += fmt::format("<b style=\"left:{};width:{}\"></b>", at(v.low), percent((v.high - v.low) / across));
-    text += "<i style=\"left:" + at(v.value) + "\"></i></span><span class=\"number\">" + for_people(v.value) + " " + escaped(v.unit);
-    if (whiskers) text += fmt::format(" <small>({} to {})</small>", for_people(v.low), for_people(v.high));
+    const std::string number = whiskers ? with_interval(v.value, v.low, v.high) : for_people(v.value);
+    const std::size_t interval = std::min(number.find(" ("), number.size());
+    text += "<i style=\"left:" + at(v.value) + "\"></i></span><span class=\"number\">" + number.substr(0, interval) + " " + escaped(v.unit);
+    if (interval < number.size()) text += "<small>" + number.substr(interval) + "</small>";
     if (given) text += fmt::format(" <small>setup: {}</small>", for_people(v.given));
     text += "</span>";
   }

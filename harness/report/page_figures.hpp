@@ -14,6 +14,9 @@ std::string escaped(std::string_view text);
 /// A number for people: four significant digits, no exponent between 1e-3 and 1e5.
 std::string for_people(double value);
 
+/// "0.9901 (0.9899 to 0.9903)": as many digits as the interval deserves.
+std::string with_interval(double value, double low, double high);
+
 std::string_view css_class(Tone tone);
 
 std::string table_html(const ReportTable& table);

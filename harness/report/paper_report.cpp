@@ -40,9 +40,14 @@ std::vector<double> common_x(const Panel& panel) {
   return x;
 }
 
+std::string title_of(const Chart& chart, const Panel& panel, const std::string& group) {
+  if (!group.empty()) return panel.y_label.substr(0, panel.y_label.find(','));
+  return &panel == &chart.panels.front() ? chart.title : chart.title + " (" + panel.y_label.substr(0, panel.y_label.find(',')) + ")";
+}
+
 ReportPlot plot_of(const Chart& chart, const Panel& panel, const std::string& group) {
   ReportPlot plot;
-  plot.title = chart.panels.size() > 1 && !group.empty() ? panel.y_label.substr(0, panel.y_label.find(',')) : chart.title;
+  plot.title = title_of(chart, panel, group);
   plot.x_label = panel.x_label == "t, s" ? "time since release, s" : panel.x_label;
   plot.y_label = panel.y_label;
   plot.group = group;
@@ -55,6 +60,8 @@ ReportPlot plot_of(const Chart& chart, const Panel& panel, const std::string& gr
     first = false;
     plot.curves.push_back(std::move(drawn));
   }
+  // Dashed ones first, so that they lie under the others.
+  std::stable_partition(plot.curves.begin(), plot.curves.end(), [](const ReportCurve& curve) { return curve.role == CurveRole::as_given; });
   for (const Panel::Vertical& line : panel.verticals) plot.marks.push_back({line.x, line.label});
   return plot;
 }
@@ -81,13 +88,15 @@ std::string readable(const Finding& f) {
   return fmt::format("{}{} ({} to {})", for_people(f.value), unit, for_people(f.low), for_people(f.high));
 }
 
+std::string mark_of(Judgement judgement) { return judgement == Judgement::holds ? "\u2713 " : judgement == Judgement::fails ? "\u2715 " : "? "; }
+
 ReportSection statements_section(const Paper& paper) {
   ReportSection section;
   section.title = "Statement by statement";
   section.paragraphs = {"Numbers are means with 95 % intervals of the mean. Where the paper gives no number the rule says how its words were taken."};
   ReportTable verdicts{"", "", {"statement", "paper", "verdict", "it holds when"}, {}, false}, findings{"What was found", "", {"statement", "finding", "value (95 %)"}, {}, true};
   for (const Statement& s : paper.statements) {
-    verdicts.rows.push_back({s.text, s.paper, std::string(name_of(s.judgement)), s.rule});
+    verdicts.rows.push_back({s.text, s.paper, mark_of(s.judgement) + std::string(name_of(s.judgement)), s.rule});
     for (const Finding& f : s.findings) findings.rows.push_back({s.name, f.what, readable(f)});
   }
   section.tables = {verdicts, findings};
@@ -96,14 +105,31 @@ ReportSection statements_section(const Paper& paper) {
   return section;
 }
 
+ReportPlot friction_plot(const Puzzle& puzzle) {
+  ReportPlot plot;
+  plot.title = "Grains of 0.95 that rub, fitted without friction";
+  plot.x_label = "friction in the laboratory";
+  plot.y_label = "fitted restitution";
+  std::vector<double> low, high, paper;
+  ReportCurve fitted{"grain-grain, fitted to L = 40 mm", CurveRole::model, {}};
+  for (const PuzzlePoint& point : puzzle.points) {
+    const FittedParameter& p = point.one.parameters.front();
+    plot.x.push_back(point.friction);
+    low.push_back(p.low), high.push_back(p.high), fitted.y.push_back(p.value), paper.push_back(0.75);
+  }
+  plot.curves = band("95 %", low, high);
+  plot.curves.push_back({"the paper's fit", CurveRole::as_given, paper});
+  plot.curves.push_back(fitted);
+  return plot;
+}
+
 ReportSection puzzle_section(const Paper& paper) {
   const Puzzle& puzzle = paper.runs.puzzle;
   ReportSection section;
   section.title = "The puzzle: 0.95 or 0.75?";
   section.paragraphs = {"A drop test says that two grains keep 0.95 of their closing speed, the paper's fit says 0.75. Here grains of 0.95 that rub were filmed in the soft engine and fitted without friction, as the paper did.",
                         "Then the other way round, with " + fmt::format("friction {:g}", puzzle.friction) + " in the laboratory and L = 40 mm alone fitted: error on the lengths left out."};
-  for (const Chart& chart : paper.charts)
-    if (chart.name == "puzzle") section.plots = {plot_of(chart, chart.panels.front(), "")};
+  section.plots = {friction_plot(puzzle)};
   ReportTable models{"Error of the box, mm", "In brackets: the spread that noise, chaos and the fit's uncertainty make.", {"model"}, {}, false};
   if (!puzzle.models.empty())
     for (const std::string& run : puzzle.models.front().runs) models.columns.push_back(run);

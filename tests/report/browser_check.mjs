@@ -40,14 +40,18 @@ async function open(options = {}) {
   await page.goto(url);
   await page.waitForFunction(() => document.documentElement.dataset.ready, null, { timeout: 60000 });
   page.seconds = (Date.now() - start) / 1000;
+  page.own_seconds = (await page.evaluate(() => report.ready)) / 1000;  // by the page's own clock, from navigation to plots drawn
   page.cpu_seconds = (await cdp.send("Performance.getMetrics")).metrics.find((metric) => metric.name === "TaskDuration").value;
   return page;
 }
 
 const page = await open();
-figures.seconds_to_ready = page.seconds;
+figures.seconds_to_ready = page.own_seconds;
+figures.seconds_with_the_browser = page.seconds;
 figures.cpu_seconds_to_ready = page.cpu_seconds;
-expect(page.seconds < 2 || page.cpu_seconds < 0.5, `ready after ${page.seconds} s (${page.cpu_seconds} s of computing), not within 2 s`);
+expect(page.own_seconds < 2 || page.cpu_seconds < 0.5, `ready after ${page.own_seconds} s (${page.cpu_seconds} s of computing), not within 2 s`);
+expect(/default-src 'none'/.test((await page.getAttribute("meta[http-equiv=Content-Security-Policy]", "content")) || ""), "no content-security policy that forbids the network");
+expect(figures.bytes <= 1.5e6, `${figures.bytes} bytes, more than 1.5 MB`);
 expect((await page.getAttribute("html", "data-ready")) === "yes", "the page did not become ready");
 expect(page.requests.length === 1, `asked for ${page.requests.length} things: ${page.requests.join(" ")}`);
 figures.requests = page.requests.length;
@@ -85,7 +89,7 @@ if (await replay.count()) {
   const after = await hash();
   expect(before.drawn > 2000, "the grains are not drawn");
   expect(before.sum !== after.sum, "the grains do not move with the time cursor");
-  const over = page.locator(".plot:visible .u-over").nth(1), box = await over.boundingBox();
+  const over = page.locator(".plot:visible .u-over").nth((await page.locator(".plot:visible .u-over").count()) > 1 ? 1 : 0), box = await over.boundingBox();
   await over.click({ position: { x: box.width * 0.5, y: box.height * 0.5 } });
   const clicked = await hash();
   const moved = await page.evaluate(() => report.time);
@@ -107,7 +111,25 @@ for (const width of [1280, 390])
     const view = await open({ width, theme });
     const wide = await view.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     expect(wide <= 0, `at ${width} px the page is ${wide} px too wide`);
-    if (shots) await view.screenshot({ path: join(shots, `report_${width}_${theme}.png`), fullPage: true });
+    const overlaps = await view.evaluate(() => {
+      const rows = [...document.querySelectorAll(".intervals > span:not(.track), .legend li, .fact dt, .fact dd")].filter((e) => e.offsetParent !== null);
+      const boxes = rows.map((e) => { const r = document.createRange(); r.selectNodeContents(e); return [r.getBoundingClientRect(), e]; });
+      const found = [];
+      for (let i = 0; i < boxes.length; ++i)
+        for (let k = i + 1; k < boxes.length && k < i + 12; ++k) {
+          const [a] = boxes[i], [b] = boxes[k];
+          if (a.right > b.left + 1 && b.right > a.left + 1 && a.bottom > b.top + 3 && b.bottom > a.top + 3) found.push(`${boxes[i][1].textContent} | ${boxes[k][1].textContent}`);
+        }
+      return found;
+    });
+    expect(overlaps.length === 0, `at ${width} px texts lie over each other: ${overlaps.slice(0, 3).join("; ")}`);
+    if (shots) await view.screenshot({ path: join(shots, `report_${width}_${theme}.png`), fullPage: true, timeout: 120000 });
+    if (width === 1280 && theme === "dark") {
+      await view.emulateMedia({ media: "print" });
+      expect(!(await view.locator("nav.tools").isVisible()), "tools are printed");
+      expect((await view.evaluate(() => getComputedStyle(document.body).backgroundColor)) === "rgb(255, 255, 255)", "the dark theme is printed");
+      if (shots) await view.screenshot({ path: join(shots, "report_print.png"), fullPage: true, timeout: 120000 });
+    }
     await view.close();
   }
 

@@ -49,3 +49,13 @@ TEST(SlowBrowser, ShowsAStudyOfFourLengthsWithAHiddenEffect) {
   EXPECT_LT(fs::file_size(report), 1'500'000u);
   EXPECT_EQ(check(report), 0);
 }
+
+TEST(SlowBrowser, ShowsASweepWithoutGrains) {
+  if (const std::string missing = what_is_missing(); !missing.empty()) GTEST_SKIP() << missing;
+  fs::create_directories(folder);
+  const fs::path report = folder / "sweep.html", results = folder / "sweep.sqlite";
+  fs::remove(results);
+  ASSERT_EQ(status_of(SHAKEDOWN " sweep " PROJECT_ROOT "/harness/examples/L040.toml --vary box.length=40:80:10mm --vary restitution.grain_grain=0.6:0.9:0.1 --set 'run.duration=3 s' --out " +
+                      results.string() + " --report " + report.string() + " > /dev/null 2>&1"), 0);
+  EXPECT_EQ(check(report), 0);
+}

@@ -7,7 +7,7 @@ const all = (selector, within = document) => [...within.querySelectorAll(selecto
 const colour = (name) => getComputedStyle(root).getPropertyValue(name).trim();
 
 const page = {
-  data: null, plots: [], replays: [], group: "", time: 0, playing: false, pace: 1, duration: 0,
+  data: null, plots: [], replays: [], group: "", time: 0, playing: false, pace: 1, duration: 0, ready: null,
   listeners: [], onTime(listener) { this.listeners.push(listener); },
   setTime(t) {
     this.time = Math.min(Math.max(t, 0), this.duration || t);
@@ -221,6 +221,7 @@ async function start() {
   const first = document.querySelector("[role=tab][aria-selected=true]");
   if (page.data.replays.length) page.time = page.data.replays[0].from;
   const grains = show_group(first ? first.dataset.tab : "");
+  page.ready = performance.now();
   root.dataset.ready = "yes";
   await grains;
   root.dataset.grains = "yes";
