@@ -155,7 +155,7 @@ std::string intervals_html(const std::vector<ReportInterval>& intervals) {
     }
     double low = whiskers ? v.low : v.value, high = whiskers ? v.high : v.value;
     if (given) low = std::min(low, v.given), high = std::max(high, v.given);
-    const double margin = std::max(0.15 * (high - low), 1e-12 + 0.02 * std::abs(v.value)), from = low - margin, across = high - low + 2 * margin;
+    const double margin = high > low ? 0.15 * (high - low) : 1e-12 + 0.02 * std::abs(v.value), from = low - margin, across = high - low + 2 * margin;
     const auto at = [&](double x) { return percent((x - from) / across); };
     text += "<span class=\"track\">";
     if (given) text += "<u style=\"left:" + at(v.given) + "\" title=\"in the setup\"></u>";

@@ -197,7 +197,7 @@ function wire_tools() {
     root.dataset.theme = dark ? "light" : "dark";
     redraw();
   });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  for (const query of ["(prefers-color-scheme: dark)", "print"]) matchMedia(query).addEventListener("change", redraw);
   let width = innerWidth;
   addEventListener("resize", () => {
     if (innerWidth === width) return;
