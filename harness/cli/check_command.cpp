@@ -22,7 +22,7 @@ namespace shakedown {
 namespace {
 
 struct LinearDecayArguments {
-  std::vector<std::string> engines{"hard"};
+  std::vector<std::string> engines{"hard", "soft"};
   std::vector<double> lengths_mm{40, 65, 85, 104};
   int runs = fewest_runs, threads = 0;
   std::uint64_t seed = 1;
@@ -82,7 +82,7 @@ void add_ensemble_options(CLI::App& command, LinearDecayArguments& arguments) {
   command.add_option("--engines", arguments.engines, "engines, separated by commas")
       ->delimiter(',')
       ->type_name("NAMES")
-      ->default_str("hard");
+      ->default_str("hard,soft");
   command.add_option("--lengths", arguments.lengths_mm, "lengths of the box, separated by commas")
       ->delimiter(',')
       ->check(CLI::PositiveNumber)
