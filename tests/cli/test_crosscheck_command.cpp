@@ -58,7 +58,7 @@ TEST_F(CrosscheckCommand, RefusesWhatItCannotUse) {
 }
 
 TEST_F(CheckCommand, FailsWithoutABaselineAndPassesAfterAnUpdate) {
-  const std::vector<std::string> arguments{"check",   "linear-decay", "--lengths",  "40",
+  const std::vector<std::string> arguments{"check",   "linear-decay", "--engines", "hard", "--lengths",  "40",
                                            "--runs",  "8",            "--baselines", in_folder("b.json")};
   EXPECT_EQ(shakedown_program(arguments).code, 4);
   std::vector<std::string> update = arguments;
