@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "compare_report.hpp"
 #include "page_figures.hpp"
@@ -42,6 +43,16 @@ ReportSection parameters_section(const Fit& fit) {
   return section;
 }
 
+std::string headline(const Fit& fit) {
+  const bool left_out = !fit.left_out.empty();
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const RunComparison& run : left_out ? fit.left_out : fit.used) {
+    least = std::min(least, run.error_box / run.floor_box);
+    most = std::max(most, run.error_box / run.floor_box);
+  }
+  return fmt::format("The fit {} with errors of {} to {} times noise and run-to-run spread.", left_out ? "foretells the runs left out" : "follows its runs", for_people(least), for_people(most));
+}
+
 std::vector<ReportFact> facts_of(const Fit& fit) {
   std::vector<ReportFact> facts;
   for (const FittedParameter& p : fit.parameters) {
@@ -63,7 +74,8 @@ Report report_of(const Fit& fit, const Experiment& experiment, const std::vector
   const auto untold = std::count_if(fit.parameters.begin(), fit.parameters.end(), [](const FittedParameter& p) { return !p.told; });
   report.verdict = fit.p_value <= 0.01 ? "No values fit" : untold > 0 ? "Not all is told" : "Fitted";
   report.tone = fit.p_value <= 0.01 ? Tone::bad : untold > 0 ? Tone::unsure : Tone::good;
-  for (const FittedParameter& p : fit.parameters) report.sentence += (report.sentence.empty() ? "" : ", ") + p.key + " = " + value_with_interval(p, si_of(p));
+  report.sentence = headline(fit) + " Values: ";
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) report.sentence += (i > 0 ? "; " : "") + fit.parameters[i].key + " " + value_with_interval(fit.parameters[i], si_of(fit.parameters[i]));
   report.subtitle = fmt::format("Fitted to {} run{}, {} left out.", fit.used.size(), fit.used.size() == 1 ? "" : "s", fit.left_out.size());
   report.facts = facts_of(fit);
   report.replays = replays_of(curves);

@@ -9,6 +9,7 @@
 #include "ensemble.hpp"
 #include "experiment_file.hpp"
 #include "physics.hpp"
+#include "report_parts.hpp"
 
 namespace shakedown {
 
@@ -43,14 +44,16 @@ struct Moments {
   }
 };
 
-void worsen(Health& worst, const Health& health) {
-  worst.deepest_overlap = std::max(worst.deepest_overlap, health.deepest_overlap);
-  worst.ledger_error = std::max(worst.ledger_error, health.ledger_error);
-  worst.momentum_error = std::max(worst.momentum_error, health.momentum_error);
-  worst.elastic_rescues += health.elastic_rescues;
-  worst.refused_events += health.refused_events;
-  for (const std::string& note : health.notes)
-    if (std::find(worst.notes.begin(), worst.notes.end(), note) == worst.notes.end()) worst.notes.push_back(note);
+/// Grains from a file start every run from the same state, and runs would be the same. The smallest nudge makes them as different as chaos
+/// makes real ones.
+void many_from_one_state(const Engine& engine, Setup setup, EnsembleOptions options) {
+  const double restitution = setup.restitution.grain_grain;
+  const int runs = options.runs;
+  options.runs = options.threads = 1;
+  for (int run = 0; run < runs; ++run) {
+    setup.restitution.grain_grain = restitution * (1 - 1e-9 * run);
+    run_ensemble(engine, setup, options);
+  }
 }
 
 ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine& engine, const CurveOptions& options) {
@@ -73,11 +76,12 @@ ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine
       energy.add(i, value_at(trajectory.time, trajectory.total_energy, time[i]));
       for (std::size_t c = 0; c < loss.size(); ++c) loss[c].add(i, value_at(trajectory.time, trajectory.loss[c], time[i]));
     }
-    worsen(motion.health, trajectory.health);
+    motion.health = worse_of(std::move(motion.health), trajectory.health);
     for (const std::int64_t n : trajectory.collisions) motion.collisions += n;
     ++motion.runs;
   };
-  run_ensemble(engine, setup, many);
+  if (setup.release.initial_grains.empty()) run_ensemble(engine, setup, many);
+  else many_from_one_state(engine, setup, many);
   if (options.stop != nullptr && options.stop->load()) throw Interrupted("the curves of the report were not finished");
   motion.box = box.curve();
   motion.centre = centre.curve();

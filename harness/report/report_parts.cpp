@@ -68,6 +68,7 @@ Health worse_of(Health a, const Health& b) {
   a.momentum_error = std::max(a.momentum_error, b.momentum_error);
   a.deepest_overlap = std::max(a.deepest_overlap, b.deepest_overlap);
   a.elastic_rescues += b.elastic_rescues;
+  a.refused_events += b.refused_events;
   for (const std::string& note : b.notes)
     if (std::find(a.notes.begin(), a.notes.end(), note) == a.notes.end()) a.notes.push_back(note);
   return a;
