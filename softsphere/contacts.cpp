@@ -220,7 +220,7 @@ double stored_energy(const ContactModel& model, const Contact& contact) {
     energy += model.law.stored_energy
                   ? model.law.stored_energy(contact.kind, contact.overlap, contact.closing_speed, contact.reduced_mass)
                   : contact.spring.stiffness * contact.overlap * contact.overlap / 2;
-    energy += tangential_stiffness(contact) * contact.stretch.squaredNorm() / 2;
+    if (model.law.has_friction()) energy += energy_of_stretch(model, contact);
   }
   if (model.law.has_attraction() && contact.overlap > -model.law.attraction_range)
     energy -= model.law.attraction_force * (contact.overlap + model.law.attraction_range);

@@ -8,13 +8,27 @@
 namespace shakedown {
 
 namespace {
-double tangential_damping(const ContactModel& model, const Contact& contact) {
-  const double restitution = std::clamp(model.law.tangential_restitution, 1e-4, 1.0);
-  return -2 * (2.0 / 7) * contact.reduced_mass * std::log(restitution) / model.contact_time;
+/// Reduces the slip of a contact that sticks to the tangential restitution, 1/s.
+double tangential_decay(const ContactModel& model) {
+  return -std::log(std::clamp(model.law.tangential_restitution, 1e-4, 1.0)) / model.contact_time;
+}
+
+double tangential_stiffness(const ContactModel& model, const Contact& contact) {
+  const double decay = tangential_decay(model);
+  return 2.0 / 7 * (contact.spring.stiffness + contact.reduced_mass * decay * decay);
+}
+
+/// What the dashpot makes of the slip, with its weight in the coming half kick, N.
+Vec3 dashpot_force(const ContactModel& model, const Bodies& bodies, const Contact& contact) {
+  const double damping = 2 * (2.0 / 7) * contact.reduced_mass * tangential_decay(model);
+  if (damping == 0) return Vec3::Zero();
+  return -contact.dashpot * damping * slip_velocity(bodies, contact);
 }
 }  // namespace
 
-double tangential_stiffness(const Contact& contact) { return 2.0 / 7 * contact.spring.stiffness; }
+double energy_of_stretch(const ContactModel& model, const Contact& contact) {
+  return tangential_stiffness(model, contact) * contact.stretch.squaredNorm() / 2;
+}
 
 double lever_of_first(const Bodies& bodies, const Contact& contact) {
   const double shared = contact.kind == ContactClass::grain_grain ? contact.overlap / 2 : contact.overlap;
@@ -50,25 +64,19 @@ void set_friction(const ContactModel& model, const Bodies& bodies, Contact& cont
   contact.sliding = false;
   const double coefficient = model.law.friction[static_cast<std::size_t>(contact.kind)];
   if (!contact.touching || coefficient == 0) return;
-  Vec3 force = -tangential_stiffness(contact) * contact.stretch;
-  const double damping = tangential_damping(model, contact);
-  if (damping > 0) force -= contact.dashpot * damping * slip_velocity(bodies, contact);
-  // Attraction does not press: without it the normal force is what the spring and dashpot make.
-  const double pressing = contact.normal_force + contact.attraction * model.law.attraction_force;
-  const double limit = coefficient * std::max(pressing, 0.0);
+  const Vec3 force = -tangential_stiffness(model, contact) * contact.stretch + dashpot_force(model, bodies, contact);
+  const double limit = coefficient * std::max(contact.elastic_force, 0.0);
   const double size = force.norm();
   contact.sliding = size > limit;
   contact.tangential_force = contact.sliding ? Vec3(force * (limit / size)) : force;
 }
 
-void let_slide(Contact& contact) {
-  // A spring on its way back is held by the dashpot with less than its own force, and does not slide for that.
+void let_slide(const ContactModel& model, const Bodies& bodies, Contact& contact) {
   if (!contact.touching || !contact.sliding) return;
-  const double stiffness = tangential_stiffness(contact);
-  const double held = contact.tangential_force.norm() / stiffness;
-  const double length = contact.stretch.norm();
-  // Only shortened: a dashpot's share of the force must not lengthen the spring.
-  if (held < length) contact.stretch *= held / length;
+  const Vec3 of_spring = contact.tangential_force - dashpot_force(model, bodies, contact);
+  // A dashpot that alone exceeds the limit must not stretch the spring the other way.
+  if (of_spring.dot(contact.tangential_force) <= 0) contact.stretch.setZero();
+  else contact.stretch = -of_spring / tangential_stiffness(model, contact);
 }
 
 }  // namespace shakedown

@@ -73,24 +73,25 @@ class HalfKick {
       bodies_.spin(body, axis) = space_.spin_before(body, axis) + turn * space_.torque(body, axis);
   }
 
-  double normal_force(const Contact& contact) const {
+  void set_normal_force(Contact& contact) const {
     const double rate = (bodies_.velocity_of(contact.j) - bodies_.velocity_of(contact.i)).dot(contact.normal);
     const double overlap = contact.touching ? contact.overlap : 0.0;
-    double force;
+    double viscous;
     if (model_.law.push) {
       const auto push = [&](double at_rate) {
         return model_.law.push(contact.kind, overlap, at_rate, contact.closing_speed, contact.reduced_mass);
       };
-      const double elastic = overlap > 0 ? push(0) : 0.0;
-      force = elastic + (contact.dashpot != 0 ? contact.dashpot * (push(rate) - push(0)) : 0.0);
+      contact.elastic_force = overlap > 0 ? push(0) : 0.0;
+      viscous = contact.dashpot != 0 ? contact.dashpot * (push(rate) - push(0)) : 0.0;
     } else {
-      force = contact.spring.stiffness * overlap + contact.dashpot * contact.spring.damping * rate;
+      contact.elastic_force = contact.spring.stiffness * overlap;
+      viscous = contact.dashpot * contact.spring.damping * rate;
     }
-    return force - contact.attraction * model_.law.attraction_force;
+    contact.normal_force = contact.elastic_force + viscous - contact.attraction * model_.law.attraction_force;
   }
 
   void add_contact_force(Contact& contact) {
-    contact.normal_force = normal_force(contact);
+    set_normal_force(contact);
     Vec3 force = contact.normal_force * contact.normal;
     if (friction_) {
       set_friction(model_, bodies_, contact);
@@ -122,7 +123,7 @@ class HalfKick {
       const Vec3 rolling = lever_of_first(bodies_, contact) * mean_spin(contact.i) +
                            lever_of_second(bodies_, contact) * mean_spin(contact.j);
       power += contact.tangential_force.dot(relative - rolling.cross(contact.normal));
-      let_slide(contact);
+      let_slide(model_, bodies_, contact);
     }
     accounts.contact_work[static_cast<std::size_t>(contact.kind)] += half_step_ * power;
     if (box_is_held_ && contact.j == bodies_.box())

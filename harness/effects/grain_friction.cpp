@@ -27,8 +27,8 @@ extern const EffectRecord grain_friction{
     .source = "O. R. Walton and R. L. Braun, J. Rheol. 30, 949 (1986); S. F. Foerster et al., Phys. Fluids 6, 1108 "
               "(1994); the tangential spring of 2/7 k_n: L. E. Silbert et al., Phys. Rev. E 64, 051302 (2001)",
     .limits = "One coefficient for rest and motion; no rolling resistance. Impacts that the regularisation of "
-              "inelastic collapse makes elastic are frictionless. An impulse and a tangential spring agree for free "
-              "flight between impacts, less so in a pressed layer.",
+              "inelastic collapse makes elastic are frictionless. Slip after an impact and after a soft contact agree to 0.07 of the slip "
+              "before. An impulse and a tangential spring agree for free flight between impacts, less so in a pressed layer.",
     .parameters = {{.name = "grain_grain", .low = 0, .high = 1, .neutral = 0, .typical = 0.2,
                     .sentence = "Coefficient of friction between grains."},
                    {.name = "grain_wall", .low = 0, .high = 1, .neutral = 0, .typical = 0.2,
@@ -38,8 +38,8 @@ extern const EffectRecord grain_friction{
     .claims = "friction of grains",
     .dissipative = true,
     .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error, "tangential spring of 2/7 of the normal stiffness, stretched up to sliding, with a dashpot for "
-                                        "tangential_restitution from 0 to 1"},
+    .soft = {Fidelity::to_stated_error, "tangential spring of 2/7 of the normal stiffness, stretched up to sliding at mu times the normal "
+                                        "spring's force, with a dashpot for tangential_restitution from 0 to 1"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply,
     .capability_of = &capability_of};
