@@ -15,6 +15,7 @@
 #include "event_log.hpp"
 #include "grain_event.hpp"
 #include "hard_sphere_system.hpp"
+#include "held_bonds.hpp"
 #include "impact.hpp"
 #include "wall_motion.hpp"
 
@@ -78,6 +79,9 @@ class EventLoop {
   void wall_well(int i, int axis, int side, Meeting meeting, EndWalls& walls);
   void refuse(int i, Flight3 flight, EndWalls* walls);
   double restitution(ContactClass contact, double closing, double elastic_below, std::int64_t& rescues) const;
+  double elastic_below(double limit, int i, int j = -1) const;
+  void note_touch(std::uint64_t bond, double momentum, int i, int j = -1);
+  void let_go();
   void kick_box(double jump);
   void finish_wall(int i, const Flight3& flight, const Vec3& impulse);
 
@@ -120,6 +124,8 @@ class EventLoop {
   EndWalls end_walls_;
   std::vector<EndWalls> side_walls_;  // across y and z, where they move or attract; empty: fixed, found by Grains
   std::vector<Vec3> spin_;            // empty without friction
+  HeldBonds held_;
+  int attraction_effect_ = -1;  // its line in the ledger
 
   double now_ = 0, box_time_ = -1;
   BoxMotion::Point box_point_{};
@@ -128,7 +134,7 @@ class EventLoop {
   Ledger ledger_;
   std::array<double, contact_classes> ledger_rest_{};
   std::array<std::int64_t, contact_classes> collisions_{};
-  std::int64_t events_ = 0, refused_ = 0, elastic_walls_ = 0, elastic_pairs_ = 0, wells_ = 0, wells_at_release_ = 0;
+  std::int64_t events_ = 0, refused_ = 0, elastic_walls_ = 0, elastic_pairs_ = 0, wells_ = 0, let_go_ = 0;
   double initial_energy_ = 0, initial_momentum_ = 0, outer_impulse_ = 0, virial_ = 0, worst_ledger_ = 0, worst_momentum_ = 0;
   double grain_mass_ = 0, accounted_ = 0;
   Vec3 grain_momentum_ = Vec3::Zero();  // in the falling frame

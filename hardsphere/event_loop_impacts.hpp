@@ -18,6 +18,29 @@ double EventLoop<Grains, Motion>::restitution(ContactClass contact, double closi
   return 1;
 }
 
+/// Below which closing speed an impact of grain i (and j) is elastic; in wells only where they touch in quick succession.
+template <class Grains, class Motion>
+double EventLoop<Grains, Motion>::elastic_below(double limit, int i, int j) const {
+  if constexpr (driven)
+    if (contact_.has_attraction() && !held_.touched_quickly(i, now_) && (j < 0 || !held_.touched_quickly(j, now_))) return 0;
+  return limit;
+}
+
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::note_touch(std::uint64_t bond, double momentum, int i, int j) {
+  held_.touched(bond, momentum, now_);
+  held_.touches(i, now_);
+  if (j >= 0) held_.touches(j, now_);
+}
+
+/// A bond gives way without paying for it.
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::let_go() {
+  --wells_;
+  ++let_go_;
+  ledger_.effect_loss[static_cast<std::size_t>(attraction_effect_)] -= contact_.attraction_force * contact_.attraction_range;
+}
+
 /// m; some thousand units in the last place of a position, a tenth of the overlap that is promised.
 constexpr double lowest_bounce = 1e-13;
 
@@ -47,7 +70,7 @@ void EventLoop<Grains, Motion>::pair_impact(int i, int j) {
   const double distance = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
   const double closing = -(r[0] * (b.v[0] - a.v[0]) + r[1] * (b.v[1] - a.v[1]) + r[2] * (b.v[2] - a.v[2])) / distance;
   if (closing <= 0) return refuse(i, a, nullptr);
-  const double e = restitution(ContactClass::grain_grain, closing, limits_.pair_speed, elastic_pairs_);
+  const double e = restitution(ContactClass::grain_grain, closing, elastic_below(limits_.pair_speed, i, j), elastic_pairs_);
   const double ma = grains_.mass(i), mb = grains_.mass(j), reduced = ma * mb / (ma + mb);
   const double impulse = reduced * (1 + e) * closing;
   double loss = reduced / 2 * (1 - e * e) * closing * closing;
@@ -72,6 +95,8 @@ void EventLoop<Grains, Motion>::pair_impact(int i, int j) {
   }
   lose(0, loss);
   ++collisions_[0];
+  if constexpr (driven)
+    if (contact_.has_attraction()) note_touch(HeldBonds::of_pair(i, j), reduced * e * closing, i, j);
   virial_ += impulse * distance;
   grains_.set_flight(i, a);
   grains_.set_flight(j, b);
@@ -101,6 +126,9 @@ void EventLoop<Grains, Motion>::pair_well(int i, int j, Meeting meeting) {
     next = std::sqrt(opening * opening - 2 * depth / reduced);
     grains_.set_bond(i, j, false);
     --wells_;
+  } else if (held_.gives_way(HeldBonds::of_pair(i, j), reduced, opening, now_)) {
+    grains_.set_bond(i, j, false);
+    let_go();
   } else {
     next = -opening;
   }
@@ -165,7 +193,7 @@ void EventLoop<Grains, Motion>::end_impact(int i, int side) {
   const double closing = side * (flight.v[0] - wall);
   if (closing <= 0) return refuse(i, flight, &end_walls_);
   if constexpr (driven) press_by_the_swing();
-  const double limit = std::max(limits_.wall_fraction * box_.top_speed(), limits_.wall_speed);
+  const double limit = elastic_below(std::max(limits_.wall_fraction * box_.top_speed(), limits_.wall_speed), i);
   const double e = resolved(restitution(ContactClass::end_wall, closing, limit, elastic_walls_), closing,
                             driven ? walls_across(0).top_acceleration() : box_.top_acceleration());
   const double m = grains_.mass(i), reduced = has_spring_ ? m * box_.mass() / (m + box_.mass()) : m;
@@ -193,6 +221,8 @@ void EventLoop<Grains, Motion>::end_impact(int i, int side) {
   flight.v[0] -= side * impulse / m;
   lose(1, loss);
   ++collisions_[1];
+  if constexpr (driven)
+    if (contact_.has_attraction()) note_touch(HeldBonds::of_wall(i, 0, side), reduced * e * closing, i);
   grains_.set_flight(i, flight);
   const double jump = has_spring_ ? side * impulse / box_.mass() : 0;
   if (has_spring_) kick_box(jump);
@@ -211,7 +241,7 @@ void EventLoop<Grains, Motion>::moving_side_impact(int i, int axis, int side) {
     const std::array<double, 3> wall{walls_across(0).at(now_).v, walls_across(1).at(now_).v, walls_across(2).at(now_).v};
     const double closing = side * (flight.v[k] - wall[k]);
     if (closing <= 0) return refuse(i, flight, side_walls_.empty() ? nullptr : &walls(axis));
-    const double e = resolved(restitution(ContactClass::side_wall, closing, limits_.wall_speed, elastic_walls_), closing,
+    const double e = resolved(restitution(ContactClass::side_wall, closing, elastic_below(limits_.wall_speed, i), elastic_walls_), closing,
                               walls_across(axis).top_acceleration());
     const double m = grains_.mass(i), impulse = m * (1 + e) * closing;
     double loss = m / 2 * (1 - e * e) * closing * closing, jump = 0;
@@ -238,6 +268,7 @@ void EventLoop<Grains, Motion>::moving_side_impact(int i, int axis, int side) {
     add(flight.v, on_grain / m);
     lose(2, loss);
     ++collisions_[2];
+    if (contact_.has_attraction()) note_touch(HeldBonds::of_wall(i, axis, side), m * e * closing, i);
     grains_.set_flight(i, flight);
     if (jump != 0) kick_box(jump);
     grains_.predict(i);
@@ -266,6 +297,10 @@ void EventLoop<Grains, Motion>::wall_well(int i, int axis, int side, Meeting mee
       next = std::sqrt(opening * opening - 2 * depth / reduced);
       walls.set_inside(i, side, false);
       --wells_;
+    } else if (held_.gives_way(HeldBonds::of_wall(i, axis, side), reduced, opening, now_)) {
+      next = opening;
+      walls.set_inside(i, side, false);
+      let_go();
     }
     const double impulse = reduced * (next - opening);  // opens the gap further when positive
     account(now_);

@@ -19,9 +19,10 @@ extern const EffectRecord grain_cohesion{
                "entered with v_n^2 + 2 F d/mu and left only with more than F d",
     .source = "B. J. Alder and T. E. Wainwright, J. Chem. Phys. 31, 459 (1959), square wells",
     .limits = "The force has no memory of the contact (no hysteresis, no liquid volume). The range should stay "
-              "small against the diameter and the force above zero. The hard engine has the whole well at its outer "
-              "edge, and an edge holds grains at rest against any pull: with 0.02 N the engines agree up to a range of "
-              "0.02 mm, while at 0.1 mm, more than the gaps of the packing, hard grains stay glued to the wall.",
+              "small against the diameter. A step of depth F d would hold what lies against it with any force, so bonds that hang at the edge of "
+              "their well give way to a mean pull above F; a run says how many did. Forces above a few times the grain's mass times the box's "
+              "top acceleration (26 mN for the paper's damper) glue all grains together; the engines then differ, and the hard one needs up to "
+              "some seconds for one of motion.",
     .parameters = {{.name = "force", .unit = "N", .low = 0, .high = 10, .neutral = 0, .typical = 0.02,
                     .sentence = "Attraction of two grains, or of a grain and a wall, within the range."},
                    {.name = "range", .unit = "m", .default_value = 2e-5, .low = 1e-7, .high = 2e-3, .typical = 2e-5,

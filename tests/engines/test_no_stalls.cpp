@@ -23,6 +23,7 @@ constexpr double twentieth_of_g = 0.05 * 9.80665;
 std::vector<Strong> strong_settings() {
   return {{"friction", "grain_friction", {{"grain_grain", 0.5}, {"grain_wall", 0.5}}},
           {"cohesion", "grain_cohesion", {{"force", 0.05}, {"range", 1e-4}}},
+          {"short_cohesion", "grain_cohesion", {{"force", 0.05}, {"range", 2e-5}}},
           {"clamp", "clamp_dry_friction", {{"force", 0.1}}},
           {"gravity_along", "constant_acceleration", {{"acceleration", Vec3(-twentieth_of_g, 0, 0)}}},
           {"gravity_across", "constant_acceleration", {{"acceleration", Vec3(0, 0, -twentieth_of_g)}}}};
@@ -64,5 +65,20 @@ TEST_P(SlowStalls, NoneOf32Seeds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Strong, SlowStalls, testing::ValuesIn(strong_settings()), [](const auto& strong) { return strong.param.name; });
+
+/// Rows of unequal grains wedged between the side walls: rare, so many short runs.
+TEST(SlowStallsOfUnequalGrains, NoneOf400Runs) {
+  shakedown::Setup setup;
+  setup.run.duration = 3;
+  setup.run.sample_rate = 50;
+  add_effect(setup, "grain_polydispersity", {{"relative_deviation", 0.05}});
+  const auto engine = make_hard_engine();
+  for (int run = 0; run < 400; ++run) {
+    SCOPED_TRACE(run);
+    RunOptions options;
+    options.run = run;
+    ASSERT_NO_THROW(engine->run(setup, options));
+  }
+}
 
 }  // namespace

@@ -129,9 +129,12 @@ class Friction : public testing::TestWithParam<std::tuple<double, double>> {
   }
 
   double measured(const Engine& engine, ContactClass kind, double slip_over_closing) const {
+    return measured(engine, setup(), kind, slip_over_closing);
+  }
+  double measured(const Engine& engine, const shakedown::Setup& of, ContactClass kind, double slip_over_closing) const {
     const Place place = place_of(kind);
     const double closing = 0.3, slip = slip_over_closing * closing;
-    return impact(engine, setup(), kind, closing * place.normal + slip * place.tangent).slip.dot(place.tangent) / slip;
+    return impact(engine, of, kind, closing * place.normal + slip * place.tangent).slip.dot(place.tangent) / slip;
   }
 };
 
@@ -141,8 +144,21 @@ TEST_P(Friction, SlowsOrReversesTheSlipAlikeInBothViews) {
     for (const double ratio : {0.1, 0.2, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 4.0, 5.0}) {
       SCOPED_TRACE(std::string(contact_class_names[static_cast<std::size_t>(kind)]) + " at u_t/v_n = " + std::to_string(ratio));
       EXPECT_NEAR(measured(*hard, kind, ratio), by_impulse(kind, ratio), 1e-11);
-      // Between sticking and sliding the impulse has a kink that a spring rounds off, a spring with a dashpot more so.
-      EXPECT_NEAR(measured(*soft, kind, ratio), by_impulse(kind, ratio), tangential < 1 ? 0.25 : coefficient > 0.4 ? 0.17 : 0.15);
+      // The impulse has a kink between sticking and sliding that a spring rounds off (0.055); and while it lasts a contact turns with the
+      // grains (0.07 at 1.5 m/s).
+      EXPECT_NEAR(measured(*soft, kind, ratio), by_impulse(kind, ratio), 0.08);
+    }
+}
+
+TEST_P(Friction, StiffContactsStickOrSlideThroughoutAsTheImpulseDoes) {
+  const auto soft = make_soft_engine();
+  shakedown::Setup stiff = setup();
+  stiff.soft.contact_time = 3e-5;
+  stiff.soft.steps_per_contact = 50;
+  for (const ContactClass kind : kinds)
+    for (const double ratio : {0.1 * coefficient, 4.0, 5.0}) {
+      SCOPED_TRACE(std::string(contact_class_names[static_cast<std::size_t>(kind)]) + " at u_t/v_n = " + std::to_string(ratio));
+      EXPECT_NEAR(measured(*soft, stiff, kind, ratio), by_impulse(kind, ratio), tangential < 1 ? 0.025 : 0.01);  // a dashpot slides a little at first touch
     }
 }
 
@@ -204,6 +220,22 @@ TEST_P(SquareWell, TakesItsDepthToLeave) {
     const double escape = well_speed(kind), just_touched = 1e-9 / escape;
     EXPECT_GT(separation(kind, run(kind, -1.02 * escape, -just_touched, 0.02).end_state), 1e-4);
     EXPECT_LT(separation(kind, run(kind, -0.98 * escape, -just_touched, 0.02).end_state), 1e-4);
+  }
+}
+
+/// Two grains bound to each other turn about their centre: at the surface speed v each is pulled outwards with the reduced mass times
+/// v^2 over their distance, and the attraction holds up to its force, however slowly they came to the edge of the well.
+TEST_P(SquareWell, HoldsAgainstPullsUpToTheForce) {
+  const double limit = std::sqrt(0.1 * 2 * radius / reduced_mass(ContactClass::grain_grain));
+  for (const double share : {0.8, 0.95, 1.05, 1.2}) {
+    SCOPED_TRACE(share);
+    shakedown::Setup it = setup();
+    it.run.duration = 0.1;
+    const Vec3 turning = place_of(ContactClass::grain_grain).tangent * limit * std::sqrt(share);
+    const Trajectory result = run_with(*GetParam().make(), it, meeting(ContactClass::grain_grain, turning, 0));
+    const bool apart = separation(ContactClass::grain_grain, result.end_state) > 1e-4;
+    EXPECT_EQ(apart, share > 1);
+    EXPECT_LE(result.health.ledger_error, 1e-6);
   }
 }
 
