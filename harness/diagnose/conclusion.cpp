@@ -3,28 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "key_unit.hpp"
 #include "next_experiment.hpp"
 #include "pipeline.hpp"
 #include "quantity.hpp"
-#include "setup_keys.hpp"
 
 namespace shakedown {
-
-namespace {
-
-std::string unit_of(const std::string& key, std::span<const EffectRecord* const> known) {
-  const std::string first = key.substr(0, key.find('&'));
-  if (const SetupKey* found = find_setup_key(first)) return std::string(found->unit.empty() ? "" : found->unit == "Hz" ? "Hz" : found->unit);
-  for (const EffectRecord* record : known)
-    if (record->name == effect_of(first)) {
-      std::string parameter = first.substr(first.find('.') + 1);
-      if (const std::size_t dot = parameter.find('.'); dot != parameter.npos) parameter.resize(dot);
-      if (const Parameter* found = record->find(parameter)) return std::string(found->unit);
-    }
-  return "";
-}
-
-}  // namespace
 
 /// The experiment that would tell what these data tell badly.
 void Pipeline::advise_experiments() {
@@ -83,7 +67,7 @@ void Pipeline::finish() {
     for (std::size_t at = 0; at < keys.size();) {
       const std::size_t end = std::min(keys.find('&', at), keys.size());
       const std::string key = keys.substr(at, end - at);
-      result_.parameters.push_back({key, value.value, value.low, value.high, unit_of(key, options_.known), ""});
+      result_.parameters.push_back({key, value.value, value.low, value.high, unit_of_key(key, options_.known), ""});
       set_number(result_.amended, key, value.value, options_.known);
       at = end + 1;
     }

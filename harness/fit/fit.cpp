@@ -9,6 +9,7 @@
 
 #include "experiment_file.hpp"
 #include "free_parameters.hpp"
+#include "key_unit.hpp"
 #include "setup_file.hpp"
 #include "suggestion.hpp"
 #include "told_apart.hpp"
@@ -125,7 +126,7 @@ class Fitter {
     const auto i = static_cast<Eigen::Index>(k);
     // The pseudo-experiments' spread ends at the edge of the scattered box; the slopes' does not.
     const double error = std::max(value.error, told.error[i] * std::sqrt(std::max(1.0, fit_.scatter)));
-    FittedParameter found{knob.key, unit_of(knob, options_.known), start_[k].centre, value.value, std::max(knob.low, value.value - 1.96 * error),
+    FittedParameter found{knob.key, unit_of_key(knob.key, options_.known), start_[k].centre, value.value, std::max(knob.low, value.value - 1.96 * error),
                           std::min(knob.high, value.value + 1.96 * error), true, ""};
     const bool covers_most = 2 * 1.96 * error > 0.5 * (knob.high - knob.low) || !std::isfinite(error);
     const bool from_zero = start_[k].low == 0 && value.value - 1.96 * error <= 0;

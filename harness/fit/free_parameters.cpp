@@ -82,11 +82,4 @@ std::vector<Knob> free_parameters(std::string_view text, const Setup& setup, std
   return knobs;
 }
 
-std::string unit_of(const Knob& knob, std::span<const EffectRecord* const> known) {
-  const std::string first = knob.key.substr(0, knob.key.find('&'));
-  if (const SetupKey* key = find_setup_key(first)) return std::string(key->unit);
-  const Parameter* parameter = parameter_of(first, known);
-  return parameter == nullptr ? "" : std::string(parameter->unit);
-}
-
 }  // namespace shakedown

@@ -13,7 +13,4 @@ namespace shakedown {
 /// of the key, within a factor of three of the start for quantities that have none. Throws InputError with every violation.
 std::vector<Knob> free_parameters(std::string_view text, const Setup& setup, std::span<const EffectRecord* const> known);
 
-/// In which people read a knob's value; empty: a pure number.
-std::string unit_of(const Knob& knob, std::span<const EffectRecord* const> known);
-
 }  // namespace shakedown

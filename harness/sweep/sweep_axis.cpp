@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "key_unit.hpp"
 #include "quantity.hpp"
 #include "setup_file.hpp"
-#include "setup_keys.hpp"
 
 namespace shakedown {
 
@@ -29,11 +29,7 @@ std::string unit_of(const std::string& key, std::span<const EffectRecord* const>
     for (Violation& violation : error.violations) violation.place.file = "--vary";
     throw InputError(error.violations);
   }
-  if (const SetupKey* found = find_setup_key(key)) return std::string(found->unit);
-  const std::size_t dot = key.find('.');
-  for (const EffectRecord* record : known)
-    if (record->name == key.substr(0, dot)) return std::string(record->find(key.substr(dot + 1, key.find('.', dot + 1) - dot - 1))->unit);
-  return "";
+  return unit_of_key(key, known);
 }
 
 std::vector<std::string> parts_of(std::string_view text, char separator) {

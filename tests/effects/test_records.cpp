@@ -10,6 +10,7 @@
 #include "catalogue.hpp"
 #include "effects.hpp"
 #include "initial_state.hpp"
+#include "key_unit.hpp"
 #include "quantity.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
@@ -141,8 +142,17 @@ TEST(RecordList, NamesAreUniqueAndFound) {
     EXPECT_TRUE(names.insert(effect->name).second) << effect->name;
     EXPECT_EQ(find_effect(effect->name), effect);
   }
-  EXPECT_EQ(names.size(), 22u);
   EXPECT_EQ(find_effect("nothing"), nullptr);
+}
+
+/// Setups and measurements of years refer to these.
+TEST(RecordList, KeepsTheNamesOnceGiven) {
+  for (const std::string_view name :
+       {"grain_friction", "velocity_dependent_restitution", "grain_cohesion", "side_wall_restitution", "grain_polydispersity", "blade_viscous_damping",
+        "blade_quadratic_drag", "clamp_dry_friction", "spring_cubic", "blade_mass", "initial_box_velocity", "initial_packing", "constant_acceleration",
+        "oscillating_acceleration", "grain_air_drag", "blade_arc", "camera_com_bias", "camera_scale", "camera_time_offset", "camera_drift",
+        "camera_arc", "user_force"})
+    EXPECT_NE(find_effect(name), nullptr) << name;
 }
 
 TEST(RecordList, EffectsCombineInAnyOrder) {
@@ -160,6 +170,15 @@ TEST(RecordList, EffectsCombineInAnyOrder) {
   EXPECT_EQ(one.contact.restitution_at(ContactClass::side_wall, 0.3), 0.6) << "the side walls' own value at the reference speed";
   EXPECT_EQ(one.box.constant, other.box.constant);
   EXPECT_EQ(one.box.harmonics.at(0).amplitude, other.box.harmonics.at(0).amplitude);
+}
+
+TEST(RecordList, KeysHaveTheirUnits) {
+  EXPECT_EQ(unit_of_key("box.length", all_effects()), "mm");
+  EXPECT_EQ(unit_of_key("grain_cohesion.force", all_effects()), "N");
+  EXPECT_EQ(unit_of_key("constant_acceleration.acceleration.x", all_effects()), "m/s^2");
+  EXPECT_EQ(unit_of_key("grain_friction.grain_grain&grain_friction.grain_wall", all_effects()), "");
+  EXPECT_EQ(unit_of_key("spring.frequency&box.length", all_effects()), "Hz");
+  EXPECT_EQ(unit_of_key("nothing.at_all", all_effects()), "");
 }
 
 TEST(RecordList, TwoArrangementsNameBothLines) {

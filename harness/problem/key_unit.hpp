@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "effect.hpp"
+
+namespace shakedown {
+
+/// In which people read the values of a key of the setup or of an effect ("box.length", "constant_acceleration.acceleration.x"; of keys
+/// joined by & the first); empty: a pure number, or no such key.
+std::string unit_of_key(std::string_view key, std::span<const EffectRecord* const> known);
+
+}  // namespace shakedown
