@@ -28,15 +28,16 @@ TEST_F(Interruption, KeepsThePartOfASingleRun) {
 }
 
 TEST_F(Interruption, KeepsFinishedRunsOfAnEnsemble) {
-  // Runs so short that the first is done before the bar is shown, sanitizers or not.
+  // The time left is shown from 2 % on: then two thousand runs are done, however slowly the machine got there (a bar alone can be shown by
+  // a first run that a busy machine held up).
   const Outcome outcome =
-      interrupted_program({"run", example("L040.toml"), "--set", "run.duration=0.01 s", "--runs", "1000000",
+      interrupted_program({"run", example("L040.toml"), "--set", "run.duration=0.01 s", "--runs", "100000",
                            "--threads", "2", "--out", in_folder("out")},
-                          " %");
+                          " s left");
   EXPECT_EQ(outcome.code, 130) << outcome.err;
   const json summary = json::parse(contents(folder / "out/summary.json"));
   EXPECT_TRUE(summary["interrupted"]);
-  EXPECT_GE(summary["runs"]["finished"], 1);
-  EXPECT_LT(summary["runs"]["finished"], 1000000);
+  EXPECT_GE(summary["runs"]["finished"], 1000);
+  EXPECT_LT(summary["runs"]["finished"], 100000);
   EXPECT_EQ(summary["initial_energy_J"]["n"], summary["runs"]["finished"]);
 }
