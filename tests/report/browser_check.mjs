@@ -22,6 +22,7 @@ const context = await chromium.launchPersistentContext(mkdtempSync(join(tmpdir()
     "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
 });
 await context.setOffline(true);
+context.setDefaultTimeout(240000);  // of clicks and pictures on a busy machine; the page itself is timed below
 
 async function open(options = {}) {
   const page = await context.newPage();
@@ -38,7 +39,7 @@ async function open(options = {}) {
   await cdp.send("Performance.enable", { timeDomain: "threadTicks" });
   const start = Date.now();
   await page.goto(url);
-  await page.waitForFunction(() => document.documentElement.dataset.ready, null, { timeout: 60000 });
+  await page.waitForFunction(() => document.documentElement.dataset.ready, null, { timeout: 240000 });
   page.seconds = (Date.now() - start) / 1000;
   page.own_seconds = (await page.evaluate(() => report.ready)) / 1000;  // by the page's own clock, from navigation to plots drawn
   page.cpu_seconds = (await cdp.send("Performance.getMetrics")).metrics.find((metric) => metric.name === "TaskDuration").value;
@@ -74,7 +75,7 @@ if (tabs > 1) await page.locator("[role=tab]").first().click();
 
 // The grains move with the cursor, and a click on a residual goes there.
 const replay = page.locator("[data-replay] canvas >> visible=true").first();
-if (await replay.count()) await page.waitForFunction(() => document.documentElement.dataset.grains, null, { timeout: 60000 });
+if (await replay.count()) await page.waitForFunction(() => document.documentElement.dataset.grains, null, { timeout: 240000 });
 const hash = () => replay.evaluate((canvas) => {
   const gl = canvas.getContext("webgl2"), pixels = new Uint8Array(4 * canvas.width * canvas.height);
   gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
@@ -96,7 +97,7 @@ if (await replay.count()) {
   expect(moved > 0.4 && clicked.sum !== after.sum, `a click on a plot does not move the grains (t = ${moved})`);
   await page.locator("[data-replay] canvas:visible").first().focus();
   await page.keyboard.press("Space");
-  const plays = await page.waitForFunction((t) => report.time > t, moved, { timeout: 10000 }).then(() => true, () => false);
+  const plays = await page.waitForFunction((t) => report.time > t, moved, { timeout: 60000 }).then(() => true, () => false);
   expect(plays, "the space bar does not play");
   await page.keyboard.press("Space");
 }
@@ -123,12 +124,12 @@ for (const width of [1280, 390])
       return found;
     });
     expect(overlaps.length === 0, `at ${width} px texts lie over each other: ${overlaps.slice(0, 3).join("; ")}`);
-    if (shots) await view.screenshot({ path: join(shots, `report_${width}_${theme}.png`), fullPage: true, timeout: 120000 });
+    if (shots) await view.screenshot({ path: join(shots, `report_${width}_${theme}.png`), fullPage: true });
     if (width === 1280 && theme === "dark") {
       await view.emulateMedia({ media: "print" });
       expect(!(await view.locator("nav.tools").isVisible()), "tools are printed");
       expect((await view.evaluate(() => getComputedStyle(document.body).backgroundColor)) === "rgb(255, 255, 255)", "the dark theme is printed");
-      if (shots) await view.screenshot({ path: join(shots, "report_print.png"), fullPage: true, timeout: 120000 });
+      if (shots) await view.screenshot({ path: join(shots, "report_print.png"), fullPage: true });
     }
     await view.close();
   }
