@@ -87,6 +87,9 @@ void Pipeline::finish() {
                          std::to_string(result_.ladder.front().error_box * 1e3).substr(0, 4) + " to " +
                          std::to_string(final_.error_box() * 1e3).substr(0, 4) + " mm (noise and run-to-run spread: " +
                          std::to_string(final_.floor_box() * 1e3).substr(0, 4) + " mm).";
+      for (const auto& [named, other] : twins_)
+        if (std::find(result_.missing.begin(), result_.missing.end(), named) != result_.missing.end())
+          result_.sentence += " These measurements cannot tell " + named + " from " + other + ".";
       break;
     }
     case Verdict::unknown:

@@ -71,14 +71,17 @@ bool Pipeline::add_best_candidate(Refit& best) {
     for (const Candidate& candidate : candidates)
       if (candidate.effect == rivals[1].effect && !candidate.knobs.empty()) runner_up_ = candidate;
   const Rival& winner = rivals.front();
-  // A model that is rejected must be mended; one that is merely doubtful needs a better reason.
+  const bool twins = rivals.size() > 1 && rivals[1].decided && winner.score() - rivals[1].score() < too_close && rivals[1].gain > 0.8 * winner.gain;
+  // A model that is rejected must be mended; one that is merely doubtful needs a better reason, or lengths left out that say the same.
   // Beside friction, whose two models leave a difference, too.
-  const bool doubt = best.p_value > rejected || std::find(result_.missing.begin(), result_.missing.end(), "grain_friction") != result_.missing.end();
-  const double least = doubt ? 2 * least_gain : least_gain;
-  if (winner.gain < least * std::max(1.0, winner.fit.scatter) || winner.gain < least_share * best.judged_chi2) return false;
+  const bool beside_friction = std::find(result_.missing.begin(), result_.missing.end(), "grain_friction") != result_.missing.end();
+  const bool confirmed = std::isfinite(winner.held_out_gain) && winner.held_out_gain > least_gain;
+  const double least = beside_friction || (best.p_value > rejected && !confirmed) ? 2 * least_gain : least_gain;
+  if (winner.gain < least * std::max(1.0, winner.fit.scatter) + winner.doubt || winner.gain < least_share * best.judged_chi2) return false;
   base_ = winner.setup;
   for (const Knob& knob : winner.knobs) chosen_.push_back(knob);
   result_.missing.push_back(winner.effect);
+  if (twins) call_twins(winner.effect, rivals[1].effect);
   keep(winner.fit);
   for (const Knob& knob : chosen_) set_knob(base_, knob, options_.known);  // present from now on, so that it is no candidate again
   best = winner.decided ? winner.fit : fit("refitting with " + winner.effect, together(theta_, chosen_), to_conclude);
@@ -119,6 +122,14 @@ Pipeline::Rival Pipeline::decide(Rival rival, const Refit& best) {
   rival.decided = true;
   rank(rival, best);
   return rival;
+}
+
+void Pipeline::call_twins(const std::string& named, const std::string& other) {
+  twins_.emplace_back(named, other);
+  for (RankedEffect& ranked : result_.ranking)
+    for (const auto& [here, there] : {std::pair(named, other), std::pair(other, named)})
+      if (ranked.effect == here && std::find(ranked.look_alikes.begin(), ranked.look_alikes.end(), there) == ranked.look_alikes.end())
+        ranked.look_alikes.push_back(there);
 }
 
 void Pipeline::rank(Rival& rival, const Refit& best) {

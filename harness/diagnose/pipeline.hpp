@@ -70,6 +70,7 @@ class Pipeline {
   Rival try_candidate(const ScreenedEffect& effect, const Candidate& candidate, const Setup& before, const std::vector<Knob>& fitted, const Refit& best);
   Rival decide(Rival rival, const Refit& best);
   void rank(Rival& rival, const Refit& best);
+  void call_twins(const std::string& named, const std::string& other);
   void prune(Refit& best);
 
   // conclusion.cpp
@@ -91,6 +92,7 @@ class Pipeline {
   bool refitted_ = false;
   bool concluded_ = false;  // the latest fit was made with full effort
   std::optional<Candidate> runner_up_;  // to the effect added last
+  std::vector<std::pair<std::string, std::string>> twins_;  // named, and what explains the data as well
   int batch_ = 0;
 };
 
