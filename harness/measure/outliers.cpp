@@ -43,6 +43,8 @@ class OutlierJudge {
     return predictions > 0 ? smallest : 0;
   }
 
+  double acceleration() const { return acceleration_; }
+
  private:
   const std::vector<double>* time_;
   double deviation_, acceleration_;
@@ -72,6 +74,41 @@ class OutlierJudge {
     return found.empty() ? 0 : 3 * median(found);
   }
 };
+
+/// Robust line through up to six kept frames on one side (step -1 or +1) or three on each (0): the median of all slopes (Theil, Sen), which
+/// two wrong frames of six do not move. Returns the misfit of `value` at frame i less what an acceleration bends, in units of its standard
+/// deviation; 0 where there are too few frames.
+double misfit_to_robust_line(const std::vector<double>& time, const std::vector<double>& kept, std::size_t i, int step, double value, double deviation,
+                             double acceleration) {
+  constexpr int wanted = 6;
+  std::vector<double> t, y;
+  const auto gather = [&](int direction, int count) {
+    for (auto j = static_cast<std::ptrdiff_t>(i) + direction; j >= 0 && j < static_cast<std::ptrdiff_t>(kept.size()) && count > 0; j += direction) {
+      const auto at = static_cast<std::size_t>(j);
+      if (std::abs(time[at] - time[i]) > 0.05) break;
+      if (!std::isfinite(kept[at])) continue;
+      t.push_back(time[at] - time[i]);
+      y.push_back(kept[at] - value);
+      --count;
+    }
+  };
+  if (step <= 0) gather(-1, step == 0 ? wanted / 2 : wanted);
+  if (step >= 0) gather(+1, step == 0 ? wanted / 2 : wanted);
+  if (t.size() < wanted) return 0;
+  std::vector<double> slopes, offsets;
+  for (std::size_t a = 0; a < t.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) slopes.push_back((y[a] - y[b]) / (t[a] - t[b]));
+  const double slope = median(slopes);
+  double middle = 0, square = 0, reach = 0;
+  for (std::size_t a = 0; a < t.size(); ++a) {
+    offsets.push_back(y[a] - slope * t[a]);
+    middle += t[a] / static_cast<double>(t.size());
+    reach = std::max(reach, std::abs(t[a]));
+  }
+  for (const double at : t) square += (at - middle) * (at - middle);
+  const double variance = 1 + 1.2 * (1 / static_cast<double>(t.size()) + middle * middle / square);  // medians scatter by a tenth more
+  return std::max(0.0, std::abs(median(offsets)) - acceleration * reach * reach / 2) / (deviation * std::sqrt(variance));
+}
 
 /// Distance from the local cubic through the frames kept within 20 ms (at least 5 frames) on either side, the
 /// frame itself left out, in units of its standard deviation; 0 where there are too few.
@@ -122,6 +159,17 @@ std::vector<double> without_outliers(const std::vector<double>& time, const std:
     }
     kept = std::move(next);
     if (same && pass > 0) break;
+  }
+  // Two wrong frames side by side may support each other, which no line through six frames does.
+  for (int pass = 0; pass < 3; ++pass) {
+    std::vector<double> next = kept;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!std::isfinite(kept[i])) continue;
+      double smallest = 1e300;
+      for (const int step : {-1, 0, 1}) smallest = std::min(smallest, misfit_to_robust_line(time, kept, i, step, x[i], deviation, judge.acceleration()));
+      if (smallest > certain) next[i] = nothing;
+    }
+    kept = std::move(next);
   }
   return kept;
 }
