@@ -2,6 +2,7 @@
 // Which effect, added and fitted, brings the error down.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "pipeline.hpp"
 #include "setup_keys.hpp"
@@ -19,6 +20,15 @@ std::vector<Knob> covering_the_users_values(std::vector<Knob> knobs) {
     knob.width = apart / 2 + 0.08;
   }
   return knobs;
+}
+
+/// One of the strengths is at least two standard errors from zero; what replaces a parameter, or is on or off, has no zero and passes.
+bool stands_out(const Refit& fit, const std::vector<Knob>& knobs) {
+  return knobs.empty() || std::any_of(knobs.begin(), knobs.end(), [&](const Knob& knob) {
+           return knob.low > 0 || std::any_of(fit.values.begin(), fit.values.end(), [&](const FittedValue& value) {
+                    return value.key == knob.key && std::abs(value.value) > 2 * value.error;
+                  });
+         });
 }
 
 }  // namespace
@@ -78,13 +88,20 @@ bool Pipeline::add_best_candidate(Refit& best) {
   const bool confirmed = std::isfinite(winner.held_out_gain) && winner.held_out_gain > least_gain;
   const double least = beside_friction || (best.p_value > rejected && !confirmed) ? 2 * least_gain : least_gain;
   if (winner.gain < least * std::max(1.0, winner.fit.scatter) + winner.doubt || winner.gain < least_share * best.judged_chi2) return false;
+  const auto known_before = std::tuple(theta_, chosen_, final_, result_.missing);
   base_ = winner.setup;
   for (const Knob& knob : winner.knobs) chosen_.push_back(knob);
   result_.missing.push_back(winner.effect);
   if (twins) call_twins(winner.effect, rivals[1].effect);
   keep(winner.fit);
   for (const Knob& knob : chosen_) set_knob(base_, knob, options_.known);  // present from now on, so that it is no candidate again
-  best = winner.decided ? winner.fit : fit("refitting with " + winner.effect, together(theta_, chosen_), to_conclude);
+  const Refit closer = winner.decided ? winner.fit : fit("refitting with " + winner.effect, together(theta_, chosen_), to_conclude);
+  if (!stands_out(closer, winner.knobs)) {  // the gain was the emulators' noise
+    std::tie(theta_, chosen_, final_, result_.missing) = known_before;
+    base_ = before;
+    return false;
+  }
+  best = closer;
   concluded_ = !winner.decided;
   keep(best);
   std::string step = "refitted";
