@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/statfs.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -90,6 +93,24 @@ const char* journal_for(const std::filesystem::path& file) {
   return is_local ? "WAL" : "TRUNCATE";
 }
 
+/// One process after another: of several that make the same file at once SQLite refuses all but one the change of journal, however long they
+/// would wait. Locks the folder, since the file itself carries SQLite's locks; where a file system has no such locks nothing is gained or lost.
+class OpeningTurn {
+ public:
+  explicit OpeningTurn(const std::filesystem::path& file)
+      : folder_(::open((file.has_parent_path() ? file.parent_path() : std::filesystem::path(".")).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (folder_ >= 0) (void)::flock(folder_, LOCK_EX);
+  }
+  ~OpeningTurn() {
+    if (folder_ >= 0) ::close(folder_);
+  }
+  OpeningTurn(const OpeningTurn&) = delete;
+  OpeningTurn& operator=(const OpeningTurn&) = delete;
+
+ private:
+  int folder_;
+};
+
 int column_count(const Database& database) {
   SqlStatement columns(database, "SELECT count(*) FROM pragma_table_info('runs')");
   columns.step();
@@ -128,8 +149,9 @@ struct ResultFile::Inside {
   }
 };
 
-ResultFile::ResultFile(const std::filesystem::path& file, const SweepIdentity& identity, Opening opening)
-    : inside_(std::make_unique<Inside>(file, Database::Access::write)) {
+ResultFile::ResultFile(const std::filesystem::path& file, const SweepIdentity& identity, Opening opening) {
+  const OpeningTurn turn(file);
+  inside_ = std::make_unique<Inside>(file, Database::Access::write);
   Inside& in = *inside_;
   in.identity = identity;
   in.database.execute(fmt::format("PRAGMA journal_mode = {}; PRAGMA synchronous = NORMAL;", journal_for(file)));
