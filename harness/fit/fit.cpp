@@ -128,7 +128,7 @@ class Fitter {
     const double error = std::max(value.error, told.error[i] * std::sqrt(std::max(1.0, fit_.scatter)));
     FittedParameter found{knob.key, unit_of_key(knob.key, options_.known), start_[k].centre, value.value, std::max(knob.low, value.value - 1.96 * error),
                           std::min(knob.high, value.value + 1.96 * error), true, ""};
-    const bool covers_most = 2 * 1.96 * error > 0.5 * (knob.high - knob.low) || !std::isfinite(error);
+    const bool covers_most = 2 * 1.96 * error > 2.0 / 3 * (knob.high - knob.low) || !std::isfinite(error);
     const bool from_zero = start_[k].low == 0 && value.value - 1.96 * error <= 0;
     found.told = !covers_most;
     if (covers_most) found.remark = "the data do not tell it: its interval covers most of what is possible";
