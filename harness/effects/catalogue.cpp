@@ -2,8 +2,11 @@
 #include "catalogue.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
+#include "engine_differences.hpp"
 #include "quantity.hpp"
 #include "setup_keys.hpp"
 #include "toml_document.hpp"
@@ -59,6 +62,32 @@ bool is_strength(const Parameter& parameter) {
   return parameter.kind == ParameterKind::number ? parameter.required || !std::isnan(parameter.neutral) : parameter.kind != ParameterKind::choice || parameter.required;
 }
 
+/// "at 40 mm the slope changes by -0.62 mm/s, hard minus soft by 0.01 +- 0.03"; what the effect adds to the plain model.
+std::string differences_of(const EffectRecord& effect) {
+  std::string text;
+  for (const EngineDifference& row : engine_differences()) {
+    if (row.effect != effect.name) continue;
+    const AddedDifference added = *added_difference(row.effect, row.box_length);
+    std::array<char, 160> part;
+    std::snprintf(part.data(), part.size(), "at %.0f mm the slope changes by %.2f mm/s, hard minus soft by %.2f +- %.2f", 1e3 * row.box_length,
+                  1e3 * added.change, 1e3 * added.added, 1e3 * added.half_width);
+    text += (text.empty() ? "measured at the typical strength: " : "; ") + std::string(part.data());
+  }
+  return text;
+}
+
+/// Of both lengths that were measured, mm/s.
+std::string shortly(std::string_view effect) {
+  std::string text;
+  for (const double length : {0.040, 0.104})
+    if (const auto added = added_difference(effect, length)) {
+      std::array<char, 32> part;
+      std::snprintf(part.data(), part.size(), "%s%+.2f", text.empty() ? "" : " ", 1e3 * added->added);
+      text += part.data();
+    }
+  return text.empty() ? "-" : text;
+}
+
 }  // namespace
 
 std::string_view name_of(ActsOn acts_on) {
@@ -73,11 +102,11 @@ std::string_view name_of(Fidelity fidelity) {
 
 std::string list_effects(std::span<const EffectRecord* const> effects) {
   const auto mark = [](const Capability& capability) { return padded(name_of(capability.fidelity), 19); };
-  std::string text = padded("effect", 32) + padded("acts on", 9) + padded("hard", 19) + padded("soft", 19) + padded("bullet", 19) + "what it is\n";
+  std::string text = padded("effect", 32) + padded("acts on", 9) + padded("hard", 19) + padded("soft", 19) + padded("bullet", 19) + padded("hard-soft*", 14) + "what it is\n";
   for (const EffectRecord* effect : effects)
     text += padded(effect->name, 32) + padded(name_of(effect->acts_on), 9) + mark(effect->hard) + mark(effect->soft) + mark(effect->bullet) +
-            std::string(effect->sentence) + "\n";
-  return text;
+            padded(shortly(effect->name), 14) + std::string(effect->sentence) + "\n";
+  return text + "* of the slope, added by the effect at its typical strength, L = 40 and 104 mm, mm/s\n";
 }
 
 std::string example_of(const EffectRecord& effect) {
@@ -104,6 +133,7 @@ std::string describe_effect(const EffectRecord& effect) {
   capability("hard", effect.hard);
   capability("soft", effect.soft);
   capability("bullet", effect.bullet);
+  line("engines", differences_of(effect));
   for (const Parameter& parameter : effect.parameters) {
     text += "  parameter " + std::string(parameter.name) + (parameter.required ? " (required)" : "") + "\n";
     std::string facts(parameter.sentence);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "catalogue.hpp"
+#include "engine_differences.hpp"
 #include "quantity.hpp"
 #include "setup_keys.hpp"
 
@@ -39,6 +40,19 @@ Json json_of(const Parameter& parameter) {
 
 Json json_of(const Capability& capability) { return {{"fidelity", name_of(capability.fidelity)}, {"note", capability.note}}; }
 
+/// In mm/s at the typical strength, a row a box length; empty: not measured, or seen by the camera only.
+Json differences_of(const EffectRecord& effect) {
+  Json rows = Json::array();
+  for (const EngineDifference& row : engine_differences()) {
+    if (row.effect != effect.name) continue;
+    const AddedDifference added = *added_difference(row.effect, row.box_length);
+    rows.push_back({{"box_length_mm", 1e3 * row.box_length}, {"slope_mm_per_s", 1e3 * row.hard_slope}, {"hard_minus_soft_mm_per_s", 1e3 * row.hard_minus_soft},
+                    {"half_width_95_mm_per_s", 1e3 * row.half_width}, {"slope_change_mm_per_s", 1e3 * added.change},
+                    {"added_to_plain_model_mm_per_s", 1e3 * added.added}, {"added_half_width_95_mm_per_s", 1e3 * added.half_width}});
+  }
+  return rows;
+}
+
 Json json_of(const EffectRecord& effect) {
   Json parameters = Json::array();
   for (const Parameter& parameter : effect.parameters) parameters.push_back(json_of(parameter));
@@ -52,6 +66,7 @@ Json json_of(const EffectRecord& effect) {
           {"dissipative", effect.dissipative},
           {"parameters", parameters},
           {"engines", {{"hard", json_of(effect.hard)}, {"soft", json_of(effect.soft)}, {"bullet", json_of(effect.bullet)}}},
+          {"hard_soft_difference", differences_of(effect)},
           {"example", example_of(effect)}};
 }
 

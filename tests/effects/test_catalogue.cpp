@@ -5,13 +5,14 @@
 
 #include "catalogue.hpp"
 #include "effects.hpp"
+#include "engine_differences.hpp"
 #include "setup_keys.hpp"
 
 using namespace shakedown;
 
 TEST(Catalogue, ListsEveryEffectOnALine) {
   const std::string list = list_effects(all_effects());
-  EXPECT_EQ(static_cast<std::size_t>(std::count(list.begin(), list.end(), '\n')), all_effects().size() + 1);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(list.begin(), list.end(), '\n')), all_effects().size() + 2);
   for (const EffectRecord* effect : all_effects()) EXPECT_NE(list.find("\n" + std::string(effect->name) + " "), std::string::npos);
 }
 
@@ -27,6 +28,27 @@ TEST(Catalogue, JsonHoldsEveryRecord) {
   EXPECT_EQ(json[0]["name"], "grain_friction");
   EXPECT_EQ(json[0]["engines"]["hard"]["fidelity"], "exact");
   EXPECT_EQ(json[0]["parameters"][0]["neutral"], 0);
+}
+
+/// What a new measurement must keep: every effect that an engine sees, at both lengths, beside the plain model.
+TEST(Catalogue, DifferencesOfTheEnginesAreThereAndSmallBesideTheEffect) {
+  for (const EffectRecord* effect : all_effects())
+    for (const double length : {0.040, 0.104}) {
+      SCOPED_TRACE(std::string(effect->name) + " at " + std::to_string(length));
+      const auto found = added_difference(effect->name, length);
+      ASSERT_EQ(found.has_value(), effect->acts_on != ActsOn::camera);
+      if (!found) continue;
+      EXPECT_GT(found->half_width, 0);
+      EXPECT_LT(std::abs(found->added), 1e-3 + found->half_width);
+    }
+  EXPECT_FALSE(added_difference("grain_friction", 0.3));
+  EXPECT_FALSE(added_difference("", 0.04));
+  const auto friction = nlohmann::json::parse(effects_json(all_effects()))[0]["hard_soft_difference"];
+  ASSERT_EQ(friction.size(), 2u);
+  EXPECT_EQ(friction[0]["box_length_mm"], 40);
+  const auto added = added_difference("grain_friction", 0.04);
+  EXPECT_DOUBLE_EQ(friction[0]["added_to_plain_model_mm_per_s"].get<double>(), 1e3 * added->added);
+  EXPECT_LT(friction[0]["slope_change_mm_per_s"], -0.5);
 }
 
 TEST(Catalogue, SchemaKnowsEveryKeyAndEffect) {
