@@ -36,11 +36,20 @@ class CalendarQueue {
     if (cached_ != none && time < this->time(cached_)) cached_ = i;
   }
 
-  /// The earliest date; grain -1 when there is none.
-  Next next() {
-    if (cached_ == none) find();
+  /// The earliest date; grain -1 when there is none. `tell(i, days)` is told of grains whose dates come up in about that many days, half
+  /// as many events: time to bring what they need near.
+  template <class Ahead>
+  Next next(Ahead&& tell) {
+    if (cached_ == none) find(tell);
     return cached_ == none ? Next{never, -1} : Next{time(cached_), cached_};
   }
+
+  Next next() {
+    return next([](int, int) {});
+  }
+
+  static constexpr int far_ahead = 8, ahead = 4;  ///< days
+  void prefetch(int i) const { __builtin_prefetch(&dates_[static_cast<std::size_t>(i)]); }
 
   /// Sets the length of a day for this many events a second; dates may be scheduled already.
   void plan(double now, double events_per_second) {
@@ -85,8 +94,12 @@ class CalendarQueue {
     date.day = none;
   }
 
-  void find() {
+  template <class Ahead>
+  void find(Ahead&& tell) {
     for (;; ++today_, ++days_passed_) {
+      for (const int days_ahead : {far_ahead, ahead})
+        if (today_ + static_cast<std::size_t>(days_ahead) < days())
+          if (const std::int32_t i = first_[today_ + static_cast<std::size_t>(days_ahead)]; i != none) tell(i, days_ahead);
       if (today_ == days() && !new_year()) return;
       ++looks_;
       for (std::int32_t i = first_[today_]; i != none; i = dates_[static_cast<std::size_t>(i)].next) {

@@ -23,7 +23,7 @@ bool CellCrossings::can_hold(const State& state, const std::array<double, 3>& ex
 }
 
 CellCrossings::CellCrossings(const State& state, const std::array<double, 3>& extent, double edge)
-    : lines_(state, extent), place_(state.size()), queue_(state.size()) {
+    : lines_(state, extent), place_(state.size()), queue_(state.size()), prefetches_(state.size() > fits_in_cache) {
   EXPECT(can_hold(state, extent));
   std::size_t all = 1;
   for (std::size_t axis : {2, 1, 0}) {
@@ -48,6 +48,27 @@ CellCrossings::CellCrossings(const State& state, const std::array<double, 3>& ex
 std::array<double, 3> CellCrossings::separation(const Flight3& a, const Flight3& b) const {
   const Period& period = lines_.period();
   return {period.nearest(b.x[0] - a.x[0], 0), period.nearest(b.x[1] - a.x[1], 1), period.nearest(b.x[2] - a.x[2], 2)};
+}
+
+/// Far ahead the grain's own lines, which say where to look later: at its partner and at the cells around.
+void CellCrossings::prefetch(int i, int days) const {
+  const std::size_t k = static_cast<std::size_t>(i);
+  if (days == CalendarQueue::far_ahead) {
+    queue_.prefetch(i);
+    lines_.prefetch(k);
+    __builtin_prefetch(&place_[k]);
+    return;
+  }
+  const Place& place = place_[k];
+  if (!place.crosses && place.partner >= 0) {
+    const auto j = static_cast<std::size_t>(place.partner);
+    lines_.prefetch(j);
+    queue_.prefetch(place.partner);
+    __builtin_prefetch(&place_[j]);
+  }
+  const std::uint32_t *x = around(k, 0), *y = around(k, 1), *z = around(k, 2);
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < 3; ++b) __builtin_prefetch(&cell_first_[x[a] + y[b] + z[1]]);
 }
 
 void CellCrossings::put_in_cell(std::size_t i) {

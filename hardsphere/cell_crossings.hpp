@@ -32,7 +32,10 @@ class CellCrossings {
   int bonds() const { return 0; }
   double radius(int i) const { return lines_.radius(static_cast<std::size_t>(i)); }
   double mass(int i) const { return lines_.mass(static_cast<std::size_t>(i)); }
-  Next next() { return queue_.next(); }
+  Next next() {
+    if (!prefetches_) return queue_.next();
+    return queue_.next([this](int i, int days) { prefetch(i, days); });
+  }
   GrainEvent event(int i) const {
     const Place& place = place_[static_cast<std::size_t>(i)];
     if (place.crosses) return {queue_.time(i), leaves_neighbourhood, 0, Meeting::touch};
@@ -74,6 +77,7 @@ class CellCrossings {
   }
   /// Offsets along an axis of the cells before, at and after a grain's own.
   const std::uint32_t* around(std::size_t i, std::size_t axis) const { return &offset_[axis][place_[i].cell[axis]]; }
+  void prefetch(int i, int days) const;
   void put_in_cell(std::size_t i);
   void take_from_cell(std::size_t i);
   /// The grains of the 27 cells around, filled up with i.
@@ -90,6 +94,7 @@ class CellCrossings {
   std::array<double, 3> edge_{};
   std::array<std::vector<std::uint32_t>, 3> offset_;  // of a cell's index, per axis; one step beyond both ends wraps around
   CalendarQueue queue_;
+  bool prefetches_;
 };
 
 }  // namespace shakedown

@@ -18,7 +18,7 @@ double shell_for(double packing_fraction) {
 
 template <bool Periodic>
 CellLists<Periodic>::CellLists(const State& state, const CellListsPlan& plan)
-    : lines_(state, plan.cell), centre_(state.size()), half_width_(plan.half_width), queue_(state.size()) {
+    : lines_(state, plan.cell), own_(state.size()), half_width_(plan.half_width), queue_(state.size()), prefetches_(state.size() > fits_in_cache) {
   shell_ = lines_.largest_reach() * (plan.shell > 0 ? plan.shell : shell_for(plan.packing_fraction));
   if (Periodic)
     for (const double extent : plan.cell) shell_ = std::min(shell_, extent / 3);
@@ -33,15 +33,10 @@ CellLists<Periodic>::CellLists(const State& state, const CellListsPlan& plan)
   const std::size_t n = state.size();
   list_.resize(n * list_room_);
   for (std::size_t i = 0; i < n; ++i) {
-    centre_[i] = lines_.flight(i).x;
+    own_[i].centre = lines_.flight(i).x;
     std::fill_n(list(i), list_room_, static_cast<std::int32_t>(i));
   }
-  list_size_.assign(n, 0);
   cell_first_.assign(static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) * static_cast<std::size_t>(cells_[2]), -1);
-  cell_next_.assign(n, -1);
-  cell_previous_.assign(n, -1);
-  cell_.assign(n, -1);
-  event_.assign(n, {no_partner, 0});
   for (std::size_t i = 0; i < n; ++i) {
     find_neighbours(i);
     for (const std::int32_t j : near_) {
@@ -55,7 +50,7 @@ CellLists<Periodic>::CellLists(const State& state, const CellListsPlan& plan)
 template <bool Periodic>
 GrainEvent CellLists<Periodic>::event(int i) const {
   const std::size_t k = static_cast<std::size_t>(i);
-  return {queue_.time(i), event_[k].partner, event_[k].partner_count, Meeting::touch};
+  return {queue_.time(i), own_[k].partner, own_[k].partner_count, Meeting::touch};
 }
 
 template <bool Periodic>
@@ -67,7 +62,7 @@ template <bool Periodic>
 double CellLists<Periodic>::time_to_leave(std::size_t i, const Flight3& flight) const {
   double a = 0, b = 0, c = -leeway_ * leeway_;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double off = nearest(flight.x[axis] - centre_[i][axis], axis), v = flight.v[axis];
+    const double off = nearest(flight.x[axis] - own_[i].centre[axis], axis), v = flight.v[axis];
     a += v * v;
     b += off * v;
     c += off * off;
@@ -81,14 +76,15 @@ template <bool Periodic>
 void CellLists<Periodic>::predict(int i) {
   const std::size_t k = static_cast<std::size_t>(i);
   const Flight3 self = flight(i);
-  const GrainLines::Touch touch = lines_.first_touch<Periodic>(k, self, list(k), list_size_[k], time_to_leave(k, self));
+  const GrainLines::Touch touch = lines_.first_touch<Periodic>(k, self, list(k), own_[k].list_size, time_to_leave(k, self));
   GrainEvent next{self.time + touch.wait, leaves_neighbourhood, 0, Meeting::touch};
   if (touch.partner >= 0) next.partner = touch.partner, next.partner_count = lines_[static_cast<std::size_t>(touch.partner)].count;
   if (half_width_[0] < never) {
     const GrainEvent wall = next_side_wall(self, {half_width_[0] - radius(i), half_width_[1] - radius(i)});
     if (wall.time < next.time) next = wall;
   }
-  event_[k] = {next.partner, next.partner_count};
+  own_[k].partner = next.partner;
+  own_[k].partner_count = next.partner_count;
   queue_.schedule(i, next.time);
 }
 
@@ -117,25 +113,46 @@ std::size_t CellLists<Periodic>::cell_of(const std::array<double, 3>& centre) co
 
 template <bool Periodic>
 void CellLists<Periodic>::put_in_cell(std::size_t i) {
-  const std::size_t cell = cell_of(centre_[i]);
-  cell_[i] = static_cast<std::int32_t>(cell);
-  cell_previous_[i] = -1;
-  cell_next_[i] = cell_first_[cell];
-  if (cell_first_[cell] >= 0) cell_previous_[static_cast<std::size_t>(cell_first_[cell])] = static_cast<std::int32_t>(i);
+  const std::size_t cell = cell_of(own_[i].centre);
+  own_[i].cell = static_cast<std::int32_t>(cell);
+  own_[i].previous_in_cell = -1;
+  own_[i].next_in_cell = cell_first_[cell];
+  if (cell_first_[cell] >= 0) own_[static_cast<std::size_t>(cell_first_[cell])].previous_in_cell = static_cast<std::int32_t>(i);
   cell_first_[cell] = static_cast<std::int32_t>(i);
 }
 
 template <bool Periodic>
 void CellLists<Periodic>::take_from_cell(std::size_t i) {
-  if (cell_previous_[i] >= 0) cell_next_[static_cast<std::size_t>(cell_previous_[i])] = cell_next_[i];
-  else cell_first_[static_cast<std::size_t>(cell_[i])] = cell_next_[i];
-  if (cell_next_[i] >= 0) cell_previous_[static_cast<std::size_t>(cell_next_[i])] = cell_previous_[i];
+  const Own& own = own_[i];
+  if (own.previous_in_cell >= 0) own_[static_cast<std::size_t>(own.previous_in_cell)].next_in_cell = own.next_in_cell;
+  else cell_first_[static_cast<std::size_t>(own.cell)] = own.next_in_cell;
+  if (own.next_in_cell >= 0) own_[static_cast<std::size_t>(own.next_in_cell)].previous_in_cell = own.previous_in_cell;
+}
+
+/// Far ahead the grain's own lines, which say where to look later: at its partner and its neighbours.
+template <bool Periodic>
+void CellLists<Periodic>::prefetch(int i, int days) const {
+  const std::size_t k = static_cast<std::size_t>(i);
+  if (days == CalendarQueue::far_ahead) {
+    queue_.prefetch(i);
+    lines_.prefetch(k);
+    __builtin_prefetch(&own_[k]);
+    for (std::size_t n = 0; n < list_room_; n += 16) __builtin_prefetch(&list_[k * list_room_ + n]);
+    return;
+  }
+  if (const std::int32_t partner = own_[k].partner; partner >= 0) {
+    const auto j = static_cast<std::size_t>(partner);
+    queue_.prefetch(partner);
+    __builtin_prefetch(&own_[j]);
+    for (std::size_t n = 0; n < list_room_; n += 16) __builtin_prefetch(&list_[j * list_room_ + n]);
+  }
+  for (std::size_t n = 0; n < own_[k].list_size; ++n) lines_.prefetch(static_cast<std::size_t>(list_[k * list_room_ + n]));
 }
 
 /// Into near_: the grains whose list centres lie within the shell of grain i's.
 template <bool Periodic>
 void CellLists<Periodic>::find_neighbours(std::size_t i) {
-  const std::array<double, 3> centre = centre_[i];
+  const std::array<double, 3> centre = own_[i].centre;
   const double shell_squared = shell_ * shell_;
   std::array<std::array<std::size_t, 3>, 3> around;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -149,8 +166,8 @@ void CellLists<Periodic>::find_neighbours(std::size_t i) {
   for (const std::size_t x : around[0])
     for (const std::size_t y : around[1])
       for (const std::size_t z : around[2])
-        for (std::int32_t j = cell_first_[(x * ny + y) * nz + z]; j >= 0; j = cell_next_[static_cast<std::size_t>(j)]) {
-          const std::array<double, 3>& other = centre_[static_cast<std::size_t>(j)];
+        for (std::int32_t j = cell_first_[(x * ny + y) * nz + z]; j >= 0; j = own_[static_cast<std::size_t>(j)].next_in_cell) {
+          const std::array<double, 3>& other = own_[static_cast<std::size_t>(j)].centre;
           const double rx = nearest(other[0] - centre[0], 0), ry = nearest(other[1] - centre[1], 1), rz = nearest(other[2] - centre[2], 2);
           if (rx * rx + ry * ry + rz * rz < shell_squared && static_cast<std::size_t>(j) != i) near_.push_back(j);
         }
@@ -158,18 +175,18 @@ void CellLists<Periodic>::find_neighbours(std::size_t i) {
 
 template <bool Periodic>
 void CellLists<Periodic>::add_neighbour(std::size_t i, std::int32_t neighbour) {
-  if (list_size_[i] == list_room_) widen_lists();
-  list(i)[list_size_[i]++] = neighbour;
+  if (own_[i].list_size == list_room_) widen_lists();
+  list(i)[own_[i].list_size++] = neighbour;
 }
 
 template <bool Periodic>
 void CellLists<Periodic>::remove_neighbour(std::size_t i, std::int32_t neighbour) {
-  std::int32_t *first = list(i), *last = first + list_size_[i];
+  std::int32_t *first = list(i), *last = first + own_[i].list_size;
   std::int32_t* found = std::find(first, last, neighbour);
   EXPECT(found != last);
   *found = *--last;
   *last = static_cast<std::int32_t>(i);
-  --list_size_[i];
+  --own_[i].list_size;
 }
 
 template <bool Periodic>
@@ -178,7 +195,7 @@ void CellLists<Periodic>::widen_lists() {
   AlignedVector<std::int32_t> wider(lines_.size() * room);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     std::fill_n(&wider[i * room], room, static_cast<std::int32_t>(i));
-    std::copy_n(list(i), list_size_[i], &wider[i * room]);
+    std::copy_n(list(i), own_[i].list_size, &wider[i * room]);
   }
   list_ = std::move(wider);
   list_room_ = room;
@@ -204,17 +221,17 @@ void CellLists<Periodic>::leave_neighbourhood(int i, double now) {
     line.z = nearest(line.z, 2);
   }
   take_from_cell(k);
-  centre_[k] = {line.x, line.y, line.z};
+  own_[k].centre = {line.x, line.y, line.z};
   find_neighbours(k);
   put_in_cell(k);
   // Most neighbours stay: only the lists of those that come or go are touched.
-  old_list_.assign(list(k), list(k) + list_size_[k]);
+  old_list_.assign(list(k), list(k) + own_[k].list_size);
   for (const std::int32_t j : old_list_)
     if (!contains(near_.data(), near_.size(), j)) remove_neighbour(static_cast<std::size_t>(j), i);
   for (const std::int32_t j : near_)
     if (!contains(old_list_.data(), old_list_.size(), j)) add_neighbour(static_cast<std::size_t>(j), i);
-  std::fill_n(list(k), list_size_[k], i);
-  list_size_[k] = 0;
+  std::fill_n(list(k), own_[k].list_size, i);
+  own_[k].list_size = 0;
   for (const std::int32_t j : near_) add_neighbour(k, j);
   predict(i);
 }
@@ -223,7 +240,7 @@ template <bool Periodic>
 double CellLists<Periodic>::bytes_per_grain() const {
   if (lines_.size() == 0) return 0;
   const double n = static_cast<double>(lines_.size());
-  const double arrays = GrainLines::bytes_per_grain() + sizeof(Event) + 3 * sizeof(double) + sizeof(std::uint16_t) + 3 * sizeof(std::int32_t);
+  const double arrays = GrainLines::bytes_per_grain() + sizeof(Own);
   return arrays + static_cast<double>(list_room_) * sizeof(std::int32_t) +
          static_cast<double>(cell_first_.size() * sizeof(std::int32_t) + queue_.bytes()) / n;
 }

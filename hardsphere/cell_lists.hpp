@@ -39,7 +39,10 @@ class CellLists {
   int bonds() const { return 0; }
   double radius(int i) const { return lines_.radius(static_cast<std::size_t>(i)); }
   double mass(int i) const { return lines_.mass(static_cast<std::size_t>(i)); }
-  Next next() { return queue_.next(); }
+  Next next() {
+    if (!prefetches_) return queue_.next();
+    return queue_.next([this](int i, int days) { prefetch(i, days); });
+  }
   GrainEvent event(int i) const;
   bool is_stale(const GrainEvent& event) const {
     return event.partner >= 0 && lines_[static_cast<std::size_t>(event.partner)].count != event.partner_count;
@@ -59,11 +62,16 @@ class CellLists {
   double bytes_per_grain() const;
 
  private:
-  struct Event {
-    std::int32_t partner;
-    std::uint32_t partner_count;
+  /// What only the grain itself needs, in one cache line.
+  struct alignas(64) Own {
+    std::array<double, 3> centre;  ///< of its list
+    std::int32_t partner = no_partner;
+    std::uint32_t partner_count = 0;
+    std::uint32_t list_size = 0;
+    std::int32_t cell = -1, next_in_cell = -1, previous_in_cell = -1;
   };
 
+  void prefetch(int i, int days) const;
   std::size_t cell_of(const std::array<double, 3>& centre) const;
   void put_in_cell(std::size_t i);
   void take_from_cell(std::size_t i);
@@ -76,18 +84,17 @@ class CellLists {
   std::int32_t* list(std::size_t i) { return &list_[i * list_room_]; }
 
   GrainLines lines_;
-  AlignedVector<std::array<double, 3>> centre_;
+  AlignedVector<Own> own_;
   AlignedVector<std::int32_t> list_;  // a row a grain, filled up with the grain itself
-  std::vector<std::uint16_t> list_size_;
   std::size_t list_room_ = 24;
-  std::vector<std::int32_t> cell_first_, cell_next_, cell_previous_, cell_;
+  AlignedVector<std::int32_t> cell_first_;
   std::vector<std::int32_t> near_, old_list_;  // for find_neighbours and leave_neighbourhood
   std::array<int, 3> cells_{};
   std::array<double, 3> per_cell_{};
   std::array<double, 2> half_width_{};
   double shell_ = 0, leeway_ = 0;
-  std::vector<Event> event_;
   CalendarQueue queue_;
+  bool prefetches_;
 };
 
 extern template class CellLists<true>;

@@ -30,6 +30,9 @@ struct Period {
   }
 };
 
+/// Up to this many grains all that an event needs is near anyway, and looking ahead only costs.
+constexpr std::size_t fits_in_cache = 20'000;
+
 class GrainLines {
  public:
   GrainLines(const State& state, const std::array<double, 3>& extent)
