@@ -89,9 +89,14 @@ void AllPairs::predict_grains(const std::array<int, K>& who) {
       const Lanes rx = px - x[g], ry = py - y[g], rz = pz - z[g], wx = ux - vx[g], wy = uy - vy[g], wz = uz - vz[g];
       const Lanes reach = other_radius + radius[g];
       const Lanes b = rx * wx + ry * wy + rz * wz, c = rx * rx + ry * ry + rz * rz - reach * reach;
-      simd::where(index != self[g], smallest_room) = simd::min(smallest_room, c);
+      // t >= c / (-2 b): what cannot beat the best so far needs no root. The grain itself has b = 0.
+      const auto may_be_first = b < zero && c <= Lanes(-2.0) * b * best[g];
+      if constexpr (!Well)
+        if (simd::none_of(may_be_first)) continue;
+      simd::where(may_be_first, smallest_room) = simd::min(smallest_room, c);
       const Lanes a = wx * wx + wy * wy + wz * wz, discriminant = b * b - a * c;
-      auto meets = b < zero && discriminant >= zero;  // false for the grain itself, where b = 0
+      auto meets = b < zero && discriminant >= zero;
+      if constexpr (!Well) meets = meets && may_be_first;
       Lanes touch;
       if constexpr (Well) {
         // Outside the well its edge is met first; inside, a grain that does not touch comes to the edge from within.
@@ -115,6 +120,7 @@ void AllPairs::predict_grains(const std::array<int, K>& who) {
     }
   }
   smallest_room_ = simd::hmin(smallest_room);
+  next_.grain = -1;
   for (std::size_t g = 0; g < K; ++g) {
     const std::size_t k = static_cast<std::size_t>(who[g]);
     GrainEvent next = next_side_wall(flight(who[g]), side_room(who[g]));

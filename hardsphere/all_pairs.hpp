@@ -36,9 +36,13 @@ class AllPairs {
   int bonds() const;
   std::array<double, 2> side_room(int i) const { return {half_width_[0] - radius(i), half_width_[1] - radius(i)}; }
 
-  Next next() const {
-    const Smallest earliest = smallest(event_time_, padded_size_);
-    return {earliest.value, earliest.index};
+  /// Asked twice an event: once for its time, once to execute it.
+  const Next& next() {
+    if (next_.grain < 0) {
+      const Smallest earliest = smallest(event_time_, padded_size_);
+      next_ = {earliest.value, earliest.index};
+    }
+    return next_;
   }
   GrainEvent event(int i) const {
     const std::size_t k = static_cast<std::size_t>(i);
@@ -74,6 +78,7 @@ class AllPairs {
   std::vector<Meeting> meeting_;
   double range_ = 0;
   AlignedVector<double> bond_;  // 1 or 0 for each pair, a padded row a grain; empty without attraction
+  Next next_{never, -1};      // grain -1: not known
   double smallest_room_ = 0;  // of r^2 - reach^2, m^2
 };
 

@@ -102,20 +102,26 @@ void EndWalls::find_next() {
   if (earliest.value < never) next_ = {earliest.value, grain_[slot], side_[slot], meeting_[slot]};
 }
 
-void EndWalls::grain_changed(int i, const Flight& flight, const Now& now) {
-  std::int32_t& slot = slot_[static_cast<std::size_t>(i)];
-  const double room = room_[static_cast<std::size_t>(i)];
+void EndWalls::grain_flies(int i, const Flight& flight, const Now& now) {
+  const std::int32_t slot = slot_[static_cast<std::size_t>(i)];
   if (slot < 0) {
-    if (can_sleep(flight, room, now)) return;
+    if (can_sleep(flight, room_[static_cast<std::size_t>(i)], now)) return;
     watch(i, flight);
     for (std::size_t k = count_; k < padded(count_); ++k) bound_[k] = never;
+    return;
   }
   const std::size_t k = static_cast<std::size_t>(slot);
   x_[k] = flight.x;
   v_[k] = flight.v;
   time_[k] = flight.time;
   meeting_[k] = Meeting::none;
-  bound_[k] = bound_of(i, flight, room, now);
+}
+
+void EndWalls::grain_changed(int i, const Flight& flight, const Now& now) {
+  grain_flies(i, flight, now);
+  if (slot_[static_cast<std::size_t>(i)] < 0) return;
+  const std::size_t k = static_cast<std::size_t>(slot_[static_cast<std::size_t>(i)]);
+  bound_[k] = bound_of(i, flight, room_[static_cast<std::size_t>(i)], now);
   if (bound_[k] < next_.time) next_ = {bound_[k], i, 0, Meeting::none};
   else if (next_.grain == i) find_next();
 }
@@ -141,15 +147,22 @@ void EndWalls::kicked(const Now& now, double jump) {
   bound_all(now);
 }
 
-EndWalls::Root EndWalls::exact_root(const BoxMotion& box, int grain, const Flight& flight, double room, double from,
+EndWalls::Root EndWalls::exact_root(const BoxMotion& box, const Now& now, int grain, const Flight& flight, double room,
                                     double horizon) const {
   const double w = box.angular_frequency();
-  if (w == 0) return exact_root<BoxMotion>(box, grain, flight, room, from, horizon);  // a box at rest
-  const BoxMotion::Point point = box.at(from);
-  const double x = flight.x + flight.v * (from - flight.time);
-  const auto root = [&](double s) { return first_wall_root({s * point.x, s * point.v / w, w, room - s * x, s * flight.v}); };
-  const double upper = root(1), lower = root(-1);
-  return {from + std::min(upper, lower), upper <= lower ? 1 : -1, Meeting::touch};
+  if (w == 0) return exact_root<BoxMotion>(box, now, grain, flight, room, horizon);  // a box at rest
+  const double x = flight.x + flight.v * (now.time - flight.time), apart = now.point.x - x, rate = now.point.v - flight.v;
+  const auto bound = [&](int s) { return earliest_possible_root(room + s * apart, s * rate, now.top_acceleration); };
+  const auto root = [&](int s) {
+    return first_wall_root({s * now.point.x, s * now.point.v / w, w, room - s * x, s * flight.v});
+  };
+  // The nearer wall's root mostly comes before the other can be reached at all: 8 % of the time of the paper's damper.
+  const double upper_bound = bound(1), lower_bound = bound(-1);
+  const int first = upper_bound <= lower_bound ? 1 : -1;
+  const double nearer = root(first);
+  if (nearer < std::max(upper_bound, lower_bound)) return {now.time + nearer, first, Meeting::touch};
+  const double other = root(-first);
+  return {now.time + std::min(nearer, other), nearer < other || (nearer == other && first > 0) ? first : -first, Meeting::touch};
 }
 
 }  // namespace shakedown

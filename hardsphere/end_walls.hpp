@@ -55,6 +55,8 @@ class EndWalls {
   template <class FlightOf>
   void open(const Now& now, FlightOf&& flight_of);
 
+  /// Grain i flies anew from now on; its bound is renewed by a kick that follows at once.
+  void grain_flies(int i, const Flight& flight, const Now& now);
   /// Grain i flies anew from now on.
   void grain_changed(int i, const Flight& flight, const Now& now);
   /// The walls were kicked now: their motion goes on from there with a velocity jump of `jump` (0: only their bounds changed).
@@ -90,9 +92,9 @@ class EndWalls {
   bool can_sleep(const Flight& flight, double room, const Now& now) const;
   void watch(int i, const Flight& flight);
   void start_window(const Now& now);
-  Root exact_root(const BoxMotion& box, int grain, const Flight& flight, double room, double from, double horizon) const;
+  Root exact_root(const BoxMotion& box, const Now& now, int grain, const Flight& flight, double room, double horizon) const;
   template <class Motion>
-  Root exact_root(const Motion& motion, int grain, const Flight& flight, double room, double from, double horizon) const;
+  Root exact_root(const Motion& motion, const Now& now, int grain, const Flight& flight, double room, double horizon) const;
 
   bool watch_all_;
   double range_;
@@ -142,11 +144,12 @@ void EndWalls::refine(const Motion& motion, double limit) {
   const Flight flight{x_[k], v_[k], time_[k]};
   const double room = room_of_slot_[k];
   // A new bound from here is cheap; the root is sought only when the bound stays before the next event.
-  const double sharper = bound_of(grain, flight, room, now(motion, bound_[k]));
+  const Now then = now(motion, bound_[k]);
+  const double sharper = bound_of(grain, flight, room, then);
   if (sharper > limit) {
     bound_[k] = sharper;
   } else {
-    const Root root = exact_root(motion, grain, flight, room, bound_[k], limit);
+    const Root root = exact_root(motion, then, grain, flight, room, limit);
     bound_[k] = root.time;
     side_[k] = static_cast<std::int8_t>(root.side);
     meeting_[k] = root.meeting;
@@ -157,9 +160,9 @@ void EndWalls::refine(const Motion& motion, double limit) {
 /// Any motion with a bound on its acceleration: steps that cannot overshoot, which near the root converge like Newton's. No root is
 /// missed, because every stretch stepped over is proved free of one; what lies beyond the horizon is left for later.
 template <class Motion>
-EndWalls::Root EndWalls::exact_root(const Motion& motion, int grain, const Flight& flight, double room, double from,
+EndWalls::Root EndWalls::exact_root(const Motion& motion, const Now& now, int grain, const Flight& flight, double room,
                                     double horizon) const {
-  const double top = motion.top_acceleration();
+  const double top = now.top_acceleration, from = now.time;
   const double end = std::min({motion.valid_until(), std::max(horizon, from + 1e-9), from + 0.1});
   Root first{end, 0, Meeting::none};
   const auto search = [&](int side, double level, int direction, Meeting meeting) {

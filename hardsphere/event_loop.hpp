@@ -45,7 +45,8 @@ class EventLoop {
   std::uint64_t digest() const;
 
   double time() const { return now_; }
-  Observation observe(double t);
+  /// At time().
+  Observation observe();
   State state(double t) const;
   Ledger ledger() const;
   Health health() const;
@@ -63,7 +64,7 @@ class EventLoop {
   void grain_event(int i);
   void wall_event(int axis, EndWalls& walls, const EndWalls::Next& next);
   void meet_wall(int axis, EndWalls& walls, const EndWalls::Next& next);
-  void after(int i);
+  void after(int i, bool kick_follows = false);
   void check_progress();
   void write_down(EventKind kind, int grain = 0, int partner = 0, int side = 1, Meeting meeting = Meeting::touch) {
     if (writer_ != nullptr) [[unlikely]]
@@ -83,7 +84,15 @@ class EventLoop {
   void note_touch(std::uint64_t bond, double momentum, int i, int j = -1);
   void let_go();
   void kick_box(double jump);
-  void finish_wall(int i, const Flight3& flight, const Vec3& impulse);
+  /// Two grains that meet now: both there, from the first to the second the vector r, and how fast they part along it.
+  struct Pair {
+    Flight3 a, b;
+    std::array<double, 3> r;
+    double distance, opening;
+  };
+  Pair pair_now(int i, int j) const;
+  void finish_pair(int i, int j, Pair& pair, double impulse);
+  void finish_wall(int i, const Flight3& flight, double jump);
 
   // Walls.
   void open_windows();
@@ -93,7 +102,16 @@ class EventLoop {
   EndWalls& walls(int axis) { return axis == 0 ? end_walls_ : side_walls_[static_cast<std::size_t>(axis - 1)]; }
   /// The box at now_ in the lab; several callers of one event share it.
   BoxMotion::Point box_now() {
-    if (now_ != box_time_) box_point_ = box_.at(now_), box_time_ = now_;
+    if (now_ != box_time_) {
+      if constexpr (driven) {
+        box_point_ = box_.at(now_);
+      } else {
+        const BoxMotion::PointAndImpulse here = box_.at_with_impulse(now_);
+        box_point_ = here.point;
+        spring_impulse_ = here.spring_impulse;
+      }
+      box_time_ = now_;
+    }
     return box_point_;
   }
 
@@ -129,6 +147,7 @@ class EventLoop {
 
   double now_ = 0, box_time_ = -1;
   BoxMotion::Point box_point_{};
+  double spring_impulse_ = 0;  // since the last kick, at box_time_
   double kick_every_ = never, next_kick_ = never;
 
   Ledger ledger_;
@@ -145,6 +164,10 @@ class EventLoop {
 
 }  // namespace shakedown
 
+#include "event_loop_effects.hpp"
 #include "event_loop_impacts.hpp"
+#include "event_loop_observe.hpp"
 #include "event_loop_script.hpp"
+#include "event_loop_start.hpp"
 #include "event_loop_steps.hpp"
+#include "event_loop_walls.hpp"

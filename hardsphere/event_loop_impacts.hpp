@@ -2,6 +2,7 @@
 // Part of event_loop.hpp: what happens when grains touch each other or a wall.
 #pragma once
 #include "event_loop.hpp"
+#include "event_loop_start.hpp"
 
 namespace shakedown {
 
@@ -60,15 +61,50 @@ void EventLoop<Grains, Motion>::refuse(int i, Flight3 flight, EndWalls* walls) {
   if (walls && !scripted) walls->put_off(i, now_ + 1e-9);
 }
 
+template <class Grains, class Motion>
+typename EventLoop<Grains, Motion>::Pair EventLoop<Grains, Motion>::pair_now(int i, int j) const {
+  Pair pair{grains_.flight(i), grains_.flight(j), {}, 0, 0};
+  auto& [a, b, r, distance, opening] = pair;
+  a.advance(now_);
+  b.advance(now_);
+  r = grains_.separation(a, b);
+  distance = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+  opening = (r[0] * (b.v[0] - a.v[0]) + r[1] * (b.v[1] - a.v[1]) + r[2] * (b.v[2] - a.v[2])) / distance;
+  return pair;
+}
+
+/// They part with `impulse` along r, and all who are concerned hear of it.
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::finish_pair(int i, int j, Pair& pair, double impulse) {
+  const double ma = grains_.mass(i), mb = grains_.mass(j);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double along = impulse * pair.r[axis] / pair.distance;
+    pair.a.v[axis] -= along / ma;
+    pair.b.v[axis] += along / mb;
+  }
+  grains_.set_flight(i, pair.a);
+  grains_.set_flight(j, pair.b);
+  grains_.predict(i, j);
+  after(i);
+  after(j);
+}
+
+/// A wall has thrown a grain back, and the box has taken `jump`.
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::finish_wall(int i, const Flight3& flight, double jump) {
+  grains_.set_flight(i, flight);
+  if (jump != 0) kick_box(jump);
+  grains_.predict(i);
+  after(i, jump != 0);
+  if (jump != 0) renew_walls(jump);
+}
+
 /// Inelastic impact of two spheres: normal impulse mu (1 + eps) times the closing speed along the line of centres.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::pair_impact(int i, int j) {
-  Flight3 a = grains_.flight(i), b = grains_.flight(j);
-  a.advance(now_);
-  b.advance(now_);
-  const auto r = grains_.separation(a, b);
-  const double distance = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
-  const double closing = -(r[0] * (b.v[0] - a.v[0]) + r[1] * (b.v[1] - a.v[1]) + r[2] * (b.v[2] - a.v[2])) / distance;
+  Pair pair = pair_now(i, j);
+  auto& [a, b, r, distance, opening] = pair;
+  const double closing = -opening;
   if (closing <= 0) return refuse(i, a, nullptr);
   const double e = restitution(ContactClass::grain_grain, closing, elastic_below(limits_.pair_speed, i, j), elastic_pairs_);
   const double ma = grains_.mass(i), mb = grains_.mass(j), reduced = ma * mb / (ma + mb);
@@ -88,33 +124,20 @@ void EventLoop<Grains, Motion>::pair_impact(int i, int j) {
       spin_b += spin_change(-normal, rb, mb, friction.impulse);
       loss += friction.loss;
     }
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double along = impulse * r[axis] / distance;
-    a.v[axis] -= along / ma;
-    b.v[axis] += along / mb;
-  }
   lose(0, loss);
   ++collisions_[0];
   if constexpr (driven)
     if (contact_.has_attraction()) note_touch(HeldBonds::of_pair(i, j), reduced * e * closing, i, j);
   virial_ += impulse * distance;
-  grains_.set_flight(i, a);
-  grains_.set_flight(j, b);
-  grains_.predict(i, j);
-  after(i);
-  after(j);
+  finish_pair(i, j, pair, impulse);
 }
 
 /// The edge of the square well around a grain: depth attraction force times range, gained on capture and paid back on escape; too slow to
 /// pay, the grain is thrown back.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::pair_well(int i, int j, Meeting meeting) {
-  Flight3 a = grains_.flight(i), b = grains_.flight(j);
-  a.advance(now_);
-  b.advance(now_);
-  const auto r = grains_.separation(a, b);
-  const double distance = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
-  const double opening = (r[0] * (b.v[0] - a.v[0]) + r[1] * (b.v[1] - a.v[1]) + r[2] * (b.v[2] - a.v[2])) / distance;
+  Pair pair = pair_now(i, j);
+  const double opening = pair.opening;
   const double ma = grains_.mass(i), mb = grains_.mass(j), reduced = ma * mb / (ma + mb);
   const double depth = contact_.attraction_force * contact_.attraction_range;
   double next = opening;
@@ -132,16 +155,7 @@ void EventLoop<Grains, Motion>::pair_well(int i, int j, Meeting meeting) {
   } else {
     next = -opening;
   }
-  const double impulse = reduced * (next - opening);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    a.v[axis] -= impulse * r[axis] / distance / ma;
-    b.v[axis] += impulse * r[axis] / distance / mb;
-  }
-  grains_.set_flight(i, a);
-  grains_.set_flight(j, b);
-  grains_.predict(i, j);
-  after(i);
-  after(j);
+  finish_pair(i, j, pair, reduced * (next - opening));
 }
 
 /// Impact on a side wall at rest in the frame of the grains.
@@ -157,9 +171,7 @@ void EventLoop<Grains, Motion>::fixed_side_impact(int i, std::int32_t face) {
   flight.v[axis] *= -e;
   lose(2, grains_.mass(i) / 2 * (1 - e * e) * closing * closing);
   ++collisions_[2];
-  grains_.set_flight(i, flight);
-  grains_.predict(i);
-  after(i);
+  finish_wall(i, flight, 0);
 }
 
 /// The box takes `jump` at now_.
@@ -167,9 +179,10 @@ template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::kick_box(double jump) {
   const BoxMotion::Point box = box_now();
   if constexpr (driven) account(now_);
-  else outer_impulse_ += box_.spring_impulse(now_);
+  else outer_impulse_ += spring_impulse_;
   box_.restart(now_, box.x, box.v + jump);
   box_point_.v += jump;
+  spring_impulse_ = 0;
 }
 
 /// Forced to swing wider than it was released, the box presses its layers with more than the setup's accelerations. At resonance (1 m/s^2
@@ -223,12 +236,7 @@ void EventLoop<Grains, Motion>::end_impact(int i, int side) {
   ++collisions_[1];
   if constexpr (driven)
     if (contact_.has_attraction()) note_touch(HeldBonds::of_wall(i, 0, side), reduced * e * closing, i);
-  grains_.set_flight(i, flight);
-  const double jump = has_spring_ ? side * impulse / box_.mass() : 0;
-  if (has_spring_) kick_box(jump);
-  grains_.predict(i);
-  after(i);
-  if (has_spring_) renew_walls(jump);
+  finish_wall(i, flight, has_spring_ ? side * impulse / box_.mass() : 0);
 }
 
 /// Impact on a side wall that may move across (falling frame, arc) and along the axis (with the box, whom friction pulls).
@@ -269,11 +277,7 @@ void EventLoop<Grains, Motion>::moving_side_impact(int i, int axis, int side) {
     lose(2, loss);
     ++collisions_[2];
     if (contact_.has_attraction()) note_touch(HeldBonds::of_wall(i, axis, side), m * e * closing, i);
-    grains_.set_flight(i, flight);
-    if (jump != 0) kick_box(jump);
-    grains_.predict(i);
-    after(i);
-    if (jump != 0) renew_walls(jump);
+    finish_wall(i, flight, jump);
   }
 }
 
@@ -308,12 +312,7 @@ void EventLoop<Grains, Motion>::wall_well(int i, int axis, int side, Meeting mee
     if (axis == 2 && forces_.arc_effect >= 0)
       ledger_.effect_loss[static_cast<std::size_t>(forces_.arc_effect)] += side * impulse * (walls_across(2).at(now_).v + frame_.velocity(now_).z());
     flight.v[k] -= side * impulse / m;
-    grains_.set_flight(i, flight);
-    const double jump = axis == 0 && has_spring_ ? side * impulse / M : 0;
-    if (jump != 0) kick_box(jump);
-    grains_.predict(i);
-    after(i);
-    if (jump != 0) renew_walls(jump);
+    finish_wall(i, flight, axis == 0 && has_spring_ ? side * impulse / M : 0);
   }
 }
 

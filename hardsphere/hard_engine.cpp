@@ -27,6 +27,7 @@ class HardEngine final : public Engine {
     trajectory.engine = "hard";
     trajectory.initial_energy = system.initial_energy();
     const auto samples = static_cast<std::int64_t>(std::floor(setup.run.duration * setup.run.sample_rate * (1 + 1e-12)));
+    reserve(static_cast<std::size_t>(samples + 1), trajectory);
     const std::int64_t report_every = std::max<std::int64_t>(1, samples / 200);
     for (std::int64_t k = 0; k <= samples; ++k) {
       const double time = static_cast<double>(k) / setup.run.sample_rate;
@@ -57,6 +58,11 @@ class HardEngine final : public Engine {
   }
 
  private:
+  static void reserve(std::size_t samples, Trajectory& trajectory) {
+    for (auto* series : {&trajectory.time, &trajectory.x_box, &trajectory.v_box, &trajectory.x_com, &trajectory.total_energy})
+      series->reserve(samples);
+    for (auto& series : trajectory.loss) series.reserve(samples);
+  }
   static void append(const Observation& seen, const Ledger& ledger, Trajectory& trajectory) {
     trajectory.time.push_back(seen.time);
     trajectory.x_box.push_back(seen.x_box);

@@ -95,7 +95,7 @@ CollisionLog HardSphereSystem::collision_log() const {
   EXPECT(inside_->writer != nullptr);
   return inside_->writer->finished(time(), SHAKEDOWN_IN_LOOP(loop.digest()));
 }
-Observation HardSphereSystem::observe() { return SHAKEDOWN_IN_LOOP(loop.observe(loop.time())); }
+Observation HardSphereSystem::observe() { return SHAKEDOWN_IN_LOOP(loop.observe()); }
 State HardSphereSystem::state() const { return SHAKEDOWN_IN_LOOP(loop.state(loop.time())); }
 Ledger HardSphereSystem::ledger() const { return SHAKEDOWN_IN_LOOP(loop.ledger()); }
 Health HardSphereSystem::health() const {

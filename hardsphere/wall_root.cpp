@@ -13,7 +13,7 @@ double root_in(const HarmonicGap& gap, double low, double high) {
   double t = low + (high - low) / 2;
   // From the low end the curvature bound gives a start that cannot overshoot.
   const double curvature = std::hypot(gap.a, gap.b) * gap.angular_frequency * gap.angular_frequency;
-  const HarmonicGap::Value start = gap.value(low);
+  const HarmonicGap::Value start = low == 0 ? HarmonicGap::Value{gap.a + gap.c, gap.angular_frequency * gap.b - gap.u} : gap.value(low);
   if (curvature > 0) t = std::min(t, low + earliest_possible_root(start.gap, start.rate, curvature));
   // Below this a gap is rounding: half a unit in the last place of the largest term.
   const double noise = 0x1p-53 * (std::abs(gap.a) + std::abs(gap.b) + std::abs(gap.c));

@@ -34,15 +34,21 @@ class BoxMotion {
     time_ = t;
     x_ = x;
     v_ = v;
-    amplitude_ = angular_frequency_ > 0 ? std::hypot(x, v / angular_frequency_) : std::abs(x);
+    const double y = angular_frequency_ > 0 ? v / angular_frequency_ : 0;
+    amplitude_ = std::sqrt(x * x + y * y);  // metres: nothing that hypot would have to guard against
   }
 
-  /// Impulse of the spring from the last kick to time t, N s: -k integral of x.
-  double spring_impulse(double t) const {
-    if (angular_frequency_ == 0) return 0;
-    const double phase = angular_frequency_ * (t - time_);
-    const double half = std::sin(phase / 2);
-    return -stiffness_ / angular_frequency_ * (x_ * std::sin(phase) + v_ / angular_frequency_ * 2 * half * half);
+  struct PointAndImpulse {
+    Point point;
+    double spring_impulse;  ///< of the spring from the last kick to then, N s: -k integral of x
+  };
+  /// Both from one sine and cosine.
+  PointAndImpulse at_with_impulse(double t) const {
+    if (angular_frequency_ == 0) return {at(t), 0};
+    const double phase = angular_frequency_ * (t - time_), y = v_ / angular_frequency_;
+    const double c = std::cos(phase), s = std::sin(phase);
+    const double versine = c > 0 ? s * s / (1 + c) : 1 - c;  // 1 - cos without cancellation
+    return {{x_ * c + y * s, v_ * c + -x_ * angular_frequency_ * s}, -stiffness_ / angular_frequency_ * (x_ * s + y * versine)};
   }
 
   double energy() const { return stiffness_ * x_ * x_ / 2 + mass_ * v_ * v_ / 2; }
