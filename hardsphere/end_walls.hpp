@@ -6,8 +6,11 @@
 // In large dampers even that sweep would cost O(N) a kick. There a window is opened: with the box on its present arc, displaced by
 // at most `slack`, most grains cannot reach a wall before the window ends. They sleep; only the others are swept. Kicks move the box
 // off the arc by at most sum |dV| (end of window - now); when that exceeds the slack, or time runs out, a new window is opened.
-// Windows are as long as makes the sweeps over all grains (one a window) and over the watched ones (one a kick) cost the same; a
-// kick then costs O(sqrt N) with a small factor.
+// Windows are as long as makes the sweeps over all grains and over the watched ones cost the same.
+//
+// Nor are the watched swept at every kick: their bounds allow for kicks that add up to a `budget` of velocity, (gap rate - budget) in place
+// of the gap's rate. A kick within it renews the bounds of those alone whose exact root was known; the budget is as large as makes sweeps
+// cost as much as the refinements that its caution adds.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -15,6 +18,7 @@
 
 #include "box_motion.hpp"
 #include "lanes.hpp"
+#include "smallest_tree.hpp"
 #include "wall_root.hpp"
 
 namespace shakedown {
@@ -88,9 +92,12 @@ class EndWalls {
 
   void find_next();
   void bound_all(const Now& now);
+  void sweep(const Now& now);
   double bound_of(int grain, const Flight& flight, double room, const Now& now) const;
   bool can_sleep(const Flight& flight, double room, const Now& now) const;
   void watch(int i, const Flight& flight);
+  /// Takes note of a new flight; false when the grain sleeps on.
+  bool watch_changed(int i, const Flight& flight, const Now& now);
   void start_window(const Now& now);
   Root exact_root(const BoxMotion& box, const Now& now, int grain, const Flight& flight, double room, double horizon) const;
   template <class Motion>
@@ -103,7 +110,8 @@ class EndWalls {
   std::vector<std::int8_t> inside_;  // of every grain and side: in the well of that wall; empty without attraction
   // The watched grains, dense.
   std::size_t count_ = 0;
-  AlignedVector<double> x_, v_, time_, room_of_slot_, bound_;
+  AlignedVector<double> x_, v_, time_, room_of_slot_;
+  SmallestTree bound_;
   std::vector<std::int32_t> grain_;
   std::vector<std::int8_t> side_;
   std::vector<Meeting> meeting_;  // none: bound_ is a lower bound
@@ -112,7 +120,10 @@ class EndWalls {
   double planned_ = 0;               // length of a window, s; adapted
   double drift_ = 0, jumps_ = 0;     // of this window: bound of the box's displacement off its arc, sum of |dV|
   double jump_rate_ = 0;             // sum of |dV| a second, of past windows
-  std::int64_t kicks_ = 0;           // in this window
+  double budget_ = 0, used_ = 0;     // m/s, of kicks that the bounds allow for, and that came since
+  std::vector<std::int32_t> due_;    // slots whose bound a kick ends: exact roots, new flights
+  std::int64_t kicks_ = 0, refined_ = 0;  // since the last sweep
+  double swept_ = 0;                 // bounds renewed in this window
   double smallest_gap_ = 0;
 };
 
@@ -134,7 +145,7 @@ void EndWalls::open(const Now& now, FlightOf&& flight_of) {
     slot_[i] = -1;
     if (watch_all_ || !can_sleep(flight, room_[i], now)) watch(static_cast<int>(i), flight);
   }
-  bound_all(now);
+  sweep(now);
 }
 
 template <class Motion>
@@ -147,13 +158,15 @@ void EndWalls::refine(const Motion& motion, double limit) {
   const Now then = now(motion, bound_[k]);
   const double sharper = bound_of(grain, flight, room, then);
   if (sharper > limit) {
-    bound_[k] = sharper;
+    bound_.set(k, sharper);
   } else {
     const Root root = exact_root(motion, then, grain, flight, room, limit);
-    bound_[k] = root.time;
+    bound_.set(k, root.time);
     side_[k] = static_cast<std::int8_t>(root.side);
     meeting_[k] = root.meeting;
+    if (!watch_all_) due_.push_back(static_cast<std::int32_t>(k));
   }
+  ++refined_;
   find_next();
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <experimental/simd>
+#include <limits>
 #include <new>
 #include <vector>
 #ifdef __AVX512F__
