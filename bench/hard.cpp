@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "fluid.hpp"
 #include "hard_engine.hpp"
 #include "hard_sphere_system.hpp"
 #include "random.hpp"
@@ -65,17 +66,6 @@ void large_damper(benchmark::State& state) {
   count(state, impacts, events);
 }
 
-Setup periodic_fluid(int grains, double packing_fraction) {
-  Setup setup;
-  setup.domain = Domain::periodic;
-  setup.grains = {grains, 1.0, 1.0};
-  setup.box.length = std::cbrt(grains * std::numbers::pi / 6 / packing_fraction);
-  setup.box.width = {setup.box.length, setup.box.length};
-  setup.restitution = {1.0, 1.0};
-  setup.release.packing = Packing::random;
-  return setup;
-}
-
 /// Molten and ready. Kept between the calls that the benchmark library makes to find its number of iterations; one at a time.
 HardSphereSystem& molten_fluid(int grains, int percent) {
   static std::unique_ptr<HardSphereSystem> kept;
@@ -126,7 +116,7 @@ void wall_bound(benchmark::State& state) {
 }
 
 BENCHMARK(paper_damper)->ArgName("L_mm")->Arg(40)->Arg(311)->Unit(benchmark::kMillisecond);
-BENCHMARK(large_damper)->ArgNames({"N", "ms"})->Args({1000, 20})->Args({10'000, 20})->Args({100'000, 20})->Args({1000, 200})->Args({10'000, 200})
+BENCHMARK(large_damper)->ArgNames({"N", "ms"})->Args({1000, 20})->Args({10'000, 20})->Args({100'000, 20})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(periodic_fluid)->ArgNames({"N", "percent"})->ArgsProduct({{1372, 10'976, 97'556, 1'000'188}, {10, 30, 50}})
     ->Unit(benchmark::kMillisecond);
