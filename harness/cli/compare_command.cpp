@@ -6,8 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
-#include "decay_comparison.hpp"
 #include "compare_report.hpp"
+#include "decay_comparison.hpp"
+#include "diagnosis.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
 #include "experiment_file.hpp"
@@ -49,9 +50,7 @@ std::string readable(const std::vector<FailureCell>& cells) {
   std::size_t shown = 0;
   for (const FailureCell& cell : cells) {
     if (cell.p_value >= significant || shown++ >= most_cells) break;
-    const std::string when = cell.to > cell.from ? fmt::format(" {:.0f} to {:.1f} s", cell.from, cell.to) : "";
-    text += fmt::format("    {:<12} {:<13} {:<42} {:>7.3f} mm rms, {:>5.1f} sigma, p = {:.3f}\n", cell.run.empty() ? "all runs" : cell.run,
-                        cell.observable, cell.what + when, cell.error * 1e3, cell.sigmas, cell.p_value);
+    text += line_of(cell);
   }
   return shown > 0 ? text : "  no run, time, phase, amplitude, landing or flight stands out\n";
 }

@@ -75,6 +75,9 @@ std::string_view name_of(Verdict verdict);
 /// The whole diagnosis as JSON text.
 std::string diagnosis_json(const Diagnosis& diagnosis);
 
+/// Where a model fails, a line for a terminal.
+std::string line_of(const FailureCell& cell);
+
 /// The whole diagnosis as text for a terminal.
 std::string diagnosis_text(const Diagnosis& diagnosis);
 

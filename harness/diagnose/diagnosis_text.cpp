@@ -7,6 +7,12 @@
 
 namespace shakedown {
 
+std::string line_of(const FailureCell& cell) {
+  const std::string when = cell.to > cell.from ? fmt::format(" {:.0f} to {:.1f} s", cell.from, cell.to) : "";
+  return fmt::format("    {:<12} {:<13} {:<42} {:>7.3f} mm rms, {:>5.1f} sigma, p = {:.3f}\n", cell.run.empty() ? "all runs" : cell.run, cell.observable, cell.what + when,
+                     cell.error * 1e3, cell.sigmas, cell.p_value);
+}
+
 std::string diagnosis_text(const Diagnosis& d) {
   std::string text = d.sentence + "\n\n";
   text += fmt::format("  {:<58} {:>10} {:>10} {:>12} {:>8}\n", "error, mm", "box", "centre", "box held out", "p");
@@ -39,8 +45,7 @@ std::string diagnosis_text(const Diagnosis& d) {
   if (!d.where.empty()) {
     text += "\n  where it fails\n";
     for (const FailureCell& c : d.where)
-      text += fmt::format("    {} {} {} {:.1f}-{:.1f} s: {:.2f} mm, {:.1f} times its spread\n", c.run, c.observable, c.what, c.from, c.to,
-                          c.error * 1e3, c.sigmas);
+      text += line_of(c);
   }
   if (!d.force_formula.empty()) text += "\n  force to try: " + d.force_formula + "\n";
   for (const std::string& next : d.next_experiments) text += "  next: " + next + "\n";
