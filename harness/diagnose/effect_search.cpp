@@ -96,7 +96,8 @@ bool Pipeline::add_best_candidate(Refit& best) {
   keep(winner.fit);
   for (const Knob& knob : chosen_) set_knob(base_, knob, options_.known);  // present from now on, so that it is no candidate again
   const Refit closer = winner.decided ? winner.fit : fit("refitting with " + winner.effect, together(theta_, chosen_), to_conclude);
-  if (!stands_out(closer, winner.knobs)) {  // the gain was the emulators' noise
+  // Neither an explanation nor a strength that differs from nothing: the gain was the emulators' noise.
+  if (closer.p_value <= doubtful && !stands_out(closer, winner.knobs)) {
     std::tie(theta_, chosen_, final_, result_.missing) = known_before;
     base_ = before;
     return false;
