@@ -49,7 +49,8 @@ double unseen_outliers(const std::vector<double>& raw, const std::vector<double>
     const double jump = std::abs(raw[i] - kept[left] - share * (kept[right] - kept[left]));
     near += jump > seen && jump < 3 * seen;
   }
-  return near / (4 * seen) * 2 * seen * seen * seen / 3 / std::max(1.0, present);  // density, both signs, times the integral of the jump's square
+  // near / (4 seen) a metre, both signs together, times the integral of the jump's square from -seen to seen.
+  return near * seen * seen / (6 * std::max(1.0, present));
 }
 
 NoiseFound noise_of(const std::vector<double>& time, std::vector<double>& x, double interval,

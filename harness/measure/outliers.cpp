@@ -161,14 +161,15 @@ std::vector<double> without_outliers(const std::vector<double>& time, const std:
     if (same && pass > 0) break;
   }
   // Two wrong frames side by side may support each other, which no line through six frames does.
-  for (int pass = 0; pass < 3; ++pass) {
+  const auto supported = [&](std::size_t i) {
+    const auto by = [&](int step) { return misfit_to_robust_line(time, kept, i, step, x[i], deviation, judge.acceleration()) <= certain; };
+    return by(0) || by(-1) || by(1);  // both sides together support all but frames at landings
+  };
+  for (bool same = false; !same;) {
     std::vector<double> next = kept;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      if (!std::isfinite(kept[i])) continue;
-      double smallest = 1e300;
-      for (const int step : {-1, 0, 1}) smallest = std::min(smallest, misfit_to_robust_line(time, kept, i, step, x[i], deviation, judge.acceleration()));
-      if (smallest > certain) next[i] = nothing;
-    }
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (std::isfinite(kept[i]) && !supported(i)) next[i] = nothing;
+    same = std::equal(kept.begin(), kept.end(), next.begin(), [](double one, double other) { return std::isfinite(one) == std::isfinite(other); });
     kept = std::move(next);
   }
   return kept;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "audit.hpp"
 #include "random.hpp"
@@ -59,6 +60,41 @@ TEST(Audit, TakesOutOutliersOnly) {
   const RunAudit audit = audit_run(run);
   EXPECT_NEAR(audit.box.outliers, wrong, 0.05 * wrong);
   EXPECT_NEAR(audit.box.standard_deviation, 2e-4, 0.1 * 2e-4);
+}
+
+/// The second frame of each pair lies where the line through its neighbour and the frame before points, so that the two support each other.
+TEST(Audit, TakesOutOutliersThatSupportEachOther) {
+  MeasuredRun run = recorded(500, 2e-4, 0, 3);
+  const std::vector<double> right = run.x_box;
+  constexpr double jump = 0.008;
+  int pairs = 0;
+  for (std::size_t i = 100; i + 100 < run.x_box.size(); i += 150, ++pairs) run.x_box[i] += jump, run.x_box[i + 1] += 2 * jump;
+  const RunAudit audit = audit_run(run);
+  int kept = 0, lost = 0;
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    const bool wrong = run.x_box[i] != right[i];
+    kept += wrong && std::isfinite(audit.x_box[i]);
+    lost += !wrong && !std::isfinite(audit.x_box[i]);
+  }
+  EXPECT_GT(pairs, 10);
+  EXPECT_EQ(kept, 0);
+  EXPECT_LE(lost, pairs / 2);  // right frames beside wrong ones
+}
+
+/// Jumps evenly spread: those too small to be told from noise widen it as they do in truth.
+TEST(Audit, OutliersTooSmallToBeSeenCountAsNoise) {
+  MeasuredRun run = recorded(500, 2e-4, 0, 3);
+  const std::vector<double> right = run.x_box;
+  Random random(4, 0, Stream::other);
+  for (double& x : run.x_box)
+    if (random.uniform() < 0.05) x += 0.005 * (2 * random.uniform() - 1);
+  const RunAudit audit = audit_run(run);
+  double squares = 0, frames = 0;
+  for (std::size_t i = 0; i < right.size(); ++i)
+    if (std::isfinite(audit.x_box[i])) squares += std::pow(audit.x_box[i] - right[i], 2), ++frames;
+  const double truth = std::hypot(2e-4, std::sqrt(squares / frames));
+  std::printf("found %.4g mm, true %.4g mm\n", 1e3 * audit.box.standard_deviation, 1e3 * truth);
+  EXPECT_NEAR(audit.box.standard_deviation, truth, 0.1 * truth);
 }
 
 TEST(Audit, CountsGaps) {
