@@ -23,7 +23,7 @@ bool CellCrossings::can_hold(const State& state, const std::array<double, 3>& ex
 }
 
 CellCrossings::CellCrossings(const State& state, const std::array<double, 3>& extent, double edge)
-    : lines_(state, extent), place_(state.size()), queue_(state.size()), prefetches_(state.size() > fits_in_cache) {
+    : ScheduledGrains(state, extent), place_(state.size()) {
   EXPECT(can_hold(state, extent));
   std::size_t all = 1;
   for (std::size_t axis : {2, 1, 0}) {
@@ -193,16 +193,6 @@ void CellCrossings::schedule(std::size_t i, const Flight3& anchor, double now) {
   const double crossing = std::max(now, anchor.time + wait);  // rounding may have put it a little beyond its edge
   place.crosses = crossing < place.pair_time;
   queue_.schedule(static_cast<int>(i), std::min(crossing, place.pair_time));
-}
-
-void CellCrossings::predict_all() {
-  double sum = 0, count = 0, now = 0;
-  for (int i = 0; i < size(); ++i) {
-    predict(i);
-    now = lines_[static_cast<std::size_t>(i)].time;
-    if (const double wait = queue_.time(i) - now; wait < never) sum += wait, ++count;
-  }
-  if (sum > 0) queue_.plan(now, count * count / sum);
 }
 
 double CellCrossings::bytes_per_grain() const {

@@ -6,56 +6,38 @@
 #pragma once
 #include <vector>
 
-#include "calendar_queue.hpp"
-#include "grain_lines.hpp"
+#include "scheduled_grains.hpp"
 
 namespace shakedown {
 
-class CellCrossings {
+class CellCrossings : public ScheduledGrains {
  public:
-  using Next = CalendarQueue::Next;
-
   /// Whether the cell is wide enough, and the grains are equal, as this needs.
   static bool can_hold(const State& state, const std::array<double, 3>& extent);
   /// `edge`: the least width of a cell in diameters, 0: the least possible.
   CellCrossings(const State& state, const std::array<double, 3>& extent, double edge = 0);
 
-  int size() const { return static_cast<int>(lines_.size()); }
-  Flight3 flight(int i) const { return lines_.flight(static_cast<std::size_t>(i)); }
-  void set_flight(int i, const Flight3& flight) {
-    move_to(i, flight);
-    ++lines_[static_cast<std::size_t>(i)].count;
-  }
-  void move_to(int i, const Flight3& flight) { lines_.move_to(static_cast<std::size_t>(i), flight); }
   void forget_side_walls() {}
-  void set_bond(int, int, bool) { EXPECT(false && "wells need AllPairs"); }
-  int bonds() const { return 0; }
-  double radius(int i) const { return lines_.radius(static_cast<std::size_t>(i)); }
-  double mass(int i) const { return lines_.mass(static_cast<std::size_t>(i)); }
   Next next() {
-    if (!prefetches_) return queue_.next();
-    return queue_.next([this](int i, int days) { prefetch(i, days); });
+    return next_event([this](int i, int days) { prefetch(i, days); });
   }
   GrainEvent event(int i) const {
     const Place& place = place_[static_cast<std::size_t>(i)];
     if (place.crosses) return {queue_.time(i), leaves_neighbourhood, 0, Meeting::touch};
     return {place.pair_time, place.partner, place.partner_count, Meeting::touch};
   }
-  bool is_stale(const GrainEvent& event) const {
-    return event.partner >= 0 && lines_[static_cast<std::size_t>(event.partner)].count != event.partner_count;
-  }
-  GrainSums sums(double t) const { return lines_.sums(t); }
   void predict(int i);
   void predict(int i, int j) {
     predict(i);
     predict(j);
   }
-  void predict_all();
+  void predict_all() {
+    plan_all([this](int i) { predict(i); });
+  }
   /// Grain i crosses into the next cell.
   void leave_neighbourhood(int i, double now);
   /// From a to b, the nearest image.
   std::array<double, 3> separation(const Flight3& a, const Flight3& b) const;
-  double deepest_overlap() const { return lines_.deepest_overlap(); }
   double bytes_per_grain() const;
 
  private:
@@ -87,14 +69,11 @@ class CellCrossings {
   void remember(std::size_t i, double now, const GrainLines::Touch& touch);
   void schedule(std::size_t i, const Flight3& anchor, double now);
 
-  GrainLines lines_;
   AlignedVector<Place> place_;
   AlignedVector<std::int32_t> cell_first_;
   std::array<int, 3> cells_{};
   std::array<double, 3> edge_{};
   std::array<std::vector<std::uint32_t>, 3> offset_;  // of a cell's index, per axis; one step beyond both ends wraps around
-  CalendarQueue queue_;
-  bool prefetches_;
 };
 
 }  // namespace shakedown

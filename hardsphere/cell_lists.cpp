@@ -18,7 +18,7 @@ double shell_for(double packing_fraction) {
 
 template <bool Periodic>
 CellLists<Periodic>::CellLists(const State& state, const CellListsPlan& plan)
-    : lines_(state, plan.cell), own_(state.size()), half_width_(plan.half_width), queue_(state.size()), prefetches_(state.size() > fits_in_cache) {
+    : ScheduledGrains(state, plan.cell), own_(state.size()), half_width_(plan.half_width) {
   shell_ = lines_.largest_reach() * (plan.shell > 0 ? plan.shell : shell_for(plan.packing_fraction));
   if (Periodic)
     for (const double extent : plan.cell) shell_ = std::min(shell_, extent / 3);
@@ -86,17 +86,6 @@ void CellLists<Periodic>::predict(int i) {
   own_[k].partner = next.partner;
   own_[k].partner_count = next.partner_count;
   queue_.schedule(i, next.time);
-}
-
-template <bool Periodic>
-void CellLists<Periodic>::predict_all() {
-  double sum = 0, count = 0, now = 0;
-  for (int i = 0; i < size(); ++i) {
-    predict(i);
-    now = lines_[static_cast<std::size_t>(i)].time;
-    if (const double wait = queue_.time(i) - now; wait < never) sum += wait, ++count;
-  }
-  if (sum > 0) queue_.plan(now, count * count / sum);
 }
 
 template <bool Periodic>

@@ -7,8 +7,7 @@
 #pragma once
 #include <vector>
 
-#include "calendar_queue.hpp"
-#include "grain_lines.hpp"
+#include "scheduled_grains.hpp"
 
 namespace shakedown {
 
@@ -21,44 +20,27 @@ struct CellListsPlan {
 };
 
 template <bool Periodic>
-class CellLists {
+class CellLists : public ScheduledGrains {
  public:
-  using Next = CalendarQueue::Next;
-
   CellLists(const State& state, const CellListsPlan& plan);
 
-  int size() const { return static_cast<int>(lines_.size()); }
-  Flight3 flight(int i) const { return lines_.flight(static_cast<std::size_t>(i)); }
-  void set_flight(int i, const Flight3& flight) {
-    move_to(i, flight);
-    ++lines_[static_cast<std::size_t>(i)].count;
-  }
-  void move_to(int i, const Flight3& flight) { lines_.move_to(static_cast<std::size_t>(i), flight); }
   void forget_side_walls() { half_width_ = {never, never}; }
-  void set_bond(int, int, bool) { EXPECT(false && "wells need AllPairs"); }
-  int bonds() const { return 0; }
-  double radius(int i) const { return lines_.radius(static_cast<std::size_t>(i)); }
-  double mass(int i) const { return lines_.mass(static_cast<std::size_t>(i)); }
   Next next() {
-    if (!prefetches_) return queue_.next();
-    return queue_.next([this](int i, int days) { prefetch(i, days); });
+    return next_event([this](int i, int days) { prefetch(i, days); });
   }
   GrainEvent event(int i) const;
-  bool is_stale(const GrainEvent& event) const {
-    return event.partner >= 0 && lines_[static_cast<std::size_t>(event.partner)].count != event.partner_count;
-  }
-  GrainSums sums(double t) const { return lines_.sums(t); }
   void predict(int i);
   void predict(int i, int j) {
     predict(i);
     predict(j);
   }
-  void predict_all();
+  void predict_all() {
+    plan_all([this](int i) { predict(i); });
+  }
   /// Renews the list of a grain that has reached its leeway.
   void leave_neighbourhood(int i, double now);
   /// From a to b, the nearest image.
   std::array<double, 3> separation(const Flight3& a, const Flight3& b) const;
-  double deepest_overlap() const { return lines_.deepest_overlap(); }
   double bytes_per_grain() const;
 
  private:
@@ -83,7 +65,6 @@ class CellLists {
   double time_to_leave(std::size_t i, const Flight3& flight) const;
   std::int32_t* list(std::size_t i) { return &list_[i * list_room_]; }
 
-  GrainLines lines_;
   AlignedVector<Own> own_;
   AlignedVector<std::int32_t> list_;  // a row a grain, filled up with the grain itself
   std::size_t list_room_ = 24;
@@ -93,8 +74,6 @@ class CellLists {
   std::array<double, 3> per_cell_{};
   std::array<double, 2> half_width_{};
   double shell_ = 0, leeway_ = 0;
-  CalendarQueue queue_;
-  bool prefetches_;
 };
 
 extern template class CellLists<true>;

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// What the systems of many grains have in common, however they find partners: one line a grain, and a calendar with the next event of each.
+#pragma once
+#include "calendar_queue.hpp"
+#include "grain_lines.hpp"
+
+namespace shakedown {
+
+class ScheduledGrains {
+ public:
+  using Next = CalendarQueue::Next;
+
+  int size() const { return static_cast<int>(lines_.size()); }
+  Flight3 flight(int i) const { return lines_.flight(static_cast<std::size_t>(i)); }
+  void set_flight(int i, const Flight3& flight) {
+    move_to(i, flight);
+    ++lines_[static_cast<std::size_t>(i)].count;
+  }
+  void move_to(int i, const Flight3& flight) { lines_.move_to(static_cast<std::size_t>(i), flight); }
+  void set_bond(int, int, bool) { EXPECT(false && "wells need AllPairs"); }
+  int bonds() const { return 0; }
+  double radius(int i) const { return lines_.radius(static_cast<std::size_t>(i)); }
+  double mass(int i) const { return lines_.mass(static_cast<std::size_t>(i)); }
+  bool is_stale(const GrainEvent& event) const {
+    return event.partner >= 0 && lines_[static_cast<std::size_t>(event.partner)].count != event.partner_count;
+  }
+  GrainSums sums(double t) const { return lines_.sums(t); }
+  double deepest_overlap() const { return lines_.deepest_overlap(); }
+
+ protected:
+  ScheduledGrains(const State& state, const std::array<double, 3>& extent)
+      : lines_(state, extent), queue_(state.size()), prefetches_(state.size() > fits_in_cache) {}
+
+  /// The earliest event; `prefetch(i, days)` is told of grains whose turn comes soon, where their lines do not stay near by themselves.
+  template <class Prefetch>
+  Next next_event(const Prefetch& prefetch) {
+    return prefetches_ ? queue_.next(prefetch) : queue_.next();
+  }
+
+  /// Predicts every grain and plans the calendar's days by the mean wait.
+  template <class Predict>
+  void plan_all(const Predict& predict) {
+    double sum = 0, count = 0, now = 0;
+    for (int i = 0; i < size(); ++i) {
+      predict(i);
+      now = lines_[static_cast<std::size_t>(i)].time;
+      if (const double wait = queue_.time(i) - now; wait < never) sum += wait, ++count;
+    }
+    if (sum > 0) queue_.plan(now, count * count / sum);
+  }
+
+  GrainLines lines_;
+  CalendarQueue queue_;
+
+ private:
+  bool prefetches_;
+};
+
+}  // namespace shakedown
