@@ -33,28 +33,33 @@ bool stands_out(const Refit& fit, const std::vector<Knob>& knobs) {
 
 }  // namespace
 
-/// Tries the most promising effects with everything refitted; takes the best when it pays. False: none does.
-bool Pipeline::add_best_candidate(Refit& best) {
+std::vector<Candidate> Pipeline::open_candidates() const {
   std::vector<Candidate> candidates = candidates_for(base_, options_.effects, options_.known);
-  // What the momentum balance sees better it has judged already.
-  if (result_.momentum.possible) std::erase_if(candidates, [](const Candidate& candidate) { return candidate.seen_by_momentum; });
-  // What showed nothing before is not looked for again.
-  std::erase_if(candidates, [&](const Candidate& candidate) {
-    return std::any_of(result_.ranking.begin(), result_.ranking.end(), [&](const RankedEffect& r) { return r.effect == candidate.effect; }) &&
-           std::none_of(result_.ranking.begin(), result_.ranking.end(),
-                        [&](const RankedEffect& r) { return r.effect == candidate.effect && r.gain > least_gain / 3; });
-  });
+  const auto judged_already = [&](const Candidate& candidate) {
+    // What the momentum balance sees better it has judged; what showed nothing before is not looked for again.
+    if (result_.momentum.possible && candidate.seen_by_momentum) return true;
+    bool seen = false, promising = false;
+    for (const RankedEffect& ranked : result_.ranking)
+      if (ranked.effect == candidate.effect) seen = true, promising = promising || ranked.gain > least_gain / 3;
+    return seen && !promising;
+  };
+  std::erase_if(candidates, judged_already);
+  return candidates;
+}
+
+/// The most promising candidates with everything refitted, best first; the first two closer when they are too close to call.
+std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>& candidates, const Refit& best) {
   stage_ = "ranking the effects";
   const std::vector<Knob> fitted = together(theta_, chosen_);
   std::vector<ScreenedEffect> screened = screen(features(), fitted, candidates, workshop_, 320, 100000 * ++batch_);
   for (const ScreenedEffect& effect : screened) result_.ranking.push_back({effect.effect, effect.gain, std::nan(""), std::nan(""), effect.value, effect.look_alikes});
-  const Setup before = base_;
-  std::vector<Rival> rivals;
   const auto promise = [&](const ScreenedEffect& effect) { return effect.gain - candidates[effect.candidate].doubt; };
   const auto always = [&](const ScreenedEffect& effect) { return candidates[effect.candidate].always; };
   std::stable_sort(screened.begin(), screened.end(), [&](const ScreenedEffect& a, const ScreenedEffect& b) { return promise(a) > promise(b); });
   std::stable_partition(screened.begin(), screened.end(), always);
   const auto first = std::find_if_not(screened.begin(), screened.end(), always);
+  const Setup before = base_;
+  std::vector<Rival> rivals;
   double best_score = 0;
   for (const ScreenedEffect& effect : screened) {
     if (rivals.size() >= most_tried || result_.runs_simulated > options_.budget) break;
@@ -67,39 +72,38 @@ bool Pipeline::add_best_candidate(Refit& best) {
       result_.notes.push_back(effect.effect + " could not be tried: " + error.what());
     }
   }
-  std::stable_sort(rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.score() > b.score(); });
-  // Too close to call: more simulations for both.
+  const auto better = [](const Rival& a, const Rival& b) { return a.score() > b.score(); };
+  std::stable_sort(rivals.begin(), rivals.end(), better);
   if (rivals.size() > 1 && rivals[0].score() - rivals[1].score() < too_close && rivals[0].score() > least_gain) {
     rivals.resize(2);
     for (Rival& rival : rivals) rival = decide(rival, best);
-    if (rivals[1].score() > rivals[0].score()) std::swap(rivals[0], rivals[1]);
+    std::stable_sort(rivals.begin(), rivals.end(), better);
   }
   base_ = before;
-  if (rivals.empty()) return false;
-  runner_up_.reset();
-  if (rivals.size() > 1 && rivals[1].score() > 0)
-    for (const Candidate& candidate : candidates)
-      if (candidate.effect == rivals[1].effect && !candidate.knobs.empty()) runner_up_ = candidate;
-  const Rival& winner = rivals.front();
-  const bool twins = rivals.size() > 1 && rivals[1].decided && winner.score() - rivals[1].score() < too_close && rivals[1].gain > 0.8 * winner.gain;
-  // A model that is rejected must be mended; one that is merely doubtful needs a better reason, or lengths left out that say the same.
-  // Beside friction, whose two models leave a difference, too.
+  return rivals;
+}
+
+/// A model that is rejected must be mended; one that is merely doubtful needs a better reason, or lengths left out that say the same.
+/// Beside friction, whose two models leave a difference, too.
+bool Pipeline::pays(const Rival& rival, const Refit& best) const {
   const bool beside_friction = std::find(result_.missing.begin(), result_.missing.end(), "grain_friction") != result_.missing.end();
-  const bool confirmed = std::isfinite(winner.held_out_gain) && winner.held_out_gain > least_gain;
+  const bool confirmed = std::isfinite(rival.held_out_gain) && rival.held_out_gain > least_gain;
   const double least = beside_friction || (best.p_value > rejected && !confirmed) ? 2 * least_gain : least_gain;
-  if (winner.gain < least * std::max(1.0, winner.fit.scatter) + winner.doubt || winner.gain < least_share * best.judged_chi2) return false;
-  const auto known_before = std::tuple(theta_, chosen_, final_, result_.missing);
+  return rival.gain >= least * std::max(1.0, rival.fit.scatter) + rival.doubt && rival.gain >= least_share * best.judged_chi2;
+}
+
+/// Adds an effect and fits it with full effort. False, and all as before: it neither explains nor differs from nothing, so that its gain was the
+/// emulators' noise.
+bool Pipeline::take(const Rival& winner, Refit& best) {
+  const auto before = std::tuple(base_, theta_, chosen_, final_, result_.missing);
   base_ = winner.setup;
   for (const Knob& knob : winner.knobs) chosen_.push_back(knob);
   result_.missing.push_back(winner.effect);
-  if (twins) call_twins(winner.effect, rivals[1].effect);
   keep(winner.fit);
   for (const Knob& knob : chosen_) set_knob(base_, knob, options_.known);  // present from now on, so that it is no candidate again
   const Refit closer = winner.decided ? winner.fit : fit("refitting with " + winner.effect, together(theta_, chosen_), to_conclude);
-  // Neither an explanation nor a strength that differs from nothing: the gain was the emulators' noise.
   if (closer.p_value <= doubtful && !stands_out(closer, winner.knobs)) {
-    std::tie(theta_, chosen_, final_, result_.missing) = known_before;
-    base_ = before;
+    std::tie(base_, theta_, chosen_, final_, result_.missing) = before;
     return false;
   }
   best = closer;
@@ -108,6 +112,22 @@ bool Pipeline::add_best_candidate(Refit& best) {
   std::string step = "refitted";
   for (const std::string& effect : result_.missing) step += " + " + effect;
   result_.ladder.push_back(step_of(step, best));
+  return true;
+}
+
+/// Takes the effect that brings most, when it pays. False: none does.
+bool Pipeline::add_best_candidate(Refit& best) {
+  const std::vector<Candidate> candidates = open_candidates();
+  const std::vector<Rival> rivals = rivals_among(candidates, best);
+  if (rivals.empty() || !pays(rivals.front(), best) || !take(rivals.front(), best)) return false;
+  const Rival& winner = rivals.front();
+  runner_up_.reset();
+  if (rivals.size() == 1) return true;
+  const Rival& second = rivals[1];
+  if (second.decided && winner.score() - second.score() < too_close && second.gain > 0.8 * winner.gain) call_twins(winner.effect, second.effect);
+  if (second.score() > 0)
+    for (const Candidate& candidate : candidates)
+      if (candidate.effect == second.effect && !candidate.knobs.empty()) runner_up_ = candidate;
   return true;
 }
 

@@ -66,6 +66,10 @@ class Pipeline {
     bool decided;
     double score() const { return gain + 0.5 * (std::isfinite(held_out_gain) ? std::clamp(held_out_gain, -gain, gain) : 0.0) - doubt; }
   };
+  std::vector<Candidate> open_candidates() const;
+  std::vector<Rival> rivals_among(const std::vector<Candidate>& candidates, const Refit& best);
+  bool pays(const Rival& rival, const Refit& best) const;
+  bool take(const Rival& winner, Refit& best);
   bool add_best_candidate(Refit& best);
   Rival try_candidate(const ScreenedEffect& effect, const Candidate& candidate, const Setup& before, const std::vector<Knob>& fitted, const Refit& best);
   Rival decide(Rival rival, const Refit& best);
