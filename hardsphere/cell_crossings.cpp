@@ -2,6 +2,7 @@
 #include "cell_crossings.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace shakedown {
 
@@ -30,10 +31,10 @@ CellCrossings::CellCrossings(const State& state, const std::array<double, 3>& ex
     cells_[axis] = std::max(3, cells_across(extent[axis], lines_.largest_reach() * std::max(edge, least_edge)));
     edge_[axis] = extent[axis] / cells_[axis];
     const auto n = static_cast<std::size_t>(cells_[axis]);
-    for (std::size_t cell = 0; cell < n + 2; ++cell) offset_[axis].push_back(static_cast<std::uint32_t>((cell + n - 1) % n * all));
+    for (std::size_t cell = 0; cell < n + 3; ++cell) offset_[axis].push_back(static_cast<std::uint32_t>((cell + n - 1) % n * all));
     all *= n;
   }
-  EXPECT(all < std::size_t{1} << 32);
+  EXPECT(all < std::size_t{1} << 31);
   cell_first_.assign(all, -1);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     std::array<double*, 3> x{&lines_[i].x, &lines_[i].y, &lines_[i].z};
@@ -88,25 +89,68 @@ void CellCrossings::take_from_cell(std::size_t i) {
 }
 
 /// Takes the grains of cells: first the cells that are not empty, without a branch (most are, unpredictably), then the rare second grains,
-/// of which the link to the first tells, so that nobody's line is looked at too early.
+/// of which the link to the first tells, so that nobody's line is looked at too early. With AVX-512 sixteen cells at a time, which saves a
+/// sixth of all instructions at packing fraction 0.1.
 class CellCrossings::Collector {
  public:
   Collector(const CellCrossings& cells, Others& others) : first_(cells.cell_first_.data()), lines_(cells.lines_), others_(others) {}
 
-  void cell(std::size_t index) {
-    others_[size_] = first_[index];
-    size_ += others_[size_] >= 0;
+#ifdef __AVX512F__
+  /// Offsets of three cells along each axis: their 27 sums.
+  void block(const std::uint32_t* x, const std::uint32_t* y, const std::uint32_t* z) {
+    const __m512i of_x = three(x), of_y = three(y), of_z = three(z);
+    const __m512i a = _mm512_set_epi32(1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0), b = _mm512_set_epi32(2, 1, 1, 1, 0, 0, 0, 2, 2, 2, 1, 1, 1, 0, 0, 0),
+                  c = _mm512_set_epi32(0, 2, 1, 0, 2, 1, 0, 2, 1, 0, 2, 1, 0, 2, 1, 0);
+    take(sum(pick(of_x, a), pick(of_y, b), pick(of_z, c)), 0xffff);
+    const __m512i a2 = _mm512_set_epi32(0, 0, 0, 0, 0, 2, 2, 2, 2, 2, 2, 2, 2, 2, 1, 1), b2 = _mm512_set_epi32(0, 0, 0, 0, 0, 2, 2, 2, 1, 1, 1, 0, 0, 0, 2, 2),
+                  c2 = _mm512_set_epi32(0, 0, 0, 0, 0, 2, 1, 0, 2, 1, 0, 2, 1, 0, 2, 1);
+    take(sum(pick(of_x, a2), pick(of_y, b2), pick(of_z, c2)), 0x7ff);
   }
+  /// The same for one cell along the first axis: nine sums.
+  void layer(std::uint32_t x, const std::uint32_t* y, const std::uint32_t* z) {
+    const __m512i b = _mm512_set_epi32(0, 0, 0, 0, 0, 0, 0, 2, 2, 2, 1, 1, 1, 0, 0, 0), c = _mm512_set_epi32(0, 0, 0, 0, 0, 0, 0, 2, 1, 0, 2, 1, 0, 2, 1, 0);
+    take(sum(_mm512_set1_epi32(static_cast<int>(x)), pick(three(y), b), pick(three(z), c)), 0x1ff);
+  }
+#else
+  void block(const std::uint32_t* x, const std::uint32_t* y, const std::uint32_t* z) {
+    for (std::size_t a = 0; a < 3; ++a) layer(x[a], y, z);
+  }
+  void layer(std::uint32_t x, const std::uint32_t* y, const std::uint32_t* z) {
+    for (std::size_t b = 0; b < 3; ++b)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::int32_t link = others_[size_] = first_[x + y[b] + z[c]];
+        size_ += link >= 0;
+        chained_ |= link >= 0 && (link & has_next);
+      }
+  }
+#endif
   /// Fills up with i.
   std::size_t finish(std::int32_t i) {
-    const std::size_t cells = size_;
-    for (std::size_t n = 0; n < cells; ++n)
-      if (others_[n] & has_next) chain(others_[n]);
+    if (chained_) follow_chains();
     for (std::size_t n = 0; n < lane_count; ++n) others_[size_ + n] = i;
     return size_;
   }
 
  private:
+#ifdef __AVX512F__
+  static __m512i three(const std::uint32_t* offsets) {
+    return _mm512_castsi128_si512(_mm_loadu_si128(reinterpret_cast<const __m128i*>(offsets)));
+  }
+  static __m512i pick(__m512i from, __m512i which) { return _mm512_permutexvar_epi32(which, from); }
+  static __m512i sum(__m512i a, __m512i b, __m512i c) { return _mm512_add_epi32(_mm512_add_epi32(a, b), c); }
+  void take(__m512i cells, __mmask16 which) {
+    const __m512i empty = _mm512_set1_epi32(-1), link = _mm512_mask_i32gather_epi32(empty, which, cells, first_, 4);
+    const __mmask16 taken = _mm512_cmpgt_epi32_mask(link, empty);
+    _mm512_storeu_si512(&others_[size_], _mm512_maskz_compress_epi32(taken, link));
+    size_ += static_cast<std::size_t>(std::popcount(static_cast<unsigned>(taken)));
+    chained_ |= _mm512_mask_test_epi32_mask(taken, link, _mm512_set1_epi32(has_next)) != 0;
+  }
+#endif
+  void follow_chains() {
+    const std::size_t cells = size_;
+    for (std::size_t n = 0; n < cells; ++n)
+      if (others_[n] & has_next) chain(others_[n]);
+  }
   void chain(std::int32_t& link) {
     link &= ~has_next;
     for (std::int32_t next = lines_[static_cast<std::size_t>(link)].next; next >= 0;) {
@@ -121,22 +165,18 @@ class CellCrossings::Collector {
   const GrainLines& lines_;
   Others& others_;
   std::size_t size_ = 0;
+  bool chained_ = false;
 };
 
 std::size_t CellCrossings::collect_around(std::size_t i, Others& others) const {
-  const std::uint32_t *x = around(i, 0), *y = around(i, 1), *z = around(i, 2);
   Collector collector(*this, others);
-  for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t b = 0; b < 3; ++b)
-      for (std::size_t c = 0; c < 3; ++c) collector.cell(x[a] + y[b] + z[c]);
+  collector.block(around(i, 0), around(i, 1), around(i, 2));
   return collector.finish(static_cast<std::int32_t>(i));
 }
 
 std::size_t CellCrossings::collect_ahead(std::size_t i, std::size_t axis, int step, Others& others) const {
-  const std::uint32_t layer = around(i, axis)[1 + step], *y = around(i, (axis + 1) % 3), *z = around(i, (axis + 2) % 3);
   Collector collector(*this, others);
-  for (std::size_t b = 0; b < 3; ++b)
-    for (std::size_t c = 0; c < 3; ++c) collector.cell(layer + y[b] + z[c]);
+  collector.layer(around(i, axis)[1 + step], around(i, (axis + 1) % 3), around(i, (axis + 2) % 3));
   return collector.finish(static_cast<std::int32_t>(i));
 }
 
