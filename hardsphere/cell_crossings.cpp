@@ -136,7 +136,7 @@ class CellCrossings::Collector {
   static __m512i three(const std::uint32_t* offsets) {
     return _mm512_castsi128_si512(_mm_loadu_si128(reinterpret_cast<const __m128i*>(offsets)));
   }
-  static __m512i pick(__m512i from, __m512i which) { return _mm512_permutexvar_epi32(which, from); }
+  static __m512i pick(__m512i from, __m512i which) { return _mm512_maskz_permutexvar_epi32(0xffff, which, from); }
   static __m512i sum(__m512i a, __m512i b, __m512i c) { return _mm512_add_epi32(_mm512_add_epi32(a, b), c); }
   void take(__m512i cells, __mmask16 which) {
     const __m512i empty = _mm512_set1_epi32(-1), link = _mm512_mask_i32gather_epi32(empty, which, cells, first_, 4);

@@ -73,7 +73,7 @@ class CellCrossings : public ScheduledGrains {
   AlignedVector<std::int32_t> cell_first_;
   std::array<int, 3> cells_{};
   std::array<double, 3> edge_{};
-  std::array<std::vector<std::uint32_t>, 3> offset_;  // of a cell's index, per axis; one step beyond both ends wraps around
+  std::array<std::vector<std::uint32_t>, 3> offset_;  // of a cell's index, per axis; one step beyond both ends wraps around, one more fills a vector
 };
 
 }  // namespace shakedown
