@@ -58,27 +58,32 @@ std::array<double, 3> CellLists<Periodic>::separation(const Flight3& a, const Fl
   return {nearest(b.x[0] - a.x[0], 0), nearest(b.x[1] - a.x[1], 1), nearest(b.x[2] - a.x[2], 2)};
 }
 
+/// When a grain is `leeway` away from the centre of its list, if that is within `wait`; or `wait`. Mostly it is not, and a look at the
+/// place where it would be then spares the root (9 % at packing fraction 0.5). Coordinates change by a period only together with the
+/// centre.
 template <bool Periodic>
-double CellLists<Periodic>::time_to_leave(std::size_t i, const Flight3& flight) const {
-  double a = 0, b = 0, c = -leeway_ * leeway_;
+double CellLists<Periodic>::time_to_leave(std::size_t i, const Flight3& flight, double wait) const {
+  double a = 0, b = 0, c = -leeway_ * leeway_, later = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double off = nearest(flight.x[axis] - own_[i].centre[axis], axis), v = flight.v[axis];
+    const double off = flight.x[axis] - own_[i].centre[axis], v = flight.v[axis], then = off + v * wait;
     a += v * v;
     b += off * v;
     c += off * off;
+    later += then * then;
   }
-  if (a == 0) return never;
-  if (c >= 0) return b >= 0 ? 0 : -2 * b / a;  // at the edge by rounding
-  return (std::sqrt(b * b - a * c) - b) / a;
+  if (later < leeway_ * leeway_ || a == 0) return wait;
+  if (c >= 0) return b >= 0 ? 0 : std::min(wait, -2 * b / a);  // at the edge by rounding
+  return std::min(wait, (std::sqrt(b * b - a * c) - b) / a);
 }
 
 template <bool Periodic>
 void CellLists<Periodic>::predict(int i) {
   const std::size_t k = static_cast<std::size_t>(i);
   const Flight3 self = flight(i);
-  const GrainLines::Touch touch = lines_.first_touch<Periodic>(k, self, list(k), own_[k].list_size, time_to_leave(k, self));
-  GrainEvent next{self.time + touch.wait, leaves_neighbourhood, 0, Meeting::touch};
-  if (touch.partner >= 0) next.partner = touch.partner, next.partner_count = lines_[static_cast<std::size_t>(touch.partner)].count;
+  const GrainLines::Touch touch = lines_.first_touch<Periodic>(k, self, list(k), own_[k].list_size, never);
+  const double wait = time_to_leave(k, self, touch.wait);
+  GrainEvent next{self.time + wait, leaves_neighbourhood, 0, Meeting::touch};
+  if (touch.wait <= wait && touch.partner >= 0) next.partner = touch.partner, next.partner_count = lines_[static_cast<std::size_t>(touch.partner)].count;
   if (half_width_[0] < never) {
     const GrainEvent wall = next_side_wall(self, {half_width_[0] - radius(i), half_width_[1] - radius(i)});
     if (wall.time < next.time) next = wall;

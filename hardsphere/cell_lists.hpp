@@ -62,7 +62,7 @@ class CellLists : public ScheduledGrains {
   void remove_neighbour(std::size_t i, std::int32_t neighbour);
   void widen_lists();
   double nearest(double r, std::size_t axis) const { return Periodic ? lines_.period().nearest(r, axis) : r; }
-  double time_to_leave(std::size_t i, const Flight3& flight) const;
+  double time_to_leave(std::size_t i, const Flight3& flight, double wait) const;
   std::int32_t* list(std::size_t i) { return &list_[i * list_room_]; }
 
   AlignedVector<Own> own_;
