@@ -14,36 +14,37 @@ double shell_for(double packing_fraction) {
   return std::clamp(2.35 - 1.75 * packing_fraction, 1.4, 2.6);
 }
 
+double shell_of(const CellListsPlan& plan, double largest_reach) {
+  double shell = largest_reach * (plan.shell > 0 ? plan.shell : shell_for(plan.packing_fraction));
+  if (plan.periodic)
+    for (const double extent : plan.cell) shell = std::min(shell, extent / 3);
+  return shell;
+}
+
 }  // namespace
 
 template <bool Periodic>
 CellLists<Periodic>::CellLists(const State& state, const CellListsPlan& plan)
-    : ScheduledGrains(state, plan.cell), own_(state.size()), half_width_(plan.half_width) {
-  shell_ = lines_.largest_reach() * (plan.shell > 0 ? plan.shell : shell_for(plan.packing_fraction));
-  if (Periodic)
-    for (const double extent : plan.cell) shell_ = std::min(shell_, extent / 3);
-  leeway_ = (shell_ - lines_.largest_reach()) / 2;
+    : ScheduledGrains(state, plan.cell),
+      own_(state.size()),
+      centres_(state.size(), plan.cell, shell_of(plan, lines_.largest_reach()), Periodic),
+      half_width_(plan.half_width),
+      leeway_((shell_of(plan, lines_.largest_reach()) - lines_.largest_reach()) / 2) {
   EXPECT(leeway_ > 0);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double across = plan.cell[axis] / shell_;
-    // Open axes get two spare cells, so that the two ends of the grains' room never share one through the wrap.
-    cells_[axis] = Periodic ? std::max(3, static_cast<int>(across)) : std::max(3, static_cast<int>(std::ceil(across)) + 2);
-    per_cell_[axis] = Periodic ? cells_[axis] / plan.cell[axis] : 1 / shell_;
-  }
   const std::size_t n = state.size();
   list_.resize(n * list_room_);
   for (std::size_t i = 0; i < n; ++i) {
     own_[i].centre = lines_.flight(i).x;
     std::fill_n(list(i), list_room_, static_cast<std::int32_t>(i));
   }
-  cell_first_.assign(static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) * static_cast<std::size_t>(cells_[2]), -1);
   for (std::size_t i = 0; i < n; ++i) {
-    find_neighbours(i);
-    for (const std::int32_t j : near_) {
-      add_neighbour(i, j);
-      add_neighbour(static_cast<std::size_t>(j), static_cast<std::int32_t>(i));
+    const CentreCells::Place place = centres_.place(own_[i].centre);
+    const std::size_t near = centres_.find(place, near_);
+    for (std::size_t m = 0; m < near; ++m) {
+      add_neighbour(i, near_[m]);
+      add_neighbour(static_cast<std::size_t>(near_[m]), static_cast<std::int32_t>(i));
     }
-    put_in_cell(i);
+    centres_.put(static_cast<std::int32_t>(i), place);
   }
 }
 
@@ -93,36 +94,6 @@ void CellLists<Periodic>::predict(int i) {
   queue_.schedule(i, next.time);
 }
 
-template <bool Periodic>
-std::size_t CellLists<Periodic>::cell_of(const std::array<double, 3>& centre) const {
-  std::size_t index = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto n = static_cast<long long>(cells_[axis]);
-    long long cell = static_cast<long long>(std::floor(centre[axis] * per_cell_[axis])) % n;
-    if (cell < 0) cell += n;
-    index = index * static_cast<std::size_t>(n) + static_cast<std::size_t>(cell);
-  }
-  return index;
-}
-
-template <bool Periodic>
-void CellLists<Periodic>::put_in_cell(std::size_t i) {
-  const std::size_t cell = cell_of(own_[i].centre);
-  own_[i].cell = static_cast<std::int32_t>(cell);
-  own_[i].previous_in_cell = -1;
-  own_[i].next_in_cell = cell_first_[cell];
-  if (cell_first_[cell] >= 0) own_[static_cast<std::size_t>(cell_first_[cell])].previous_in_cell = static_cast<std::int32_t>(i);
-  cell_first_[cell] = static_cast<std::int32_t>(i);
-}
-
-template <bool Periodic>
-void CellLists<Periodic>::take_from_cell(std::size_t i) {
-  const Own& own = own_[i];
-  if (own.previous_in_cell >= 0) own_[static_cast<std::size_t>(own.previous_in_cell)].next_in_cell = own.next_in_cell;
-  else cell_first_[static_cast<std::size_t>(own.cell)] = own.next_in_cell;
-  if (own.next_in_cell >= 0) own_[static_cast<std::size_t>(own.next_in_cell)].previous_in_cell = own.previous_in_cell;
-}
-
 /// Far ahead the grain's own lines, which say where to look later: at its partner and its neighbours.
 template <bool Periodic>
 void CellLists<Periodic>::prefetch(int i, int days) const {
@@ -143,44 +114,31 @@ void CellLists<Periodic>::prefetch(int i, int days) const {
   for (std::size_t n = 0; n < own_[k].list_size; ++n) lines_.prefetch(static_cast<std::size_t>(list_[k * list_room_ + n]));
 }
 
-/// Into near_: the grains whose list centres lie within the shell of grain i's.
-template <bool Periodic>
-void CellLists<Periodic>::find_neighbours(std::size_t i) {
-  const std::array<double, 3> centre = own_[i].centre;
-  const double shell_squared = shell_ * shell_;
-  std::array<std::array<std::size_t, 3>, 3> around;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto n = static_cast<long long>(cells_[axis]);
-    const auto home = static_cast<long long>(std::floor(centre[axis] * per_cell_[axis]));
-    for (long long step = -1; step <= 1; ++step)
-      around[axis][static_cast<std::size_t>(step + 1)] = static_cast<std::size_t>((((home + step) % n) + n) % n);
-  }
-  const auto ny = static_cast<std::size_t>(cells_[1]), nz = static_cast<std::size_t>(cells_[2]);
-  near_.clear();
-  for (const std::size_t x : around[0])
-    for (const std::size_t y : around[1])
-      for (const std::size_t z : around[2])
-        for (std::int32_t j = cell_first_[(x * ny + y) * nz + z]; j >= 0; j = own_[static_cast<std::size_t>(j)].next_in_cell) {
-          const std::array<double, 3>& other = own_[static_cast<std::size_t>(j)].centre;
-          const double rx = nearest(other[0] - centre[0], 0), ry = nearest(other[1] - centre[1], 1), rz = nearest(other[2] - centre[2], 2);
-          if (rx * rx + ry * ry + rz * rz < shell_squared && static_cast<std::size_t>(j) != i) near_.push_back(j);
-        }
-}
-
 template <bool Periodic>
 void CellLists<Periodic>::add_neighbour(std::size_t i, std::int32_t neighbour) {
   if (own_[i].list_size == list_room_) widen_lists();
   list(i)[own_[i].list_size++] = neighbour;
 }
 
+/// Lists are compared a chunk at a time, so that the compiler does it in vector lanes.
+constexpr std::size_t chunk = 8;
+
+/// How many of a list, which goes on with something else up to a whole number of chunks, are j, weighted by one more than their place: the
+/// place of the only one, or 0 when there is none.
+inline std::size_t one_beyond(const std::int32_t* list, std::size_t size, std::int32_t j) {
+  std::int32_t found = 0;
+  for (std::size_t first = 0; first < size; first += chunk)
+    for (std::size_t n = first; n < first + chunk; ++n) found += list[n] == j ? static_cast<std::int32_t>(n) + 1 : 0;
+  return static_cast<std::size_t>(found);
+}
+
 template <bool Periodic>
 void CellLists<Periodic>::remove_neighbour(std::size_t i, std::int32_t neighbour) {
-  std::int32_t *first = list(i), *last = first + own_[i].list_size;
-  std::int32_t* found = std::find(first, last, neighbour);
-  EXPECT(found != last);
-  *found = *--last;
+  const std::size_t found = one_beyond(list(i), own_[i].list_size, neighbour);
+  EXPECT(found > 0);
+  std::int32_t* const last = &list(i)[--own_[i].list_size];
+  list(i)[found - 1] = *last;
   *last = static_cast<std::int32_t>(i);
-  --own_[i].list_size;
 }
 
 template <bool Periodic>
@@ -195,13 +153,6 @@ void CellLists<Periodic>::widen_lists() {
   list_room_ = room;
 }
 
-/// Whether j is among them; without a branch, so that the compiler compares in vector lanes.
-inline bool contains(const std::int32_t* list, std::size_t size, std::int32_t j) {
-  int found = 0;
-  for (std::size_t n = 0; n < size; ++n) found |= list[n] == j;
-  return found != 0;
-}
-
 template <bool Periodic>
 void CellLists<Periodic>::leave_neighbourhood(int i, double now) {
   const std::size_t k = static_cast<std::size_t>(i);
@@ -214,19 +165,21 @@ void CellLists<Periodic>::leave_neighbourhood(int i, double now) {
     line.y = nearest(line.y, 1);
     line.z = nearest(line.z, 2);
   }
-  take_from_cell(k);
   own_[k].centre = {line.x, line.y, line.z};
-  find_neighbours(k);
-  put_in_cell(k);
+  centres_.take(i);
+  const CentreCells::Place place = centres_.place(own_[k].centre);
+  const std::size_t near = centres_.find(place, near_);
+  centres_.put(i, place);
+  near_.resize(std::max(near_.size(), near + chunk));
+  std::fill_n(&near_[near], chunk, no_partner);
   // Most neighbours stay: only the lists of those that come or go are touched.
-  old_list_.assign(list(k), list(k) + own_[k].list_size);
-  for (const std::int32_t j : old_list_)
-    if (!contains(near_.data(), near_.size(), j)) remove_neighbour(static_cast<std::size_t>(j), i);
-  for (const std::int32_t j : near_)
-    if (!contains(old_list_.data(), old_list_.size(), j)) add_neighbour(static_cast<std::size_t>(j), i);
-  std::fill_n(list(k), own_[k].list_size, i);
-  own_[k].list_size = 0;
-  for (const std::int32_t j : near_) add_neighbour(k, j);
+  for (std::size_t n = 0; n < own_[k].list_size; ++n)
+    if (const std::int32_t j = list(k)[n]; one_beyond(near_.data(), near, j) == 0) remove_neighbour(static_cast<std::size_t>(j), i);
+  for (std::size_t n = 0; n < near; ++n)
+    if (one_beyond(list(k), own_[k].list_size, near_[n]) == 0) add_neighbour(static_cast<std::size_t>(near_[n]), i);
+  while (list_room_ < near) widen_lists();
+  std::fill_n(std::copy_n(near_.data(), near, list(k)), list_room_ - near, i);
+  own_[k].list_size = static_cast<std::uint32_t>(near);
   predict(i);
 }
 
@@ -234,9 +187,8 @@ template <bool Periodic>
 double CellLists<Periodic>::bytes_per_grain() const {
   if (lines_.size() == 0) return 0;
   const double n = static_cast<double>(lines_.size());
-  const double arrays = GrainLines::bytes_per_grain() + sizeof(Own);
-  return arrays + static_cast<double>(list_room_) * sizeof(std::int32_t) +
-         static_cast<double>(cell_first_.size() * sizeof(std::int32_t) + queue_.bytes()) / n;
+  return GrainLines::bytes_per_grain() + sizeof(Own) + static_cast<double>(list_room_) * sizeof(std::int32_t) +
+         static_cast<double>(centres_.bytes() + queue_.bytes()) / n;
 }
 
 template class CellLists<true>;

@@ -7,6 +7,7 @@
 #pragma once
 #include <vector>
 
+#include "centre_cells.hpp"
 #include "scheduled_grains.hpp"
 
 namespace shakedown {
@@ -50,14 +51,9 @@ class CellLists : public ScheduledGrains {
     std::int32_t partner = no_partner;
     std::uint32_t partner_count = 0;
     std::uint32_t list_size = 0;
-    std::int32_t cell = -1, next_in_cell = -1, previous_in_cell = -1;
   };
 
   void prefetch(int i, int days) const;
-  std::size_t cell_of(const std::array<double, 3>& centre) const;
-  void put_in_cell(std::size_t i);
-  void take_from_cell(std::size_t i);
-  void find_neighbours(std::size_t i);
   void add_neighbour(std::size_t i, std::int32_t neighbour);
   void remove_neighbour(std::size_t i, std::int32_t neighbour);
   void widen_lists();
@@ -68,12 +64,10 @@ class CellLists : public ScheduledGrains {
   AlignedVector<Own> own_;
   AlignedVector<std::int32_t> list_;  // a row a grain, filled up with the grain itself
   std::size_t list_room_ = 24;
-  AlignedVector<std::int32_t> cell_first_;
-  std::vector<std::int32_t> near_, old_list_;  // for find_neighbours and leave_neighbourhood
-  std::array<int, 3> cells_{};
-  std::array<double, 3> per_cell_{};
+  CentreCells centres_;
+  std::vector<std::int32_t> near_;  // found in centres_
   std::array<double, 2> half_width_{};
-  double shell_ = 0, leeway_ = 0;
+  double leeway_;
 };
 
 extern template class CellLists<true>;

@@ -2,6 +2,7 @@
 // Vectors of doubles as wide as the machine, and arrays that they can be loaded from. The width never changes a result: every lane does
 // the same operations in the same order, and ties go to the lowest index.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <experimental/simd>
 #include <limits>
@@ -67,6 +68,23 @@ L gather(const double* first, const std::int32_t* index) {
   }
 #endif
   return L([&](auto lane) { return first[stride * static_cast<std::size_t>(index[lane])]; });
+}
+
+/// Writes those of eight `what` whose `size` is less than `limit` to `to`, which has room for eight; returns how many.
+inline std::size_t append_where_less(std::int32_t* to, const std::array<std::int32_t, 8>& what, const std::array<float, 8>& size, float limit) {
+#ifdef __AVX512VL__
+  const __mmask8 less = _mm256_cmp_ps_mask(_mm256_loadu_ps(size.data()), _mm256_set1_ps(limit), _CMP_LT_OQ);
+  const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(what.data()));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_maskz_compress_epi32(less, all));
+  return static_cast<std::size_t>(__builtin_popcount(less));
+#else
+  std::size_t count = 0;
+  for (std::size_t lane = 0; lane < 8; ++lane) {
+    to[count] = what[lane];
+    count += size[lane] < limit;
+  }
+  return count;
+#endif
 }
 
 /// Smallest element of an array padded with infinities, and its (lowest) index.
