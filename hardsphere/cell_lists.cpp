@@ -78,7 +78,7 @@ double CellLists<Periodic>::time_to_leave(std::size_t i, const Flight3& flight, 
 }
 
 template <bool Periodic>
-void CellLists<Periodic>::predict(int i) {
+GrainEvent CellLists<Periodic>::next_of(int i) {
   const std::size_t k = static_cast<std::size_t>(i);
   const Flight3 self = flight(i);
   const GrainLines::Touch touch = lines_.first_touch<Periodic>(k, self, list(k), own_[k].list_size, never);
@@ -89,8 +89,13 @@ void CellLists<Periodic>::predict(int i) {
     const GrainEvent wall = next_side_wall(self, {half_width_[0] - radius(i), half_width_[1] - radius(i)});
     if (wall.time < next.time) next = wall;
   }
-  own_[k].partner = next.partner;
-  own_[k].partner_count = next.partner_count;
+  return next;
+}
+
+template <bool Periodic>
+void CellLists<Periodic>::remember(int i, const GrainEvent& next) {
+  own_[static_cast<std::size_t>(i)].partner = next.partner;
+  own_[static_cast<std::size_t>(i)].partner_count = next.partner_count;
   queue_.schedule(i, next.time);
 }
 

@@ -30,10 +30,12 @@ class CellLists : public ScheduledGrains {
     return next_event([this](int i, int days) { prefetch(i, days); });
   }
   GrainEvent event(int i) const;
-  void predict(int i);
+  void predict(int i) { remember(i, next_of(i)); }
+  /// Both are found before either is remembered: each is a long chain of dependent operations, and the two overlap.
   void predict(int i, int j) {
-    predict(i);
-    predict(j);
+    const GrainEvent of_i = next_of(i), of_j = next_of(j);
+    remember(i, of_i);
+    remember(j, of_j);
   }
   void predict_all() {
     plan_all([this](int i) { predict(i); });
@@ -53,6 +55,8 @@ class CellLists : public ScheduledGrains {
     std::uint32_t list_size = 0;
   };
 
+  GrainEvent next_of(int i);
+  void remember(int i, const GrainEvent& next);
   void prefetch(int i, int days) const;
   void add_neighbour(std::size_t i, std::int32_t neighbour);
   void remove_neighbour(std::size_t i, std::int32_t neighbour);

@@ -75,8 +75,8 @@ class GrainLines {
   template <bool Periodic>
   Touch first_touch(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait) {
     if (size == 0) return {wait, -1};
-    if (size <= few_count) return first_touch_in<FewLanes, Periodic>(i, self, others, size, wait);
-    return first_touch_in<Lanes, Periodic>(i, self, others, size, wait);
+    if (size <= few_count) return estimated_touch_in<FewLanes, Periodic>(i, self, others, size, wait);
+    return estimated_touch_in<Lanes, Periodic>(i, self, others, size, wait);
   }
 
   GrainSums sums(double t) const;
@@ -84,6 +84,21 @@ class GrainLines {
   static constexpr double bytes_per_grain() { return sizeof(GrainLine) + 2 * sizeof(double); }
 
  private:
+  /// How a vector of others moves as grain i sees it: b = r.w, c = r^2 - reach^2, a = w^2, discriminant b^2 - a c.
+  template <class L>
+  struct Approach {
+    L b, c, discriminant;
+  };
+  template <class L>
+  struct Self {
+    explicit Self(const Flight3& flight)
+        : x(flight.x[0]), y(flight.x[1]), z(flight.x[2]), vx(flight.v[0]), vy(flight.v[1]), vz(flight.v[2]), time(flight.time) {}
+    L x, y, z, vx, vy, vz, time;
+  };
+  template <class L, bool Periodic>
+  Approach<L> approach(std::size_t i, const Self<L>& self, const std::int32_t* others) const;
+  template <class L, bool Periodic>
+  Touch estimated_touch_in(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait);
   template <class L, bool Periodic>
   Touch first_touch_in(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait);
 
@@ -96,29 +111,68 @@ class GrainLines {
 };
 
 template <class L, bool Periodic>
-GrainLines::Touch GrainLines::first_touch_in(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait) {
+GrainLines::Approach<L> GrainLines::approach(std::size_t i, const Self<L>& self, const std::int32_t* others) const {
   constexpr std::size_t stride = sizeof(GrainLine) / sizeof(double);
-  const L x = self.x[0], y = self.x[1], z = self.x[2], vx = self.v[0], vy = self.v[1], vz = self.v[2], zero = 0.0;
-  L reach_squared = largest_reach_ * largest_reach_, best = wait, smallest_room = smallest_room_, best_slot = -1.0, slot = lane_index<L>();
   const double* first = &line_[0].x;
+  const L flown = self.time - gather<stride, L>(first + 6, others);
+  const L ux = gather<stride, L>(first + 3, others), uy = gather<stride, L>(first + 4, others), uz = gather<stride, L>(first + 5, others);
+  L rx = gather<stride, L>(first, others) + ux * flown - self.x, ry = gather<stride, L>(first + 1, others) + uy * flown - self.y,
+    rz = gather<stride, L>(first + 2, others) + uz * flown - self.z;
+  if constexpr (Periodic) rx = period_.nearest(rx, 0), ry = period_.nearest(ry, 1), rz = period_.nearest(rz, 2);
+  const L wx = ux - self.vx, wy = uy - self.vy, wz = uz - self.vz;
+  L reach_squared = largest_reach_ * largest_reach_;
+  if (!equal_) {
+    const L reach = gather<1, L>(radius_.data(), others) + L(radius_[i]);
+    reach_squared = reach * reach;
+  }
+  const L b = rx * wx + ry * wy + rz * wz, c = rx * rx + ry * ry + rz * rz - reach_squared;
+  return {b, c, b * b - (wx * wx + wy * wy + wz * wz) * c};
+}
+
+/// Which grain is first is told by estimates, and the root taken of that one alone. Where they cannot tell (touches within 2^-11 of each
+/// other), or spheres overlap deeper than any before, everything is done in full; so the answer is the same to the last bit. No branches:
+/// whether any of eight grains may come first is as good as random. 5 % at packing fraction 0.5.
+template <class L, bool Periodic>
+GrainLines::Touch GrainLines::estimated_touch_in(std::size_t i, const Flight3& flight, const std::int32_t* others, std::size_t size, double wait) {
+  if constexpr (!has_estimates) return first_touch_in<L, Periodic>(i, flight, others, size, wait);
+  constexpr double above = 1 + 0x1p-11, below = 1 - 0x1p-11, tiny = 1e-300;
+  const Self<L> self(flight);
+  const L zero = 0.0, smallest_room = smallest_room_;
+  L best = wait, best_slot = -1.0, slot = lane_index<L>(), best_b = -1.0, best_c = zero, best_discriminant = zero;
+  typename L::mask_type doubt(false);
   for (std::size_t n = 0; n < size; n += L::size(), slot += static_cast<double>(L::size())) {
-    const std::int32_t* index = others + n;
-    const L flown = L(self.time) - gather<stride, L>(first + 6, index);
-    const L ux = gather<stride, L>(first + 3, index), uy = gather<stride, L>(first + 4, index), uz = gather<stride, L>(first + 5, index);
-    L rx = gather<stride, L>(first, index) + ux * flown - x, ry = gather<stride, L>(first + 1, index) + uy * flown - y,
-          rz = gather<stride, L>(first + 2, index) + uz * flown - z;
-    if constexpr (Periodic) rx = period_.nearest(rx, 0), ry = period_.nearest(ry, 1), rz = period_.nearest(rz, 2);
-    const L wx = ux - vx, wy = uy - vy, wz = uz - vz;
-    if (!equal_) {
-      const L reach = gather<1, L>(radius_.data(), index) + L(radius_[i]);
-      reach_squared = reach * reach;
-    }
-    const L b = rx * wx + ry * wy + rz * wz, c = rx * rx + ry * ry + rz * rz - reach_squared;
+    const auto [b, c, discriminant] = approach<L, Periodic>(i, self, others + n);
+    const L root = discriminant * inverse_root_estimate(simd::max(discriminant, L(tiny))), touch = simd::max(c, zero) * inverse_estimate(root - b);
+    const auto meets = b < zero && discriminant >= zero;
+    doubt = doubt || (meets && (c < smallest_room || (touch > L(below) * best && touch < L(above) * best)));
+    const auto sooner = meets && touch < best;
+    simd::where(sooner, best) = touch;
+    simd::where(sooner, best_slot) = slot;
+    simd::where(sooner, best_b) = b;
+    simd::where(sooner, best_c) = c;
+    simd::where(sooner, best_discriminant) = discriminant;
+  }
+  const double earliest = simd::hmin(best);
+  const auto first = best <= L(above * earliest);
+  if (simd::any_of(doubt)) [[unlikely]] return first_touch_in<L, Periodic>(i, flight, others, size, wait);
+  if (!(earliest < wait)) return {wait, -1};
+  if (simd::popcount(first) != 1) [[unlikely]] return first_touch_in<L, Periodic>(i, flight, others, size, wait);
+  const auto lane = static_cast<std::size_t>(simd::find_first_set(first));
+  const double b = best_b[lane], c = best_c[lane], discriminant = best_discriminant[lane];
+  return {std::max(c, 0.0) / (std::sqrt(discriminant) - b), others[static_cast<std::size_t>(static_cast<double>(best_slot[lane]))]};
+}
+
+template <class L, bool Periodic>
+GrainLines::Touch GrainLines::first_touch_in(std::size_t i, const Flight3& flight, const std::int32_t* others, std::size_t size, double wait) {
+  const Self<L> self(flight);
+  L best = wait, smallest_room = smallest_room_, best_slot = -1.0, slot = lane_index<L>();
+  const L zero = 0.0;
+  for (std::size_t n = 0; n < size; n += L::size(), slot += static_cast<double>(L::size())) {
+    const auto [b, c, discriminant] = approach<L, Periodic>(i, self, others + n);
     // t >= c / (-2 b): what cannot beat the best so far needs no root. The grain itself has b = 0.
     const auto may_be_first = b < zero && c <= L(-2.0) * b * best;
     if (simd::none_of(may_be_first)) continue;
     simd::where(may_be_first, smallest_room) = simd::min(smallest_room, c);
-    const L discriminant = b * b - (wx * wx + wy * wy + wz * wz) * c;
     const auto meets = may_be_first && discriminant >= zero;
     if (simd::none_of(meets)) continue;
     const L touch = simd::max(c, zero) / (simd::sqrt(simd::max(discriminant, zero)) - b);
