@@ -89,9 +89,10 @@ class EventLoop {
     Flight3 a, b;
     std::array<double, 3> r;
     double distance, opening;
+    double opening_rate;  ///< opening over distance, 1/s
   };
   Pair pair_now(int i, int j) const;
-  void finish_pair(int i, int j, Pair& pair, double impulse);
+  void finish_pair(int i, int j, Pair& pair, double impulse_per_length);
   void finish_wall(int i, const Flight3& flight, double jump);
 
   // Walls.

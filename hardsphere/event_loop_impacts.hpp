@@ -63,24 +63,25 @@ void EventLoop<Grains, Motion>::refuse(int i, Flight3 flight, EndWalls* walls) {
 
 template <class Grains, class Motion>
 typename EventLoop<Grains, Motion>::Pair EventLoop<Grains, Motion>::pair_now(int i, int j) const {
-  Pair pair{grains_.flight(i), grains_.flight(j), {}, 0, 0};
-  auto& [a, b, r, distance, opening] = pair;
+  Pair pair{grains_.flight(i), grains_.flight(j), {}, 0, 0, 0};
+  auto& [a, b, r, distance, opening, opening_rate] = pair;
   a.advance(now_);
   b.advance(now_);
   r = grains_.separation(a, b);
-  distance = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
-  opening = (r[0] * (b.v[0] - a.v[0]) + r[1] * (b.v[1] - a.v[1]) + r[2] * (b.v[2] - a.v[2])) / distance;
+  const double squared = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+  distance = std::sqrt(squared);
+  opening_rate = (r[0] * (b.v[0] - a.v[0]) + r[1] * (b.v[1] - a.v[1]) + r[2] * (b.v[2] - a.v[2])) / squared;
+  opening = opening_rate * distance;
   return pair;
 }
 
-/// They part with `impulse` along r, and all who are concerned hear of it.
+/// They part with an impulse along r, given per metre of r, and all who are concerned hear of it.
 template <class Grains, class Motion>
-void EventLoop<Grains, Motion>::finish_pair(int i, int j, Pair& pair, double impulse) {
-  const double ma = grains_.mass(i), mb = grains_.mass(j);
+void EventLoop<Grains, Motion>::finish_pair(int i, int j, Pair& pair, double impulse_per_length) {
+  const double of_a = impulse_per_length / grains_.mass(i), of_b = impulse_per_length / grains_.mass(j);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double along = impulse * pair.r[axis] / pair.distance;
-    pair.a.v[axis] -= along / ma;
-    pair.b.v[axis] += along / mb;
+    pair.a.v[axis] -= of_a * pair.r[axis];
+    pair.b.v[axis] += of_b * pair.r[axis];
   }
   grains_.set_flight(i, pair.a);
   grains_.set_flight(j, pair.b);
@@ -103,7 +104,7 @@ void EventLoop<Grains, Motion>::finish_wall(int i, const Flight3& flight, double
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::pair_impact(int i, int j) {
   Pair pair = pair_now(i, j);
-  auto& [a, b, r, distance, opening] = pair;
+  auto& [a, b, r, distance, opening, opening_rate] = pair;
   const double closing = -opening;
   if (closing <= 0) return refuse(i, a, nullptr);
   const double e = restitution(ContactClass::grain_grain, closing, elastic_below(limits_.pair_speed, i, j), elastic_pairs_);
@@ -129,7 +130,7 @@ void EventLoop<Grains, Motion>::pair_impact(int i, int j) {
   if constexpr (driven)
     if (contact_.has_attraction()) note_touch(HeldBonds::of_pair(i, j), reduced * e * closing, i, j);
   virial_ += impulse * distance;
-  finish_pair(i, j, pair, impulse);
+  finish_pair(i, j, pair, -reduced * (1 + e) * opening_rate);  // impulse / distance, without waiting for the root
 }
 
 /// The edge of the square well around a grain: depth attraction force times range, gained on capture and paid back on escape; too slow to
@@ -155,7 +156,7 @@ void EventLoop<Grains, Motion>::pair_well(int i, int j, Meeting meeting) {
   } else {
     next = -opening;
   }
-  finish_pair(i, j, pair, reduced * (next - opening));
+  finish_pair(i, j, pair, reduced * (next - opening) / pair.distance);
 }
 
 /// Impact on a side wall at rest in the frame of the grains.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What others must know of a grain, one cache line each, and the earliest touch of one grain with some others in vector lanes.
 #pragma once
+#include <algorithm>
 #include <vector>
 
 #include "errors.hpp"
@@ -40,6 +41,7 @@ class GrainLines {
     double largest = 0, smallest = never;
     for (const double r : radius_) largest = std::max(largest, r), smallest = std::min(smallest, r);
     equal_ = largest == smallest;
+    equal_mass_ = std::all_of(mass_.begin(), mass_.end(), [this](double m) { return m == mass_[0]; });
     largest_reach_ = 2 * largest;
     smallest_reach_ = 2 * smallest;
     for (std::size_t i = 0; i < line_.size(); ++i) {
@@ -59,8 +61,9 @@ class GrainLines {
     GrainLine& line = line_[i];
     line = {flight.x[0], flight.x[1], flight.x[2], flight.v[0], flight.v[1], flight.v[2], flight.time, line.count, line.next};
   }
-  double radius(std::size_t i) const { return radius_[i]; }
-  double mass(std::size_t i) const { return mass_[i]; }
+  // Equal grains are all like the first: one line less to bring near for each.
+  double radius(std::size_t i) const { return radius_[equal_ ? 0 : i]; }
+  double mass(std::size_t i) const { return mass_[equal_mass_ ? 0 : i]; }
   const Period& period() const { return period_; }
   bool equal() const { return equal_; }
   double largest_reach() const { return largest_reach_; }
@@ -106,7 +109,7 @@ class GrainLines {
   AlignedVector<GrainLine> line_;
   AlignedVector<double> radius_, mass_;
   double largest_reach_ = 0, smallest_reach_ = never;
-  bool equal_ = true;
+  bool equal_ = true, equal_mass_ = true;
   double smallest_room_ = 0;  // of r^2 - reach^2, m^2
 };
 
