@@ -8,6 +8,7 @@
 // a record that belongs to no grain, and the first date of a day has the day in place of a predecessor.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -42,20 +43,18 @@ class CalendarQueue {
     if (cached_ != none && time < this->time(cached_)) cached_ = i;
   }
 
-  /// The earliest date; grain -1 when there is none. `tell(i, days)` is told of grains whose dates come up in about that many days, a
-  /// third as many events: time to bring what they need near.
-  template <class Ahead>
-  Next next(Ahead&& tell) {
-    if (cached_ == none) find<true>(tell);
+  /// The earliest date; grain -1 when there is none. `tell(i, days)` is told of grains whose dates come up in each of these numbers of
+  /// days, a third as many events: time to bring what they need near.
+  template <std::size_t Looks, class Ahead>
+  Next next(const std::array<int, Looks>& days_ahead, Ahead&& tell) {
+    if (cached_ == none) find(days_ahead, tell);
     return cached_ == none ? Next{never, -1} : Next{time(cached_), cached_};
   }
 
   Next next() {
-    if (cached_ == none) find<false>([](int, int) {});
-    return cached_ == none ? Next{never, -1} : Next{time(cached_), cached_};
+    return next(std::array<int, 0>{}, [](int, int) {});
   }
 
-  static constexpr int far_ahead = 12, ahead = 6;  ///< days
   void prefetch(int i) const { __builtin_prefetch(&dates_[static_cast<std::size_t>(i)]); }
 
   /// Sets the length of a day for this many events a second; dates may be scheduled already.
@@ -115,14 +114,11 @@ class CalendarQueue {
     return bits == 0 ? days() : word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
   }
 
-  template <bool Tell, class Ahead>
-  void find(Ahead&& tell) {
+  template <std::size_t Looks, class Ahead>
+  void find(const std::array<int, Looks>& days_ahead, Ahead&& tell) {
     for (;;) {
       const std::size_t day = std::min(next_dated(today_), days());
-      if constexpr (Tell) {
-        tell_of(far_ahead, day, tell);
-        tell_of(ahead, day, tell);
-      }
+      for (const int ahead : days_ahead) tell_of(ahead, day, tell);
       today_ = day;
       if (today_ == days() && !new_year()) return;
       ++looks_;

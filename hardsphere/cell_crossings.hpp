@@ -19,7 +19,7 @@ class CellCrossings : public ScheduledGrains {
 
   void forget_side_walls() {}
   Next next() {
-    return next_event([this](int i, int days) { prefetch(i, days); });
+    return next_event(looks, [this](int i, int days) { prefetch(i, days); });
   }
   GrainEvent event(int i) const {
     const Place& place = place_[static_cast<std::size_t>(i)];
@@ -41,6 +41,7 @@ class CellCrossings : public ScheduledGrains {
   double bytes_per_grain() const;
 
  private:
+  static constexpr std::array looks{12, 6};  ///< days ahead, at grains whose lines are to be brought near
   struct Place {
     double pair_time = never;
     std::int32_t partner = no_partner;

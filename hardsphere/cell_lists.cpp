@@ -99,24 +99,25 @@ void CellLists<Periodic>::remember(int i, const GrainEvent& next) {
   queue_.schedule(i, next.time);
 }
 
-/// Far ahead the grain's own lines, which say where to look later: at its partner and its neighbours.
+/// Far ahead the grain's own lines, which say where to look later: at its neighbours and its partner, and at last at the partner's
+/// neighbours.
 template <bool Periodic>
 void CellLists<Periodic>::prefetch(int i, int days) const {
   const std::size_t k = static_cast<std::size_t>(i);
-  if (days == CalendarQueue::far_ahead) {
-    queue_.prefetch(i);
-    lines_.prefetch(k);
-    __builtin_prefetch(&own_[k]);
-    for (std::size_t n = 0; n < list_room_; n += 16) __builtin_prefetch(&list_[k * list_room_ + n]);
-    return;
-  }
-  if (const std::int32_t partner = own_[k].partner; partner >= 0) {
-    const auto j = static_cast<std::size_t>(partner);
-    queue_.prefetch(partner);
-    __builtin_prefetch(&own_[j]);
-    for (std::size_t n = 0; n < list_room_; n += 16) __builtin_prefetch(&list_[j * list_room_ + n]);
-  }
-  for (std::size_t n = 0; n < own_[k].list_size; ++n) lines_.prefetch(static_cast<std::size_t>(list_[k * list_room_ + n]));
+  const std::int32_t partner = days == looks[0] ? no_partner : own_[k].partner;
+  if (days == looks[2]) return partner >= 0 ? prefetch_neighbours(static_cast<std::size_t>(partner)) : void();
+  if (days == looks[1]) prefetch_neighbours(k);
+  if (days == looks[1] && partner < 0) return;
+  const std::size_t whose = partner >= 0 ? static_cast<std::size_t>(partner) : k;
+  queue_.prefetch(static_cast<int>(whose));
+  lines_.prefetch(whose);
+  __builtin_prefetch(&own_[whose]);
+  for (std::size_t n = 0; n < list_room_; n += 16) __builtin_prefetch(&list_[whose * list_room_ + n]);
+}
+
+template <bool Periodic>
+void CellLists<Periodic>::prefetch_neighbours(std::size_t i) const {
+  for (std::size_t n = 0; n < own_[i].list_size; ++n) lines_.prefetch(static_cast<std::size_t>(list_[i * list_room_ + n]));
 }
 
 template <bool Periodic>

@@ -27,7 +27,7 @@ class CellLists : public ScheduledGrains {
 
   void forget_side_walls() { half_width_ = {never, never}; }
   Next next() {
-    return next_event([this](int i, int days) { prefetch(i, days); });
+    return next_event(looks, [this](int i, int days) { prefetch(i, days); });
   }
   GrainEvent event(int i) const;
   void predict(int i) { remember(i, next_of(i)); }
@@ -47,6 +47,7 @@ class CellLists : public ScheduledGrains {
   double bytes_per_grain() const;
 
  private:
+  static constexpr std::array looks{16, 10, 5};  ///< days ahead, at grains whose lines are to be brought near
   /// What only the grain itself needs, in one cache line.
   struct alignas(64) Own {
     std::array<double, 3> centre;  ///< of its list
@@ -58,6 +59,7 @@ class CellLists : public ScheduledGrains {
   GrainEvent next_of(int i);
   void remember(int i, const GrainEvent& next);
   void prefetch(int i, int days) const;
+  void prefetch_neighbours(std::size_t i) const;
   void add_neighbour(std::size_t i, std::int32_t neighbour);
   void remove_neighbour(std::size_t i, std::int32_t neighbour);
   void widen_lists();

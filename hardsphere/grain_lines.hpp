@@ -78,7 +78,8 @@ class GrainLines {
   template <bool Periodic>
   Touch first_touch(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait) {
     if (size == 0) return {wait, -1};
-    if (size <= few_count) return estimated_touch_in<FewLanes, Periodic>(i, self, others, size, wait);
+    // The few ahead of a crossing mostly are no partners at all, as the branches of the full search soon see.
+    if (size <= few_count) return first_touch_in<FewLanes, Periodic>(i, self, others, size, wait);
     return estimated_touch_in<Lanes, Periodic>(i, self, others, size, wait);
   }
 

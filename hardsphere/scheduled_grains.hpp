@@ -31,10 +31,11 @@ class ScheduledGrains {
   ScheduledGrains(const State& state, const std::array<double, 3>& extent)
       : lines_(state, extent), queue_(state.size()), prefetches_(state.size() > fits_in_cache) {}
 
-  /// The earliest event; `prefetch(i, days)` is told of grains whose turn comes soon, where their lines do not stay near by themselves.
-  template <class Prefetch>
-  Next next_event(const Prefetch& prefetch) {
-    return prefetches_ ? queue_.next(prefetch) : queue_.next();
+  /// The earliest event; `prefetch(i, days)` is told of grains whose turn comes in so many days of the calendar, where their lines do not
+  /// stay near by themselves.
+  template <std::size_t Looks, class Prefetch>
+  Next next_event(const std::array<int, Looks>& days_ahead, const Prefetch& prefetch) {
+    return prefetches_ ? queue_.next(days_ahead, prefetch) : queue_.next();
   }
 
   /// Predicts every grain and plans the calendar's days by the mean wait.
