@@ -11,7 +11,7 @@ namespace {
 
 /// Diameters: wide shells save renewals where grains fly far between impacts, narrow ones save pair tests where they do not.
 double shell_for(double packing_fraction) {
-  return std::clamp(2.35 - 1.75 * packing_fraction, 1.4, 2.6);
+  return std::clamp(2.45 - 1.75 * packing_fraction, 1.45, 2.6);
 }
 
 double shell_of(const CellListsPlan& plan, double largest_reach) {

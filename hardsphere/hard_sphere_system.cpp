@@ -58,7 +58,7 @@ Loop loop_for(const Setup& setup, const Physics& physics, const State& state) {
     return driven ? Loop(std::in_place_index<3>, state, physics, setup, grains) : Loop(std::in_place_index<0>, state, physics, setup, grains);
   }
   // The grains of a damper lie in layers most of the time, whatever the box's mean filling.
-  const CellListsPlan plan{cell, false, half_width, setup.domain == Domain::damper ? std::max(0.45, fraction) : fraction, 0};
+  const CellListsPlan plan{cell, false, half_width, setup.domain == Domain::damper ? std::max(0.5, fraction) : fraction, 0};
   CellLists<false> grains(state, plan);
   return driven ? Loop(std::in_place_index<4>, state, physics, setup, std::move(grains))
                 : Loop(std::in_place_index<1>, state, physics, setup, std::move(grains));
