@@ -65,42 +65,61 @@ void AllPairs::move_to(int i, const Flight3& flight) {
   time_[k] = flight.time;
 }
 
-template <int K, bool Well>
-void AllPairs::predict_grains(const std::array<int, K>& who) {
-  // The grains of an impact share every load of the others' states.
-  std::array<Lanes, K> x, y, z, vx, vy, vz, radius, self, best, best_index;
-  const double now = time_[static_cast<std::size_t>(who[0])];
-  for (std::size_t g = 0; g < K; ++g) {
-    const std::size_t k = static_cast<std::size_t>(who[g]);
-    x[g] = x_[k], y[g] = y_[k], z[g] = z_[k];
-    vx[g] = vx_[k], vy[g] = vy_[k], vz[g] = vz_[k];
-    radius[g] = radius_[k];
-    self[g] = static_cast<double>(k);
-    best[g] = never;
-    best_index[g] = -1.0;
+template <int K>
+struct AllPairs::Selves {
+  std::array<Lanes, K> x, y, z, vx, vy, vz, radius;
+  Lanes now;
+
+  Selves(const AllPairs& all, const std::array<int, K>& who) : now(all.time_[static_cast<std::size_t>(who[0])]) {
+    for (std::size_t g = 0; g < K; ++g) {
+      const std::size_t k = static_cast<std::size_t>(who[g]);
+      x[g] = all.x_[k], y[g] = all.y_[k], z[g] = all.z_[k];
+      vx[g] = all.vx_[k], vy[g] = all.vy_[k], vz[g] = all.vz_[k];
+      radius[g] = all.radius_[k];
+    }
   }
+  /// A vector of other grains, of which all share every load, and how each sees it.
+  struct Others {
+    Lanes x, y, z, vx, vy, vz, radius;
+    Others(const AllPairs& all, std::size_t j, const Lanes& now) : vx(load(all.vx_, j)), vy(load(all.vy_, j)), vz(load(all.vz_, j)), radius(load(all.radius_, j)) {
+      const Lanes flown = now - load(all.time_, j);
+      x = load(all.x_, j) + vx * flown, y = load(all.y_, j) + vy * flown, z = load(all.z_, j) + vz * flown;
+    }
+  };
+  /// b = r.w, r^2, a = w^2 of separation r and relative velocity w.
+  struct Approach {
+    Lanes a, b, reach, apart_squared, c, discriminant;
+  };
+  Approach approach(std::size_t g, const Others& others) const {
+    const Lanes rx = others.x - x[g], ry = others.y - y[g], rz = others.z - z[g], wx = others.vx - vx[g], wy = others.vy - vy[g], wz = others.vz - vz[g];
+    const Lanes reach = others.radius + radius[g], b = rx * wx + ry * wy + rz * wz, apart_squared = rx * rx + ry * ry + rz * rz;
+    const Lanes c = apart_squared - reach * reach, a = wx * wx + wy * wy + wz * wz;
+    return {a, b, reach, apart_squared, c, b * b - a * c};
+  }
+};
+
+template <int K, bool Well>
+std::array<AllPairs::Touch, K> AllPairs::first_touches(const std::array<int, K>& who) {
+  const Selves<K> selves(*this, who);
+  std::array<Lanes, K> self, best, best_index;
+  for (std::size_t g = 0; g < K; ++g) self[g] = static_cast<double>(who[g]), best[g] = never, best_index[g] = -1.0;
   Lanes index = lane_index(), smallest_room(smallest_room_);
   const Lanes zero(0.0);
   for (std::size_t j = 0; j < padded_size_; j += lane_count, index += static_cast<double>(lane_count)) {
-    const Lanes flown = Lanes(now) - load(time_, j);
-    const Lanes ux = load(vx_, j), uy = load(vy_, j), uz = load(vz_, j), other_radius = load(radius_, j);
-    const Lanes px = load(x_, j) + ux * flown, py = load(y_, j) + uy * flown, pz = load(z_, j) + uz * flown;
+    const typename Selves<K>::Others others(*this, j, selves.now);
     for (std::size_t g = 0; g < K; ++g) {
-      const Lanes rx = px - x[g], ry = py - y[g], rz = pz - z[g], wx = ux - vx[g], wy = uy - vy[g], wz = uz - vz[g];
-      const Lanes reach = other_radius + radius[g];
-      const Lanes b = rx * wx + ry * wy + rz * wz, c = rx * rx + ry * ry + rz * rz - reach * reach;
+      const auto [a, b, reach, apart_squared, c, discriminant] = selves.approach(g, others);
       // t >= c / (-2 b): what cannot beat the best so far needs no root. The grain itself has b = 0.
       const auto may_be_first = b < zero && c <= Lanes(-2.0) * b * best[g];
       if constexpr (!Well)
         if (simd::none_of(may_be_first)) continue;
       simd::where(may_be_first, smallest_room) = simd::min(smallest_room, c);
-      const Lanes a = wx * wx + wy * wy + wz * wz, discriminant = b * b - a * c;
       auto meets = b < zero && discriminant >= zero;
       if constexpr (!Well) meets = meets && may_be_first;
       Lanes touch;
       if constexpr (Well) {
         // Outside the well its edge is met first; inside, a grain that does not touch comes to the edge from within.
-        const Lanes edge = reach + Lanes(range_), c_edge = rx * rx + ry * ry + rz * rz - edge * edge, d_edge = b * b - a * c_edge;
+        const Lanes edge = reach + Lanes(range_), c_edge = apart_squared - edge * edge, d_edge = b * b - a * c_edge;
         const auto inside = load(bond_, static_cast<std::size_t>(who[g]) * padded_size_ + j) > Lanes(0.5);
         const Lanes root_edge = simd::sqrt(simd::max(d_edge, zero));
         Lanes inner = (root_edge - b) / a;
@@ -120,16 +139,79 @@ void AllPairs::predict_grains(const std::array<int, K>& who) {
     }
   }
   smallest_room_ = simd::hmin(smallest_room);
+  std::array<Touch, K> touches;
+  for (std::size_t g = 0; g < K; ++g) {
+    const double earliest = simd::hmin(best[g]);
+    if (!(earliest < never)) continue;
+    Lanes index_of_best(never);
+    simd::where(best[g] == Lanes(earliest), index_of_best) = best_index[g];
+    touches[g] = {earliest, static_cast<std::int32_t>(simd::hmin(index_of_best))};
+  }
+  return touches;
+}
+
+/// As one lane would find it.
+double AllPairs::wait_for_touch(int i, int j) const {
+  const Flight3 self = flight(i);
+  Flight3 other = flight(j);
+  other.advance(self.time);
+  const double rx = other.x[0] - self.x[0], ry = other.x[1] - self.x[1], rz = other.x[2] - self.x[2];
+  const double wx = other.v[0] - self.v[0], wy = other.v[1] - self.v[1], wz = other.v[2] - self.v[2];
+  const double reach = radius(j) + radius(i), b = rx * wx + ry * wy + rz * wz, c = rx * rx + ry * ry + rz * rz - reach * reach;
+  return std::max(c, 0.0) / (std::sqrt(b * b - (wx * wx + wy * wy + wz * wz) * c) - b);
+}
+
+/// Which grain is first is told by estimates, and the root taken of that one alone. Where they cannot tell (touches within 2^-11 of each
+/// other), or spheres overlap deeper than any before, everything is done in full; so the answer is the same to the last bit. No branches:
+/// whether any of eight grains may come first is as good as random.
+template <int K>
+std::array<AllPairs::Touch, K> AllPairs::estimated_touches(const std::array<int, K>& who) {
+  constexpr double above = 1 + 0x1p-11, below = 1 - 0x1p-11, tiny = 1e-300;
+  const Selves<K> selves(*this, who);
+  std::array<Lanes, K> best, best_index;
+  best.fill(never);
+  best_index.fill(-1.0);
+  Lanes index = lane_index();
+  const Lanes zero(0.0), smallest_room(smallest_room_);
+  Lanes::mask_type doubt(false);
+  for (std::size_t j = 0; j < padded_size_; j += lane_count, index += static_cast<double>(lane_count)) {
+    const typename Selves<K>::Others others(*this, j, selves.now);
+    for (std::size_t g = 0; g < K; ++g) {
+      const auto [a, b, reach, apart_squared, c, discriminant] = selves.approach(g, others);
+      const Lanes root = discriminant * inverse_root_estimate(simd::max(discriminant, Lanes(tiny))), touch = simd::max(c, zero) * inverse_estimate(root - b);
+      const auto meets = b < zero && discriminant >= zero;
+      doubt = doubt || (meets && (c < smallest_room || (touch > Lanes(below) * best[g] && touch < Lanes(above) * best[g])));
+      const auto sooner = meets && touch < best[g];
+      simd::where(sooner, best[g]) = touch;
+      simd::where(sooner, best_index[g]) = index;
+    }
+  }
+  if (simd::any_of(doubt)) [[unlikely]] return first_touches<K, false>(who);
+  std::array<Touch, K> touches;
+  for (std::size_t g = 0; g < K; ++g) {
+    const double earliest = simd::hmin(best[g]);
+    if (!(earliest < never)) continue;
+    const auto first = best[g] <= Lanes(above * earliest);
+    if (simd::popcount(first) != 1) [[unlikely]] return first_touches<K, false>(who);
+    const int partner = static_cast<int>(static_cast<double>(best_index[g][static_cast<std::size_t>(simd::find_first_set(first))]));
+    touches[g] = {wait_for_touch(who[g], partner), partner};
+  }
+  return touches;
+}
+
+template <int K, bool Well>
+void AllPairs::predict_grains(const std::array<int, K>& who) {
+  const double now = time_[static_cast<std::size_t>(who[0])];
+  std::array<Touch, K> touches;
+  if constexpr (Well || !has_estimates) touches = first_touches<K, Well>(who);
+  else touches = estimated_touches<K>(who);
   next_.grain = -1;
   for (std::size_t g = 0; g < K; ++g) {
     const std::size_t k = static_cast<std::size_t>(who[g]);
     GrainEvent next = next_side_wall(flight(who[g]), side_room(who[g]));
-    const double earliest = simd::hmin(best[g]);
-    if (earliest < never && now + earliest <= next.time) {
-      Lanes index_of_best(never);
-      simd::where(best[g] == Lanes(earliest), index_of_best) = best_index[g];
-      next.time = now + earliest;
-      next.partner = static_cast<std::int32_t>(simd::hmin(index_of_best));
+    if (touches[g].partner >= 0 && now + touches[g].wait <= next.time) {
+      next.time = now + touches[g].wait;
+      next.partner = touches[g].partner;
       next.partner_count = count_[static_cast<std::size_t>(next.partner)];
       if constexpr (Well) next.meeting = meeting_of(who[g], next.partner);
     }

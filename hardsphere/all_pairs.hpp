@@ -67,6 +67,19 @@ class AllPairs {
 
  private:
   Meeting meeting_of(int i, int j) const;
+  /// Of a grain with any other, from the time of its flight.
+  struct Touch {
+    double wait = never;   ///< s
+    std::int32_t partner = no_partner;
+  };
+  /// Grains as vectors of equal numbers.
+  template <int K>
+  struct Selves;
+  template <int K, bool Well>
+  std::array<Touch, K> first_touches(const std::array<int, K>& who);
+  template <int K>
+  std::array<Touch, K> estimated_touches(const std::array<int, K>& who);
+  double wait_for_touch(int i, int j) const;
   template <int K, bool Well>
   void predict_grains(const std::array<int, K>& who);
 
