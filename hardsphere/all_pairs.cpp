@@ -209,12 +209,13 @@ void AllPairs::predict_grains(const std::array<int, K>& who) {
   for (std::size_t g = 0; g < K; ++g) {
     const std::size_t k = static_cast<std::size_t>(who[g]);
     GrainEvent next = next_side_wall(flight(who[g]), side_room(who[g]));
-    if (touches[g].partner >= 0 && now + touches[g].wait <= next.time) {
-      next.time = now + touches[g].wait;
-      next.partner = touches[g].partner;
-      next.partner_count = count_[static_cast<std::size_t>(next.partner)];
-      if constexpr (Well) next.meeting = meeting_of(who[g], next.partner);
-    }
+    const double touch = now + touches[g].wait;
+    const bool is_pair = touches[g].partner >= 0 && touch <= next.time;
+    next.time = is_pair ? touch : next.time;
+    next.partner = is_pair ? touches[g].partner : next.partner;
+    next.partner_count = count_[static_cast<std::size_t>(std::max(touches[g].partner, 0))];  // unused where there is none
+    if constexpr (Well)
+      if (is_pair) next.meeting = meeting_of(who[g], next.partner);
     event_time_[k] = next.time;
     partner_[k] = next.partner;
     partner_count_[k] = next.partner_count;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -53,19 +54,16 @@ inline double time_to_touch(double a, double b, double c) {
   return discriminant < 0 ? never : c / (std::sqrt(discriminant) - b);
 }
 
-/// Earliest of the four fixed side walls at +-room about the axis.
+/// Earliest of the four fixed side walls at +-room about the axis. Which way a grain flies is as good as random: no branches on it.
 inline GrainEvent next_side_wall(const Flight3& flight, const std::array<double, 2>& room) {
-  GrainEvent next;
-  for (int axis = 1; axis <= 2; ++axis) {
-    const std::size_t k = static_cast<std::size_t>(axis);
-    const double v = flight.v[k];
-    if (v == 0) continue;
-    const int sign = v > 0 ? 1 : -1;
-    const double gap = room[k - 1] - sign * flight.x[k];
-    const double time = flight.time + (gap > 0 ? gap / std::abs(v) : 0.0);
-    if (time < next.time) next = {time, side_wall(axis, sign), 0, Meeting::touch};
+  std::array<double, 2> time;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double v = flight.v[k + 1], gap = room[k] - std::copysign(1.0, v) * flight.x[k + 1];
+    time[k] = v == 0 ? never : flight.time + std::max(gap, 0.0) / std::abs(v);
   }
-  return next;
+  const int axis = time[1] < time[0] ? 2 : 1;
+  const double earliest = std::min(time[0], time[1]);
+  return {earliest, earliest < never ? side_wall(axis, flight.v[static_cast<std::size_t>(axis)] > 0 ? 1 : -1) : no_partner, 0, Meeting::touch};
 }
 
 }  // namespace shakedown

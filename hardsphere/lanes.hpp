@@ -117,6 +117,14 @@ inline Smallest smallest(const AlignedVector<double>& array, std::size_t size) {
   Lanes best = load(array, 0);
   for (std::size_t first = lane_count; first < size; first += lane_count) best = simd::min(best, load(array, first));
   const double value = simd::hmin(best);
+#ifdef __AVX512F__
+  if (size <= 64) {  // where it stands is as good as random: no branch on it
+    std::uint64_t here = 0;
+    for (std::size_t first = 0; first < size; first += lane_count)
+      here |= std::uint64_t{_mm512_cmp_pd_mask(_mm512_load_pd(array.data() + first), _mm512_set1_pd(value), _CMP_EQ_OQ)} << first;
+    return {value, here == 0 ? 0 : __builtin_ctzll(here)};
+  }
+#endif
   for (std::size_t first = 0; first < size; first += lane_count) {
     const auto here = load(array, first) == Lanes(value);
     if (simd::any_of(here)) return {value, static_cast<int>(first) + simd::find_first_set(here)};

@@ -39,8 +39,9 @@ inline double earliest_possible_root(double gap, double rate, double top_acceler
   const double room = gap > 0 ? gap : 0;
   if (top_acceleration <= 0) return rate < 0 ? room / -rate : never;
   const double root = std::sqrt(rate * rate + 2 * top_acceleration * room);
-  // Two forms of the same root, each without cancellation.
-  return rate >= 0 ? (rate + root) / top_acceleration : 2 * room / (root - rate);
+  // Two forms of the same root, each without cancellation; which one is as good as random, so both numbers are chosen without a branch.
+  const double above = rate >= 0 ? rate + root : 2 * room, below = rate >= 0 ? top_acceleration : root - rate;
+  return above / below;
 }
 
 }  // namespace shakedown
