@@ -82,7 +82,7 @@ void EndWalls::bound_all(const Now& now) {
   const Lanes twice_top(2 * top), inverse_top(1 / top), budget(budget_), zero(0.0);
   Lanes smallest_gap(smallest_gap_), slot = lane_index();
   const auto first_touch = [&](const Lanes& gap, const Lanes& rate) {
-    const Lanes root = simd::sqrt(rate * rate + twice_top * simd::max(gap, zero));
+    const Lanes root = roots_below(rate * rate + twice_top * simd::max(gap, zero));
     // With a closing rate the sum cancels; what is lost only makes the bound a little early, so clamp it at zero.
     return simd::max(rate + root, zero) * inverse_top;
   };
