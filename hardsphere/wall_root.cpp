@@ -48,13 +48,40 @@ FallingStretch next_falling_stretch(const HarmonicGap& gap, double amplitude, do
   return {minimum - length, minimum};
 }
 
+/// A root just ahead of a gap that closes, negative when there is none to be seen at once. With |g'''| <= J the gap within a horizon H stays
+/// above g + g' t + (g'' - J H / 3) t^2 / 2: the root of that is never late, and third-order steps of the kind arrive after one or two
+/// sines. Most roots are of this kind, as they are sought from a bound shortly before: 5 to 10 % of a damper.
+double root_ahead(const HarmonicGap& gap) {
+  constexpr double none = -1;
+  const double w = gap.angular_frequency, jerk = w * w * w * (std::abs(gap.a) + std::abs(gap.b));
+  const double noise = 0x1p-54 * (std::abs(gap.a) + std::abs(gap.b) + std::abs(gap.c));
+  double t = 0, here = gap.a + gap.c, rate = w * gap.b - gap.u, swing = gap.a;
+  for (int step = 0; step < 5; ++step) {
+    if (!(rate < 0)) return none;
+    if (here <= noise) return t;
+    const double horizon = -2 * here / rate, curvature = jerk * horizon / 3 + w * w * swing;
+    const double squared = rate * rate + 2 * curvature * here;
+    if (!(w * horizon < 1 && 4 * squared > rate * rate)) return none;  // too far to be sure of, or hardly a crossing
+    const double wait = 2 * here / (std::sqrt(squared) - rate);
+    if (wait > horizon) return none;
+    t += wait;
+    if (jerk * horizon * wait * wait / 3 <= noise) return t;
+    const double cosine = std::cos(w * t), sine = std::sin(w * t);
+    swing = gap.a * cosine + gap.b * sine;
+    here = swing + gap.c - gap.u * t;
+    rate = w * (gap.b * cosine - gap.a * sine) - gap.u;
+  }
+  return none;
+}
+
 }  // namespace
 
 double first_wall_root(const HarmonicGap& gap) {
   constexpr double turn = 2 * std::numbers::pi;
-  const double w = gap.angular_frequency, amplitude = std::hypot(gap.a, gap.b);
-  const double start = gap.a + gap.c, start_rate = w * gap.b - gap.u;
+  const double w = gap.angular_frequency, start = gap.a + gap.c, start_rate = w * gap.b - gap.u;
   if (start <= 0 && start_rate < 0) return 0;
+  if (const double ahead = root_ahead(gap); ahead >= 0) return ahead;
+  const double amplitude = std::hypot(gap.a, gap.b);
   if (amplitude * w <= std::abs(gap.u) || amplitude == 0) {  // the grain outruns the wall: the gap is monotone
     if (gap.u <= 0) return never;
     return root_in(gap, 0, std::max(amplitude + gap.c, 0.0) / gap.u * (1 + 1e-15) + 1e-300);

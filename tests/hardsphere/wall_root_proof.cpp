@@ -81,6 +81,14 @@ HarmonicGap just_left_gap(Random& random) {
   return gap;
 }
 
+/// A gap that closes soon, fast or hardly: what is asked most.
+HarmonicGap gap_just_ahead(Random& random) {
+  HarmonicGap gap = damper_gap(random);
+  gap.c = log_uniform(random, 1e-12, 1e-1) - gap.a;
+  gap.u = gap.angular_frequency * gap.b + log_uniform(random, 1e-9, 2);
+  return gap;
+}
+
 }  // namespace
 
 HarmonicGap random_gap(WallRootCase kind, Random& random) {
@@ -107,6 +115,7 @@ HarmonicGap random_gap(WallRootCase kind, Random& random) {
       gap.u = sign(random) * top_speed * (1 + sign(random) * log_uniform(random, 1e-17, 1e-2));
       break;
     case WallRootCase::rest: gap.u = 0; break;
+    case WallRootCase::just_ahead: gap = gap_just_ahead(random); break;
     case WallRootCase::any_scale: {
       const double amplitude = log_uniform(random, 1e-9, 1e3), phase = 2 * std::numbers::pi * random.uniform();
       gap.angular_frequency = log_uniform(random, 1e-3, 1e5);

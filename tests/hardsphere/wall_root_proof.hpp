@@ -18,10 +18,11 @@
 
 namespace shakedown {
 
-enum class WallRootCase { damper, fast, slow, grazing, just_left, tiny_amplitude, many_periods, equal_top_speed, rest, any_scale };
-constexpr std::array<const char*, 10> wall_root_case_names{"as in a damper",    "fast grain",   "slow grain", "grazing",
+enum class WallRootCase { damper, fast, slow, grazing, just_left, tiny_amplitude, many_periods, equal_top_speed, rest, any_scale, just_ahead };
+constexpr std::array<const char*, 11> wall_root_case_names{"as in a damper",    "fast grain",   "slow grain", "grazing",
                                                            "just left the wall", "tiny amplitude", "many periods",
-                                                           "grain at the wall's top speed", "grain at rest", "any scale"};
+                                                           "grain at the wall's top speed", "grain at rest", "any scale",
+                                                           "a wall just ahead"};
 
 enum class WallRootVerdict { right, missed, early, redetected, undecided };
 constexpr std::array<const char*, 5> wall_root_verdict_names{"right", "missed", "early", "redetected", "undecided"};
