@@ -52,6 +52,7 @@ Flight3 AllPairs::flight(int i) const {
 void AllPairs::set_flight(int i, const Flight3& flight) {
   move_to(i, flight);
   ++count_[static_cast<std::size_t>(i)];
+  sums_time_ = never;
 }
 
 void AllPairs::move_to(int i, const Flight3& flight) {
@@ -252,7 +253,12 @@ void AllPairs::predict_all() {
   for (int i = 0; i < size(); ++i) predict(i);
 }
 
-GrainSums AllPairs::sums(double t) const {
+GrainSums AllPairs::sums(double t) {
+  if (sums_time_ < never) {
+    GrainSums later = sums_;
+    later.moment += sums_.momentum[0] * (t - sums_time_);
+    return later;
+  }
   Lanes mass(0.0), kinetic(0.0), moment(0.0), px(0.0), py(0.0), pz(0.0);
   for (std::size_t j = 0; j < padded_size_; j += lane_count) {
     const Lanes m = load(mass_, j), vx = load(vx_, j), vy = load(vy_, j), vz = load(vz_, j);
@@ -263,7 +269,9 @@ GrainSums AllPairs::sums(double t) const {
     py += m * vy;
     pz += m * vz;
   }
-  return {simd::reduce(mass), simd::reduce(kinetic) / 2, simd::reduce(moment), {simd::reduce(px), simd::reduce(py), simd::reduce(pz)}};
+  sums_ = {simd::reduce(mass), simd::reduce(kinetic) / 2, simd::reduce(moment), {simd::reduce(px), simd::reduce(py), simd::reduce(pz)}};
+  sums_time_ = t;
+  return sums_;
 }
 
 double AllPairs::deepest_overlap() const {

@@ -51,7 +51,8 @@ class AllPairs {
   bool is_stale(const GrainEvent& event) const {
     return event.partner >= 0 && count_[static_cast<std::size_t>(event.partner)] != event.partner_count;
   }
-  GrainSums sums(double t) const;
+  /// Found anew only after an impact: in long boxes most samples see none since the one before.
+  GrainSums sums(double t);
   /// Predicts the next event of a grain, or of both grains of a pair, whose flights start now.
   void predict(int i);
   void predict(int i, int j);
@@ -93,6 +94,8 @@ class AllPairs {
   AlignedVector<double> bond_;  // 1 or 0 for each pair, a padded row a grain; empty without attraction
   Next next_{never, -1};      // grain -1: not known
   double smallest_room_ = 0;  // of r^2 - reach^2, m^2
+  GrainSums sums_;
+  double sums_time_ = never;  // never: not known
 };
 
 }  // namespace shakedown

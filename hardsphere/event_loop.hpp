@@ -130,6 +130,7 @@ class EventLoop {
     ledger_rest_[contact_class] += std::abs(sum) >= std::abs(energy) ? (sum - next) + energy : (energy - next) + sum;
     sum = next;
   }
+  double total_loss() const;
 
   ContactLaw contact_;
   GrainForces forces_;

@@ -30,10 +30,18 @@ Observation EventLoop<Grains, Motion>::observe() {
   if (has_spring_) energy += box_.spring_energy(box.x) + box_.mass() * box.v * box.v / 2;
   const Observation seen{t, box.x, box.v, grains_.size() > 0 ? grains.moment / grains.mass : std::nan(""), energy};
   if (initial_energy_ > 0)
-    worst_ledger_ = std::max(worst_ledger_, std::abs(energy + ledger().total_loss() - initial_energy_) / initial_energy_);
+    worst_ledger_ = std::max(worst_ledger_, std::abs(energy + total_loss() - initial_energy_) / initial_energy_);
   if (has_spring_)
     worst_momentum_ = std::max(worst_momentum_, std::abs(grains.momentum[0] + box_.mass() * box.v - initial_momentum_ - outer_impulse));
   return seen;
+}
+
+template <class Grains, class Motion>
+double EventLoop<Grains, Motion>::total_loss() const {
+  if constexpr (driven) return ledger().total_loss();
+  double loss = 0;
+  for (std::size_t c = 0; c < contact_classes; ++c) loss += ledger_.contact_loss[c] + ledger_rest_[c];
+  return loss;
 }
 
 template <class Grains, class Motion>
