@@ -16,6 +16,7 @@ class BoxMotion {
 
   BoxMotion(double mass, double stiffness, double x, double v, double time = 0)
       : mass_(mass), stiffness_(stiffness), angular_frequency_(std::sqrt(stiffness / mass)) {
+    if (angular_frequency_ > 0) impulse_scale_ = -stiffness / angular_frequency_;
     restart(time, x, v);
   }
 
@@ -26,7 +27,7 @@ class BoxMotion {
     const double c = std::cos(phase), s = std::sin(phase);
     // Two sums on purpose: of a sum beside a difference GCC 12 makes one fused instruction where it inlines, whatever -ffp-contract says
     // (a motion would then depend in its last digit on who asks for it).
-    return {x_ * c + v_ / angular_frequency_ * s, v_ * c + -x_ * angular_frequency_ * s};
+    return {x_ * c + y_ * s, v_ * c + -x_ * angular_frequency_ * s};
   }
 
   /// A kick: from time t on the box flies from (x, v).
@@ -34,8 +35,8 @@ class BoxMotion {
     time_ = t;
     x_ = x;
     v_ = v;
-    const double y = angular_frequency_ > 0 ? v / angular_frequency_ : 0;
-    amplitude_ = std::sqrt(x * x + y * y);  // metres: nothing that hypot would have to guard against
+    y_ = angular_frequency_ > 0 ? v / angular_frequency_ : 0;
+    amplitude_ = std::sqrt(x * x + y_ * y_);  // metres: nothing that hypot would have to guard against
   }
 
   struct PointAndImpulse {
@@ -45,10 +46,10 @@ class BoxMotion {
   /// Both from one sine and cosine.
   PointAndImpulse at_with_impulse(double t) const {
     if (angular_frequency_ == 0) return {at(t), 0};
-    const double phase = angular_frequency_ * (t - time_), y = v_ / angular_frequency_;
+    const double phase = angular_frequency_ * (t - time_);
     const double c = std::cos(phase), s = std::sin(phase);
     const double versine = c > 0 ? s * s / (1 + c) : 1 - c;  // 1 - cos without cancellation
-    return {{x_ * c + y * s, v_ * c + -x_ * angular_frequency_ * s}, -stiffness_ / angular_frequency_ * (x_ * s + y * versine)};
+    return {{x_ * c + y_ * s, v_ * c + -x_ * angular_frequency_ * s}, impulse_scale_ * (x_ * s + y_ * versine)};
   }
 
   double energy() const { return stiffness_ * x_ * x_ / 2 + mass_ * v_ * v_ / 2; }
@@ -66,8 +67,8 @@ class BoxMotion {
   double time() const { return time_; }  ///< of the last kick
 
  private:
-  double mass_, stiffness_, angular_frequency_;
-  double time_ = 0, x_ = 0, v_ = 0, amplitude_ = 0;
+  double mass_, stiffness_, angular_frequency_, impulse_scale_ = 0;
+  double time_ = 0, x_ = 0, v_ = 0, y_ = 0, amplitude_ = 0;  // y: v over the angular frequency, m
 };
 
 }  // namespace shakedown
