@@ -31,7 +31,10 @@ class BothQueues {
 
   /// The earliest grain; -1 when there is none.
   int check_next() {
-    const CalendarQueue::Next next = calendar.next();
+    const CalendarQueue::Next next = calendar.next(std::array{7, 3}, [this](int grain, int days) {
+      EXPECT_LT(dates_[static_cast<std::size_t>(grain)], never);
+      ++told[days == 3];
+    });
     if (sorted_.empty()) {
       EXPECT_EQ(next.grain, -1);
       EXPECT_EQ(next.time, never);
@@ -46,6 +49,7 @@ class BothQueues {
   std::size_t waiting() const { return sorted_.size(); }
 
   CalendarQueue calendar;
+  std::array<int, 2> told{};  ///< how often of dates seven days ahead, and three
 
  private:
   std::vector<double> dates_;
@@ -93,6 +97,19 @@ TEST(CalendarQueue, AgreesWithASortedMap) {
       SCOPED_TRACE(std::string(schedule.name) + ", grains " + std::to_string(grains));
       for (std::uint64_t seed = 0; seed < 5; ++seed) run(schedule, grains, 4000, seed);
     }
+}
+
+/// Of every date that was scheduled long before, unless another one hides it in its day.
+TEST(CalendarQueue, TellsOfMostDatesAhead) {
+  BothQueues queues(1000);
+  Random random(6, 0, Stream::other);
+  for (int i = 0; i < 1000; ++i) queues.schedule(i, random.uniform());
+  queues.calendar.plan(0, 1000);
+  for (int i = 0; i < 1000; ++i) queues.schedule(queues.check_next(), never);
+  for (const int told : queues.told) {
+    EXPECT_GT(told, 750);
+    EXPECT_LE(told, 1000);
+  }
 }
 
 TEST(CalendarQueue, EmptiesAndFillsAgain) {
