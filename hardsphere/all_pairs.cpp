@@ -82,7 +82,8 @@ struct AllPairs::Selves {
   /// A vector of other grains, of which all share every load, and how each sees it.
   struct Others {
     Lanes x, y, z, vx, vy, vz, radius;
-    Others(const AllPairs& all, std::size_t j, const Lanes& now) : vx(load(all.vx_, j)), vy(load(all.vy_, j)), vz(load(all.vz_, j)), radius(load(all.radius_, j)) {
+    Others(const AllPairs& all, std::size_t j, const Lanes& now)
+        : vx(load(all.vx_, j)), vy(load(all.vy_, j)), vz(load(all.vz_, j)), radius(load(all.radius_, j)) {
       const Lanes flown = now - load(all.time_, j);
       x = load(all.x_, j) + vx * flown, y = load(all.y_, j) + vy * flown, z = load(all.z_, j) + vz * flown;
     }
@@ -92,7 +93,8 @@ struct AllPairs::Selves {
     Lanes a, b, reach, apart_squared, c, discriminant;
   };
   Approach approach(std::size_t g, const Others& others) const {
-    const Lanes rx = others.x - x[g], ry = others.y - y[g], rz = others.z - z[g], wx = others.vx - vx[g], wy = others.vy - vy[g], wz = others.vz - vz[g];
+    const Lanes rx = others.x - x[g], ry = others.y - y[g], rz = others.z - z[g];
+    const Lanes wx = others.vx - vx[g], wy = others.vy - vy[g], wz = others.vz - vz[g];
     const Lanes reach = others.radius + radius[g], b = rx * wx + ry * wy + rz * wz, apart_squared = rx * rx + ry * ry + rz * rz;
     const Lanes c = apart_squared - reach * reach, a = wx * wx + wy * wy + wz * wz;
     return {a, b, reach, apart_squared, c, b * b - a * c};
@@ -179,7 +181,8 @@ std::array<AllPairs::Touch, K> AllPairs::estimated_touches(const std::array<int,
     const typename Selves<K>::Others others(*this, j, selves.now);
     for (std::size_t g = 0; g < K; ++g) {
       const auto [a, b, reach, apart_squared, c, discriminant] = selves.approach(g, others);
-      const Lanes root = discriminant * inverse_root_estimate(simd::max(discriminant, Lanes(tiny))), touch = simd::max(c, zero) * inverse_estimate(root - b);
+      const Lanes root = discriminant * inverse_root_estimate(simd::max(discriminant, Lanes(tiny)));
+      const Lanes touch = simd::max(c, zero) * inverse_estimate(root - b);
       const auto meets = b < zero && discriminant >= zero;
       doubt = doubt || (meets && (c < smallest_room || (touch > Lanes(below) * best[g] && touch < Lanes(above) * best[g])));
       const auto sooner = meets && touch < best[g];

@@ -138,7 +138,8 @@ class CalendarQueue {
   template <class Ahead>
   void tell_of(int days_ahead, std::size_t day, Ahead&& tell) const {
     const std::size_t in_sight = std::min(day + static_cast<std::size_t>(days_ahead), days() - 1);
-    for (std::size_t d = next_dated(today_ + static_cast<std::size_t>(days_ahead) + 1); d <= in_sight; d = next_dated(d + 1)) tell(first_[d], days_ahead);
+    for (std::size_t d = next_dated(today_ + static_cast<std::size_t>(days_ahead) + 1); d <= in_sight; d = next_dated(d + 1))
+      tell(first_[d], days_ahead);
   }
 
   /// Moves the waiting dates into a new year; false when there are none.

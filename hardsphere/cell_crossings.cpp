@@ -12,6 +12,16 @@ namespace {
 constexpr double least_edge = 1 + 1e-6;
 constexpr int most_cells = 65000;  // along an axis
 
+#ifdef __AVX512F__
+/// Of three offsets along an axis, which goes into each of 27 sums of one a axis.
+constexpr std::array<std::int32_t, 32> digits(std::int32_t step) {
+  std::array<std::int32_t, 32> which{};
+  for (std::int32_t n = 0; n < 27; ++n) which[static_cast<std::size_t>(n)] = n / step % 3;
+  return which;
+}
+constexpr std::array<std::int32_t, 32> of_x = digits(9), of_y = digits(3), of_z = digits(1);
+#endif
+
 int cells_across(double extent, double edge) { return std::min(most_cells, static_cast<int>(extent / edge)); }
 
 }  // namespace
@@ -77,18 +87,13 @@ class CellCrossings::Collector {
 #ifdef __AVX512F__
   /// Offsets of three cells along each axis: their 27 sums.
   void block(const std::uint32_t* x, const std::uint32_t* y, const std::uint32_t* z) {
-    const __m512i of_x = three(x), of_y = three(y), of_z = three(z);
-    const __m512i a = _mm512_set_epi32(1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0), b = _mm512_set_epi32(2, 1, 1, 1, 0, 0, 0, 2, 2, 2, 1, 1, 1, 0, 0, 0),
-                  c = _mm512_set_epi32(0, 2, 1, 0, 2, 1, 0, 2, 1, 0, 2, 1, 0, 2, 1, 0);
-    take(sum(pick(of_x, a), pick(of_y, b), pick(of_z, c)), 0xffff);
-    const __m512i a2 = _mm512_set_epi32(0, 0, 0, 0, 0, 2, 2, 2, 2, 2, 2, 2, 2, 2, 1, 1), b2 = _mm512_set_epi32(0, 0, 0, 0, 0, 2, 2, 2, 1, 1, 1, 0, 0, 0, 2, 2),
-                  c2 = _mm512_set_epi32(0, 0, 0, 0, 0, 2, 1, 0, 2, 1, 0, 2, 1, 0, 2, 1);
-    take(sum(pick(of_x, a2), pick(of_y, b2), pick(of_z, c2)), 0x7ff);
+    const __m512i three_x = three(x), three_y = three(y), three_z = three(z);
+    for (std::size_t n = 0; n < 27; n += 16)
+      take(sum(pick(three_x, &of_x[n]), pick(three_y, &of_y[n]), pick(three_z, &of_z[n])), n == 0 ? 0xffff : 0x7ff);
   }
   /// The same for one cell along the first axis: nine sums.
   void layer(std::uint32_t x, const std::uint32_t* y, const std::uint32_t* z) {
-    const __m512i b = _mm512_set_epi32(0, 0, 0, 0, 0, 0, 0, 2, 2, 2, 1, 1, 1, 0, 0, 0), c = _mm512_set_epi32(0, 0, 0, 0, 0, 0, 0, 2, 1, 0, 2, 1, 0, 2, 1, 0);
-    take(sum(_mm512_set1_epi32(static_cast<int>(x)), pick(three(y), b), pick(three(z), c)), 0x1ff);
+    take(sum(_mm512_set1_epi32(static_cast<int>(x)), pick(three(y), of_y.data()), pick(three(z), of_z.data())), 0x1ff);
   }
 #else
   void block(const std::uint32_t* x, const std::uint32_t* y, const std::uint32_t* z) {
@@ -115,10 +120,13 @@ class CellCrossings::Collector {
   static __m512i three(const std::uint32_t* offsets) {
     return _mm512_castsi128_si512(_mm_loadu_si128(reinterpret_cast<const __m128i*>(offsets)));
   }
-  static __m512i pick(__m512i from, __m512i which) { return _mm512_maskz_permutexvar_epi32(0xffff, which, from); }
+  static __m512i pick(__m512i from, const std::int32_t* which) {
+    return _mm512_maskz_permutexvar_epi32(0xffff, _mm512_loadu_si512(which), from);
+  }
   static __m512i sum(__m512i a, __m512i b, __m512i c) { return _mm512_add_epi32(_mm512_add_epi32(a, b), c); }
   void take(__m512i cells, __mmask16 which) {
-    const __m512i empty = _mm512_set1_epi32(-1), link = _mm512_mask_i32gather_epi32(empty, which, cells, first_, 4);
+    const __m512i empty = _mm512_set1_epi32(-1);
+    const __m512i link = _mm512_mask_i32gather_epi32(empty, which, cells, first_, 4);
     const __mmask16 taken = _mm512_cmpgt_epi32_mask(link, empty);
     _mm512_storeu_si512(&others_[size_], _mm512_maskz_compress_epi32(taken, link));
     size_ += static_cast<std::size_t>(std::popcount(static_cast<unsigned>(taken)));

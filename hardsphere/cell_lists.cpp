@@ -84,7 +84,8 @@ GrainEvent CellLists<Periodic>::next_of(int i) {
   const GrainLines::Touch touch = lines_.first_touch<Periodic>(k, self, list(k), own_[k].list_size, never);
   const double wait = time_to_leave(k, self, touch.wait);
   GrainEvent next{self.time + wait, leaves_neighbourhood, 0, Meeting::touch};
-  if (touch.wait <= wait && touch.partner >= 0) next.partner = touch.partner, next.partner_count = lines_[static_cast<std::size_t>(touch.partner)].count;
+  if (touch.wait <= wait && touch.partner >= 0)
+    next.partner = touch.partner, next.partner_count = lines_[static_cast<std::size_t>(touch.partner)].count;
   if (half_width_[0] < never) {
     const GrainEvent wall = next_side_wall(self, {half_width_[0] - radius(i), half_width_[1] - radius(i)});
     if (wall.time < next.time) next = wall;

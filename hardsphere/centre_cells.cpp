@@ -91,7 +91,8 @@ void CentreCells::take(std::int32_t grain) {
   Block& from = block_[slot / block_size];
   from.x[lane] = far_away;
   from.grain[lane] = none;
-  if (std::all_of(from.grain.begin(), from.grain.end(), [](std::int32_t g) { return g == none; })) drop_block(static_cast<std::int32_t>(slot / block_size));
+  if (std::all_of(from.grain.begin(), from.grain.end(), [](std::int32_t g) { return g == none; }))
+    drop_block(static_cast<std::int32_t>(slot / block_size));
 }
 
 std::size_t CentreCells::find(const Place& place, std::vector<std::int32_t>& near) const {

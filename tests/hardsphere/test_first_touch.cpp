@@ -28,8 +28,10 @@ State mirrored_grains(Random& random, int count, bool equal) {
     const std::size_t of = static_cast<std::size_t>(i) - 2;
     state.radius.push_back(equal ? 0.5 : image ? state.radius[of] : between(random, 0.2, 0.5));
     state.mass.push_back(1);
-    state.position.push_back(image ? state.position[of].cwiseProduct(Vec3(-1 - hardly, 1, 1)) : Vec3(between(random, -5, 5), between(random, -5, 5), between(random, -5, 5)));
-    state.velocity.push_back(image ? state.velocity[of].cwiseProduct(Vec3(-1, 1, 1)) : Vec3(random.normal(), random.normal(), random.normal()));
+    const Vec3 place(between(random, -5, 5), between(random, -5, 5), between(random, -5, 5)), velocity(random.normal(), random.normal(), random.normal());
+    const Vec3 mirror(-1 - hardly, 1, 1);
+    state.position.push_back(image ? Vec3(state.position[of].cwiseProduct(mirror)) : place);
+    state.velocity.push_back(image ? Vec3(state.velocity[of].cwiseProduct(Vec3(-1, 1, 1))) : velocity);
   }
   state.position[0] = state.velocity[0] = Vec3::Zero();
   return state;
@@ -108,7 +110,9 @@ void look_around(bool periodic, double reach) {
   std::vector<std::array<double, 3>> centres(static_cast<std::size_t>(grains));
   const auto anywhere = [&] {
     const double wide = periodic ? 0.5 : 0.9, crowd = random.uniform() < 0.3 ? 0.1 : 1;  // more than a block holds in some cells
-    return std::array{extent * wide * crowd * between(random, -1, 1), extent * wide * crowd * between(random, -1, 1), extent * wide * crowd * between(random, -1, 1)};
+    std::array<double, 3> centre;
+    for (double& x : centre) x = extent * wide * crowd * between(random, -1, 1);
+    return centre;
   };
   for (std::int32_t i = 0; i < grains; ++i) cells.put(i, cells.place(centres[static_cast<std::size_t>(i)] = anywhere()));
   std::vector<std::int32_t> near;
