@@ -13,8 +13,6 @@ inline std::vector<double> rooms(const State& state, double length) {
 
 /// Dampers up to this size sweep all wall bounds after a kick; larger ones open windows.
 constexpr std::size_t always_watched = 256;
-/// Drag and formulas on grains act as small impulses this far apart, s; second order in it.
-constexpr double grain_kick_interval = 2e-3;
 
 /// Diameters; how high grains hop at most on what they lie on. 0.005 to 0.04 give the same peaks within the spread of runs.
 constexpr double bed_hop = 0.025;
@@ -89,7 +87,7 @@ EventLoop<Grains, Motion>::EventLoop(const State& state, const Physics& physics,
       side_walls_.emplace_back(rooms(state, width), state.size() <= always_watched,
                                contact_.has_attraction() ? contact_.attraction_range : 0);
   if (forces_.linear_drag > 0 || forces_.quadratic_drag > 0 || !forces_.free.empty()) {
-    kick_every_ = grain_kick_interval;
+    kick_every_ = setup.hard.kick_interval;
     next_kick_ = kick_every_ / 2;
   }
   if (!side_walls_.empty()) grains_.forget_side_walls();

@@ -60,7 +60,7 @@ void Pipeline::sort_ranking() {
 void Pipeline::finish() {
   sort_ranking();
   result_.amended = base_;
-  result_.amended.hard.pair_elastic_speed = user_.hard.pair_elastic_speed;
+  result_.amended.hard = user_.hard;
   for (const FittedValue& value : final_.values) {
     if (!refitted_) break;  // as given, within what codes differ by: nothing to change
     std::string keys = value.key;

@@ -32,8 +32,9 @@ Pipeline::Pipeline(const Setup& setup, const Experiment& experiment, const Engin
 }
 
 Diagnosis Pipeline::run() {
-  // Ensembles see no difference up to here, and low restitutions cost several times less.
+  // Ensembles see no difference up to here, and low restitutions and drag on grains cost several times less.
   base_.hard.pair_elastic_speed = std::max(base_.hard.pair_elastic_speed, quick_elastic_speed);
+  base_.hard.kick_interval = std::max(base_.hard.kick_interval, quick_kick_interval);
   const auto start = std::chrono::steady_clock::now();
   result_.notes = audit_.warnings;
   stage_ = "momentum balance";

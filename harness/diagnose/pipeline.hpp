@@ -23,6 +23,7 @@ constexpr std::size_t most_tried = 4;
 /// Differences of chi2 below this are within the emulators' own noise.
 constexpr double too_close = 15;
 constexpr double quick_elastic_speed = 1e-2;  // m/s
+constexpr double quick_kick_interval = 1e-2;  // s
 
 inline std::string effect_of(const std::string& key) { return key.substr(0, key.find('.')); }
 

@@ -26,7 +26,7 @@ extern const EffectRecord grain_air_drag{
                    {.name = "quadratic", .unit = "N s^2/m^2", .low = 0, .high = 1, .neutral = 0, .typical = 0.001,
                     .sentence = "Force on a grain divided by the square of its speed."}},
     .dissipative = true,
-    .hard = {Fidelity::to_stated_error, "drag applied in small impulses, second order in 2 ms"},
+    .hard = {Fidelity::to_stated_error, "drag applied in small impulses, second order in hard.kick_interval (2 ms)"},
     .soft = {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply};

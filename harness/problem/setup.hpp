@@ -69,6 +69,7 @@ struct Setup {
     double wall_elastic_fraction = 0.02;  ///< end-wall impacts slower than this times the box's current top speed are elastic (paper, Eq. elasticlimit)
     double pair_elastic_speed = 1e-3;     ///< m/s; grain-grain impacts slower than this are elastic
     double wall_elastic_speed = 0;        ///< m/s; end- and side-wall impacts slower than this are elastic; raised to 1e-3 where an effect needs it
+    double kick_interval = 2e-3;          ///< s; drag and formulas act on grains in impulses so far apart, second order in it
   } hard;
 
   struct Soft {

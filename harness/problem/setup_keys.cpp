@@ -63,6 +63,8 @@ const std::vector<SetupKey>& table() {
        "Impacts between grains slower than this are elastic."},
       {"hard.wall_elastic_speed", &field<&S::hard, &S::Hard::wall_elastic_speed>, "m/s", 0, infinity, false,
        "End- and side-wall impacts slower than this are elastic; raised to 1 mm/s where an effect needs it."},
+      {"hard.kick_interval", &field<&S::hard, &S::Hard::kick_interval>, "ms", 0, infinity, true,
+       "Drag and formulas act on grains in impulses so far apart; the error is of second order in it."},
       {"soft.contact_time", &field<&S::soft, &S::Soft::contact_time>, "ms", 0, infinity, true,
        "Duration of a soft contact: half a period of the contact oscillator."},
       {"soft.steps_per_contact", &field<&S::soft, &S::Soft::steps_per_contact>, "", 2, 1e6, false,
