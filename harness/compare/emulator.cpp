@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "errors.hpp"
@@ -34,6 +35,8 @@ Eigen::VectorXd regression_terms(const std::vector<Knob>& knobs, const Eigen::Ve
   for (std::size_t a = 0; a < knobs.size(); ++a)
     for (std::size_t b = a; b < knobs.size(); ++b)
       if (knobs[a].curved && knobs[b].curved) terms.push_back(z[static_cast<Eigen::Index>(a)] * z[static_cast<Eigen::Index>(b)]);
+  for (std::size_t k = 0; k < knobs.size(); ++k)
+    if (knobs[k].curved && knobs[k].cubic) terms.push_back(std::pow(z[static_cast<Eigen::Index>(k)], 3));
   return Eigen::Map<Eigen::VectorXd>(terms.data(), static_cast<Eigen::Index>(terms.size()));
 }
 
@@ -67,14 +70,18 @@ Eigen::VectorXd scatter(const std::vector<Knob>& knobs, std::uint64_t seed, int 
   return z;
 }
 
-Emulator regress(const Eigen::MatrixXd& terms, const Eigen::MatrixXd& features) {
+/// Residuals are scaled up for the degrees of freedom that the coefficients took.
+double share_left(const Eigen::MatrixXd& terms) {
+  return std::max(static_cast<double>(terms.rows() - terms.cols()) / static_cast<double>(terms.rows()), 0.05);
+}
+
+Emulator regress(Eigen::MatrixXd terms, const Eigen::MatrixXd& features) {
   Emulator emulator;
   const Eigen::MatrixXd normal = terms.transpose() * terms;
   emulator.inverse_normal = normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
   emulator.coefficients = emulator.inverse_normal * (terms.transpose() * features);
-  emulator.residuals = features - terms * emulator.coefficients;
-  const double left = static_cast<double>(terms.rows() - terms.cols()) / static_cast<double>(terms.rows());
-  emulator.residuals /= std::sqrt(std::max(left, 0.05));
+  emulator.residuals = (features - terms * emulator.coefficients) / std::sqrt(share_left(terms));
+  emulator.terms = std::move(terms);
   return emulator;
 }
 
@@ -95,52 +102,122 @@ Trajectory run_surely(const Setup& setup, int run, const Workshop& workshop) {
   }
 }
 
-}  // namespace
+/// Measured runs of one setup (repeats), which share simulations as long as the longest of them needs.
+struct Group {
+  std::vector<std::size_t> members;
+  Setup setup;
+};
 
-std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, int count, int first_run,
-                              const Workshop& workshop, double sparse) {
-  // Runs of the same setup (repeats) share simulations as long as the longest of them needs.
-  std::vector<std::vector<std::size_t>> groups;
-  std::vector<Setup> setups;
+std::vector<Group> groups_of(const std::vector<MeasuredFeatures>& measured) {
+  std::vector<Group> groups;
   std::map<std::string, std::size_t> place;
   for (std::size_t m = 0; m < measured.size(); ++m) {
     Setup key = measured[m].setup;
     key.run.duration = 1;
     const auto [found, fresh] = place.emplace(digest(key), groups.size());
-    if (fresh) {
-      groups.emplace_back();
-      setups.push_back(measured[m].setup);
-    }
-    groups[found->second].push_back(m);
-    double& duration = setups[found->second].run.duration;
-    duration = std::max(duration, measured[m].setup.run.duration);
+    if (fresh) groups.push_back({{}, measured[m].setup});
+    Group& group = groups[found->second];
+    group.members.push_back(m);
+    group.setup.run.duration = std::max(group.setup.run.duration, measured[m].setup.run.duration);
   }
-  std::vector<Eigen::MatrixXd> features, terms(groups.size());
-  for (const MeasuredFeatures& m : measured) features.emplace_back(count, m.values.size());
-  const auto n_terms = regression_terms(knobs, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs.size()))).size();
-  for (Eigen::MatrixXd& t : terms) t.resize(count, n_terms);
+  return groups;
+}
+
+/// What simulations must share to be comparable: the setup but for the knobs' values, which knobs, and what is read off.
+std::string model_name(const Group& group, const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const Workshop& workshop) {
+  Setup canonical = group.setup;
+  canonical.run.duration = 1;
+  std::string name;
+  for (Knob knob : knobs) {
+    knob.centre = (knob.low + knob.high) / 2;
+    set_knob(canonical, knob, workshop.known);
+    name += knob.key + ' ';
+  }
+  for (const std::size_t m : group.members) name += measured[m].run + ' ' + std::to_string(measured[m].values.size()) + ' ';
+  return name + digest(canonical);
+}
+
+/// A pooled run's place in the box; empty: it lies outside.
+std::optional<Eigen::VectorXd> place_in_box(const PooledRun& run, const std::vector<Knob>& knobs) {
+  constexpr double edge = 1.25;
+  Eigen::VectorXd z(run.values.size());
+  for (Eigen::Index k = 0; k < z.size(); ++k) {
+    z[k] = knobs[static_cast<std::size_t>(k)].z_of(run.values[k]);
+    if (std::abs(z[k]) > edge) return std::nullopt;
+  }
+  return z;
+}
+
+struct Simulated {
+  Eigen::VectorXd z;
+  std::vector<Eigen::VectorXd> features;  // of each member
+};
+
+Simulated simulate(const Group& group, std::uint64_t stream, const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, int run,
+                   double sparse, const Workshop& workshop) {
+  Simulated simulated{scatter(knobs, group.setup.run.seed + 7919 * stream, run, sparse), {}};
+  Setup setup = setup_at(group.setup, knobs, simulated.z, workshop.known);
+  setup.run.seed += 104729 * stream;
+  const Trajectory trajectory = run_surely(setup, run, workshop);
+  const Recording recording = recorded_by(physics_of(setup).camera, trajectory);
+  for (const std::size_t m : group.members) simulated.features.push_back(simulated_features(measured[m].plan, recording));
+  return simulated;
+}
+
+/// Adds what the pool has of this model in the box, and gives the pool what is new.
+void exchange(std::vector<Simulated>& simulated, const std::string& model, const std::vector<Knob>& knobs, SimulationPool& pool) {
+  std::vector<PooledRun>& pooled = pool[model];
+  const std::size_t fresh = simulated.size(), before = pooled.size();
+  for (std::size_t i = 0; i < before; ++i)
+    if (const auto z = place_in_box(pooled[i], knobs)) simulated.push_back({*z, pooled[i].features});
+  for (std::size_t i = 0; i < fresh; ++i) {
+    Eigen::VectorXd values(simulated[i].z.size());
+    for (Eigen::Index k = 0; k < values.size(); ++k) values[k] = knobs[static_cast<std::size_t>(k)].at(simulated[i].z[k]);
+    pooled.push_back({values, simulated[i].features});
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXd Emulator::coefficients_without(Eigen::Index block, Eigen::Index blocks) const {
+  const Eigen::Index rows = (terms.rows() - block + blocks - 1) / blocks;
+  const auto left_out = Eigen::seqN(block, rows, blocks);
+  const Eigen::MatrixXd x = terms(left_out, Eigen::all);
+  const Eigen::MatrixXd wrong = residuals(left_out, Eigen::all) * std::sqrt(share_left(terms));
+  const Eigen::MatrixXd normal = inverse_normal.ldlt().solve(Eigen::MatrixXd::Identity(terms.cols(), terms.cols())) - x.transpose() * x;
+  return coefficients - normal.ldlt().solve(x.transpose() * wrong);
+}
+
+std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, int count, int first_run,
+                              const Workshop& workshop, double sparse) {
+  const std::vector<Group> groups = groups_of(measured);
+  std::vector<std::vector<Simulated>> simulated(groups.size(), std::vector<Simulated>(static_cast<std::size_t>(count)));
   const int groups_count = static_cast<int>(groups.size());
   // The longest runs are begun first: groups in turn, so that the last ones are spread over all.
   work_in_parallel_deliver_in_order(count * groups_count, threads_or_all(workshop.threads), [&](int job) -> std::function<void()> {
     const int row = job / groups_count;
     const auto g = static_cast<std::size_t>(job % groups_count);
     if (workshop.stop && *workshop.stop) throw Interrupted("interrupted");
-    const int run = first_run + row;
-    const Eigen::VectorXd z = scatter(knobs, setups[g].run.seed + 7919 * g, run, sparse);
-    Setup setup = setup_at(setups[g], knobs, z, workshop.known);
-    setup.run.seed += 104729 * g;
-    const Trajectory trajectory = run_surely(setup, run, workshop);
-    const Recording recording = recorded_by(physics_of(setup).camera, trajectory);
-    terms[g].row(row) = regression_terms(knobs, z).transpose();
-    for (const std::size_t m : groups[g]) features[m].row(row) = simulated_features(measured[m].plan, recording).transpose();
+    simulated[g][static_cast<std::size_t>(row)] = simulate(groups[g], g, measured, knobs, first_run + row, sparse, workshop);
     return [&] {
       if (workshop.runs) ++*workshop.runs;
       if (workshop.done) workshop.done(1);
     };
   });
   std::vector<Emulator> emulators(measured.size());
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    for (const std::size_t m : groups[g]) emulators[m] = regress(terms[g], features[m]);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (workshop.pool) exchange(simulated[g], model_name(groups[g], measured, knobs, workshop), knobs, *workshop.pool);
+    const auto rows = static_cast<Eigen::Index>(simulated[g].size());
+    const auto n_terms = regression_terms(knobs, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs.size()))).size();
+    Eigen::MatrixXd terms(rows, n_terms);
+    for (Eigen::Index i = 0; i < rows; ++i) terms.row(i) = regression_terms(knobs, simulated[g][static_cast<std::size_t>(i)].z).transpose();
+    for (std::size_t k = 0; k < groups[g].members.size(); ++k) {
+      const std::size_t m = groups[g].members[k];
+      Eigen::MatrixXd features(rows, measured[m].values.size());
+      for (Eigen::Index i = 0; i < rows; ++i) features.row(i) = simulated[g][static_cast<std::size_t>(i)].features[k].transpose();
+      emulators[m] = regress(terms, features);
+    }
+  }
   return emulators;
 }
 

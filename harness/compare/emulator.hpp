@@ -12,6 +12,7 @@
 
 #include "engine.hpp"
 #include "features.hpp"
+#include "simulation_pool.hpp"
 
 namespace shakedown {
 
@@ -24,6 +25,7 @@ struct Knob {
   bool curved = true;  ///< the regression has a square of it, and products with the other curved ones
   /// What is known of it beforehand: a normal distribution of this mean and standard deviation; 0: nothing is.
   double believed = 0, believed_error = 0;
+  bool cubic = false;   ///< ... and a cube (with curved)
 
   double at(double z) const;       ///< value at z in [-1, 1], kept in bounds
   double z_of(double value) const { return (value - centre) / width; }
@@ -46,16 +48,21 @@ struct Workshop {
   const std::atomic<bool>* stop = nullptr;
   std::function<void(int runs)> done;  ///< told of finished simulations; may be empty
   std::int64_t* runs = nullptr;        ///< counts simulations; may be null
+  SimulationPool* pool = nullptr;      ///< what was simulated before, and where new simulations go; may be null
 };
 
 /// Regression of one run's features on the knobs.
 struct Emulator {
   Eigen::MatrixXd coefficients;  ///< terms x features
   Eigen::MatrixXd residuals;     ///< simulations x features, chaos from run to run, scaled to be unbiased in variance
+  Eigen::MatrixXd terms;         ///< simulations x terms
   Eigen::MatrixXd inverse_normal;  ///< terms x terms, (X'X)^-1: error of a prediction
+
+  /// The coefficients without every `blocks`-th simulation from `block` on.
+  Eigen::MatrixXd coefficients_without(Eigen::Index block, Eigen::Index blocks) const;
 };
 
-/// Terms of the regression at z (one entry a knob): 1, z, then squares and products of the curved ones.
+/// Terms of the regression at z (one entry a knob): 1, z, then squares and products of the curved ones, then cubes.
 Eigen::VectorXd regression_terms(const std::vector<Knob>& knobs, const Eigen::VectorXd& z);
 
 /// Sets every key of the knob to its centre.
@@ -64,8 +71,8 @@ void set_knob(Setup& setup, const Knob& knob, std::span<const EffectRecord* cons
 /// The setup with the knobs at z.
 Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::VectorXd& z, std::span<const EffectRecord* const> known);
 
-/// One emulator for each measured run from `count` simulations (of each different setup) scattered over the knobs' box; first_run
-/// addresses their random numbers. A knob with `sparse` < 1 is moved in that fraction of the simulations only.
+/// One emulator for each measured run from `count` simulations (of each different setup) scattered over the knobs' box, and those in the
+/// workshop's pool that lie in it; first_run addresses the random numbers of the new ones. A knob with `sparse` < 1 is moved in that fraction of the simulations only.
 std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, int count, int first_run,
                               const Workshop& workshop, double sparse = 1);
 

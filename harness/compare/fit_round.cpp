@@ -17,15 +17,15 @@ constexpr int pseudo_experiments = 400;
 }  // namespace
 
 FitRound::FitRound(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, std::vector<Emulator> emulators,
-                   const RefitOptions& options, int count)
-    : measured_(measured), knobs_(knobs), emulators_(std::move(emulators)), half_(count / 2) {
+                   const RefitOptions& options)
+    : measured_(measured), knobs_(knobs), emulators_(std::move(emulators)) {
   for (std::size_t r = 0; r < measured.size(); ++r) {
+    const Eigen::MatrixXd& residuals = emulators_[r].residuals;
     const Eigen::MatrixXd covariance =
-        feature_covariance(emulators_[r].residuals.topRows(half_), measured[r].plan, options.model_error * measured[r].setup.release.displacement);
+        feature_covariance(residuals.topRows(residuals.rows() / 2), measured[r].plan, options.model_error * measured[r].setup.release.displacement);
     Whitened w{Eigen::LLT<Eigen::MatrixXd>(covariance), {}, covariance.diagonal().cwiseSqrt()};
     w.model = w.root.matrixL().solve(emulators_[r].coefficients.transpose());
-    const Eigen::Index unseen = emulators_[r].residuals.rows() - half_;
-    w.chaos = w.root.matrixL().solve(emulators_[r].residuals.bottomRows(unseen).transpose()).squaredNorm() / static_cast<double>(unseen);
+    w.chaos = w.root.matrixL().solve(unseen(r).transpose()).squaredNorm() / static_cast<double>(unseen(r).rows());
     Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(covariance.rows(), covariance.cols());
     for (Eigen::Index f = 0; f < noise.rows(); ++f) noise(f, f) = measured[r].plan.features[static_cast<std::size_t>(f)].noise;
     w.expected = w.chaos + w.root.matrixL().solve(noise).squaredNorm();
@@ -49,9 +49,8 @@ void FitRound::calibrate(const Eigen::VectorXd& z, double observed, Refit& resul
     Random random(23, static_cast<std::uint64_t>(e), Stream::bootstrap);
     std::vector<Eigen::VectorXd> values;
     for (std::size_t r = 0; r < measured_.size(); ++r) {
-      const Eigen::Index rows = emulators_[r].residuals.rows() - half_;
-      const Eigen::Index row = half_ + static_cast<Eigen::Index>(random.uniform() * static_cast<double>(rows));
-      Eigen::VectorXd value = model(r, z) + emulators_[r].residuals.row(row).transpose();
+      const auto row = static_cast<Eigen::Index>(random.uniform() * static_cast<double>(unseen(r).rows()));
+      Eigen::VectorXd value = model(r, z) + unseen(r).row(row).transpose();
       for (Eigen::Index f = 0; f < value.size(); ++f) value[f] += measured_[r].plan.features[static_cast<std::size_t>(f)].noise * random.normal();
       values.push_back(std::move(value));
     }
@@ -109,9 +108,8 @@ Eigen::MatrixXd FitRound::covariance_at(const Eigen::VectorXd& z, double open) c
   for (std::size_t r = 0; r < measured_.size(); ++r) {
     // Columns: C^-1 J of this run, features x knobs.
     const Eigen::MatrixXd weights = whitened_[r].root.matrixU().solve(whitened_[r].model * slopes);
-    const Eigen::Index unseen = emulators_[r].residuals.rows() - half_;
-    const Eigen::MatrixXd chaos = emulators_[r].residuals.bottomRows(unseen) * weights;
-    gradient += inflation * chaos.transpose() * chaos / static_cast<double>(unseen);
+    const Eigen::MatrixXd chaos = unseen(r) * weights;
+    gradient += inflation * chaos.transpose() * chaos / static_cast<double>(chaos.rows());
     for (Eigen::Index f = 0; f < weights.rows(); ++f)
       gradient += std::pow(measured_[r].plan.features[static_cast<std::size_t>(f)].noise, 2) * weights.row(f).transpose() * weights.row(f);
   }
@@ -127,6 +125,24 @@ Eigen::MatrixXd FitRound::covariance_at(const Eigen::VectorXd& z, double open) c
   const Eigen::VectorXd within = (open / covariance.diagonal().array().sqrt()).min(1.0).matrix();
   covariance = within.asDiagonal() * covariance * within.asDiagonal();
   return axes.eigenvectors() * covariance * axes.eigenvectors().transpose();
+}
+
+Eigen::MatrixXd FitRound::emulator_scatter(const Eigen::VectorXd& z) const {
+  constexpr Eigen::Index blocks = 10;
+  Eigen::MatrixXd solutions(blocks, z.size());
+  for (Eigen::Index block = 0; block < blocks; ++block) {
+    Objective objective = objective_;
+    objective.square.setZero();
+    objective.cross.setZero();
+    for (std::size_t r = 0; r < measured_.size(); ++r) {
+      const Eigen::MatrixXd model = whitened_[r].root.matrixL().solve(emulators_[r].coefficients_without(block, blocks).transpose());
+      objective.square += model.transpose() * model;
+      objective.cross += model.transpose() * whitened_[r].root.matrixL().solve(measured_[r].values);
+    }
+    solutions.row(block) = minimum_of(objective, reach, 1, z).z.transpose();
+  }
+  const Eigen::MatrixXd apart = solutions.rowwise() - solutions.colwise().mean();
+  return apart.transpose() * apart * static_cast<double>(blocks - 1) / static_cast<double>(blocks);
 }
 
 double FitRound::judged_chi2(std::size_t r, const Eigen::VectorXd& z, const Rule& rule) const {

@@ -29,9 +29,9 @@ struct Rule {
 
 class FitRound {
  public:
-  /// `measured` and `knobs` must outlive it; `count`: simulations of each different setup, the first half of which gives the weights.
+  /// `measured` and `knobs` must outlive it. The first half of each emulator's simulations gives the weights.
   FitRound(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, std::vector<Emulator> emulators,
-           const RefitOptions& options, int count);
+           const RefitOptions& options);
 
   const Objective& objective() const { return objective_; }
   Eigen::VectorXd model(std::size_t r, const Eigen::VectorXd& z) const;
@@ -49,6 +49,10 @@ class FitRound {
   /// open gets the size of the searched box.
   Eigen::MatrixXd covariance_at(const Eigen::VectorXd& z, double open) const;
 
+  /// Covariance of the fitted z from the emulators' own noise, by the jackknife: what simulations left out do to the minimum near z. To first
+  /// order covariance_at() has it; along a valley, where noise makes the slope, it is more.
+  Eigen::MatrixXd emulator_scatter(const Eigen::VectorXd& z) const;
+
   /// A run's chi2 by another fit's rule, the emulator's own error taken off.
   double judged_chi2(std::size_t r, const Eigen::VectorXd& z, const Rule& rule) const;
 
@@ -65,6 +69,12 @@ class FitRound {
   /// `measured`: allows for the emulator's own error, which values that it has made itself do not have.
   Objective objective_of(const std::vector<Eigen::VectorXd>& values, bool measured, const std::vector<char>& used = {}) const;
 
+  /// The rows of a run's residuals that the weights have not seen.
+  auto unseen(std::size_t r) const {
+    const Eigen::MatrixXd& all = emulators_[r].residuals;
+    return all.bottomRows(all.rows() - all.rows() / 2);
+  }
+
   /// Derivatives of the regression's terms, terms x knobs.
   Eigen::MatrixXd slopes_at(const Eigen::VectorXd& z) const;
 
@@ -72,7 +82,6 @@ class FitRound {
   const std::vector<Knob>& knobs_;
   std::vector<Emulator> emulators_;
   std::vector<Whitened> whitened_;
-  Eigen::Index half_;
   Objective objective_;
 };
 

@@ -23,7 +23,8 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
   result.knobs = knobs;
   result.chi2 = round.objective().chi2(minimum.z);
   round.calibrate(minimum.z, result.chi2, result);
-  const Eigen::MatrixXd covariance = round.covariance_at(minimum.z, reach) * std::max(1.0, result.scatter);
+  Eigen::MatrixXd covariance = round.covariance_at(minimum.z, reach) * std::max(1.0, result.scatter);
+  if (!knobs.empty()) covariance += round.emulator_scatter(minimum.z);
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     FittedValue value{knobs[k].key, knobs[k].at(minimum.z[i]), 0, 0, std::sqrt(covariance(i, i)) * knobs[k].width, false};
@@ -74,11 +75,14 @@ double Refit::floor_centre() const { return root_mean_square(runs, &RunCompariso
 
 Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs, const Workshop& workshop, const RefitOptions& options) {
   const std::vector<Knob> first = knobs;
+  SimulationPool of_this_fit;
+  Workshop pooling = workshop;
+  if (pooling.pool == nullptr) pooling.pool = &of_this_fit;
   for (int number = 1;; ++number) {
     const std::vector<Knob> here = knobs;
     // Rounds that only find the way need fewer simulations than the one that judges.
     const int count = knobs.empty() || number >= options.rounds ? options.count : std::max(64, options.count / 2);
-    const FitRound round(measured, here, emulate(measured, here, count, options.first_run + 10000 * number, workshop), options, count);
+    const FitRound round(measured, here, emulate(measured, here, count, options.first_run + 10000 * number, pooling), options);
     const Minimum minimum = minimum_of(round.objective(), reach, knobs.empty() ? 1 : 6);
     bool left_the_box = false;
     for (std::size_t k = 0; k < knobs.size(); ++k) {

@@ -50,7 +50,7 @@ struct Refit {
 };
 
 struct RefitOptions {
-  int count = 192;       ///< simulations of each different setup in a round
+  int count = 192;       ///< simulations of each different setup in the last round, half as many before
   int rounds = 2;        ///< re-centrings
   int most_rounds = 4;   ///< when the solution keeps leaving the box
   int first_run = 1000;

@@ -24,7 +24,7 @@ const EffectRecord* record_of(const std::string& effect, std::span<const EffectR
 
 Pipeline::Pipeline(const Setup& setup, const Experiment& experiment, const Engine& engine, const DiagnoseOptions& options)
     : user_(setup), base_(setup), experiment_(experiment), options_(options), audit_(audit(experiment)) {
-  workshop_ = {&engine, options.known, options.threads, options.stop, {}, &result_.runs_simulated};
+  workshop_ = {&engine, options.known, options.threads, options.stop, {}, &result_.runs_simulated, &pool_};
   workshop_.done = [this](int) {
     if (options_.progress && result_.runs_simulated % 64 == 0)
       options_.progress(stage_, static_cast<double>(result_.runs_simulated) / static_cast<double>(options_.budget));
@@ -75,6 +75,30 @@ void Pipeline::keep(const Refit& refit) {
           knob.centre = value.value;
           knob.width = std::clamp(2 * value.error, 0.1 * knob.width, knob.width);
         }
+}
+
+/// Elsewhere: the user's restitutions, and of each effect's first range the half in which the fit is not.
+std::vector<Knob> Pipeline::second_start() const {
+  std::vector<Knob> start = together(theta_, chosen_);
+  for (Knob& knob : start) {
+    if (knob.believed_error > 0) knob.centre = knob.believed, knob.width = knob.believed_error;
+    for (const Knob& first : first_boxes_)
+      if (first.key == knob.key) {
+        knob.width = 0.6 * first.width;
+        knob.centre = first.centre + (knob.centre < first.centre ? 0.5 : -0.5) * first.width;
+      }
+  }
+  return start;
+}
+
+/// The last fit, with full effort. The two restitutions are known well only together, and effects in the contacts with them. Along that valley
+/// there may be two minima (friction of .1 or of .35 with other restitutions), so that a second start is looked at first.
+Refit Pipeline::conclude(const std::string& step) {
+  if (!first_boxes_.empty()) {
+    const Refit other = fit("a second start for the fit", second_start(), to_look_again, &final_);
+    if (other.judged_chi2 < final_.chi2) keep(other);
+  }
+  return fit(step, together(theta_, chosen_), to_conclude);
 }
 
 LadderStep step_of(const std::string& name, const Refit& fit) {
@@ -163,7 +187,7 @@ void Pipeline::judge() {
   }
   prune(best);
   if (!result_.missing.empty() && !concluded_) {
-    best = fit("refitting with what was found", together(theta_, chosen_), to_conclude);
+    best = conclude("refitting with what was found");
     keep(best);
     result_.ladder.back() = step_of(result_.ladder.back().step, best);
   }

@@ -95,15 +95,15 @@ bool Pipeline::pays(const Rival& rival, const Refit& best) const {
 /// Adds an effect and fits it with full effort. False, and all as before: it neither explains nor differs from nothing, so that its gain was the
 /// emulators' noise.
 bool Pipeline::take(const Rival& winner, Refit& best) {
-  const auto before = std::tuple(base_, theta_, chosen_, final_, result_.missing);
+  const auto before = std::tuple(base_, theta_, chosen_, first_boxes_, final_, result_.missing);
   base_ = winner.setup;
-  for (const Knob& knob : winner.knobs) chosen_.push_back(knob);
+  for (std::vector<Knob>* list : {&chosen_, &first_boxes_}) list->insert(list->end(), winner.knobs.begin(), winner.knobs.end());
   result_.missing.push_back(winner.effect);
   keep(winner.fit);
   for (const Knob& knob : chosen_) set_knob(base_, knob, options_.known);  // present from now on, so that it is no candidate again
-  const Refit closer = winner.decided ? winner.fit : fit("refitting with " + winner.effect, together(theta_, chosen_), to_conclude);
+  const Refit closer = winner.decided ? winner.fit : conclude("refitting with " + winner.effect);
   if (closer.p_value <= doubtful && !stands_out(closer, winner.knobs)) {
-    std::tie(base_, theta_, chosen_, final_, result_.missing) = before;
+    std::tie(base_, theta_, chosen_, first_boxes_, final_, result_.missing) = before;
     return false;
   }
   best = closer;

@@ -31,7 +31,7 @@ inline std::string effect_of(const std::string& key) { return key.substr(0, key.
 struct Effort {
   int rounds, count;
 };
-constexpr Effort only_look{1, 128}, to_refit{3, 192}, to_try{3, 160}, to_decide{1, 256}, to_prune{2, 160}, to_conclude{2, 256};
+constexpr Effort only_look{1, 128}, to_refit{3, 192}, to_try{3, 160}, to_look_again{2, 128}, to_decide{1, 160}, to_prune{2, 160}, to_conclude{1, 256};
 
 class Pipeline {
  public:
@@ -49,6 +49,8 @@ class Pipeline {
   void choose_packing();
   void judge();
   Refit fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by = nullptr);
+  std::vector<Knob> second_start() const;
+  Refit conclude(const std::string& step);
   void add_momentum_terms();
   bool possible(const FoundTerm& term) const;
   void add_sine(const FoundTerm& term);
@@ -88,10 +90,12 @@ class Pipeline {
   const Experiment& experiment_;
   const DiagnoseOptions& options_;
   Audit audit_;
+  SimulationPool pool_;
   Workshop workshop_;
   Diagnosis result_;
   std::string stage_;
   std::vector<Knob> chosen_;       // of the effects added
+  std::vector<Knob> first_boxes_;  // of the effects that the ensembles added, where their fits began
   std::vector<Knob> theta_;        // what the user may refit, at its latest values
   Refit final_;
   bool refitted_ = false;

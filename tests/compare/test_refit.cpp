@@ -2,6 +2,7 @@
 // The refit and its calibration on a stand-in for the hard engine: a damped oscillation whose chaos is known.
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
 #include <cmath>
 #include <numbers>
 
@@ -118,6 +119,63 @@ TEST(Refit, RejectsWhatRefittingCannotExplainAndAcceptsTheEffect) {
   const Refit fit = refit(measured, knobs, workshop, {});
   EXPECT_GT(fit.p_value, 0.01);
   EXPECT_NEAR(fit.values.back().value, 0.1, 5 * fit.values.back().error);
+}
+
+TEST(Emulator, LearnsFromThePoolWhatLiesInItsBox) {
+  const DampedOscillation engine;
+  const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
+  SimulationPool pool;
+  Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr, &pool};
+  EXPECT_EQ(emulate(measured, theta, 64, 0, workshop)[0].residuals.rows(), 64);
+  EXPECT_EQ(emulate(measured, theta, 64, 1000, workshop)[0].residuals.rows(), 128);
+  std::vector<Knob> narrow = theta;
+  for (Knob& knob : narrow) knob.width *= 0.6;
+  const Eigen::Index some = emulate(measured, narrow, 64, 2000, workshop)[0].residuals.rows();
+  EXPECT_GT(some, 64 + 128 * 0.2);  // 0.75^3 of them
+  EXPECT_LT(some, 64 + 128 * 0.7);
+  std::vector<MeasuredFeatures> other = measured;
+  for (MeasuredFeatures& m : other) m.setup.grains.count = 20;
+  EXPECT_EQ(emulate(other, theta, 64, 3000, workshop)[0].residuals.rows(), 64);
+}
+
+TEST(Emulator, LeavesOutABlockAsARegressionWithoutItWould) {
+  const DampedOscillation engine;
+  const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
+  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  std::vector<Knob> knobs = theta;
+  knobs[0].cubic = true;
+  const Emulator all = emulate(measured, knobs, 50, 0, workshop)[0];
+  ASSERT_EQ(all.terms.cols(), 11);
+  const double left = 39.0 / 50;
+  const Eigen::MatrixXd features = all.terms * all.coefficients + all.residuals * std::sqrt(left);
+  const auto rest = [](const Eigen::MatrixXd& rows) {  // without rows 3, 11, 19, ...
+    Eigen::MatrixXd kept(rows.rows() - 6, rows.cols());
+    for (Eigen::Index i = 0, k = 0; i < rows.rows(); ++i)
+      if (i % 8 != 3) kept.row(k++) = rows.row(i);
+    return kept;
+  };
+  const Eigen::MatrixXd expected = rest(all.terms).colPivHouseholderQr().solve(rest(features));
+  EXPECT_LT((all.coefficients_without(3, 8) - expected).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(Refit, ErrorsAllowForTheEmulatorsOwnNoise) {
+  // The same data fitted through independent simulations: what differs is the emulators.
+  const DampedOscillation engine;
+  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 2);
+  RefitOptions options;
+  options.count = 64;
+  std::vector<double> values, errors;
+  for (int batch = 0; batch < 12; ++batch) {
+    options.first_run = 100000 * (batch + 1);
+    const Refit fit = refit(measured, theta, workshop, options);
+    values.push_back(fit.values[0].value);
+    errors.push_back(fit.values[0].error);
+  }
+  const Eigen::Map<const Eigen::ArrayXd> v(values.data(), 12), e(errors.data(), 12);
+  const double scatter = std::sqrt((v - v.mean()).square().sum() / 11);
+  EXPECT_LT(scatter, e.mean());
+  RecordProperty("scatter_over_error", std::to_string(scatter / e.mean()));
 }
 
 TEST(Refit, GivesTheSameAnswerForAnyNumberOfThreads) {

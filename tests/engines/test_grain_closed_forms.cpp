@@ -138,6 +138,28 @@ TEST(Ball, DragDecaysExponentiallyAndTheBoxFeelsIt) {
   });
 }
 
+TEST(Ball, IsDraggedAlongByTheAirOfASwingingBoxToSecondOrderInTheKicks) {
+  // v' = -g (v - V), V = -A w sin(w t), from rest.
+  const double amplitude = 0.1, g = 0.01 / mass, t = 1;
+  shakedown::Setup setup = large_box(t);
+  setup.release.displacement = amplitude;
+  setup.box.mass = 1e6;  // the ball does not slow it
+  add_effect(setup, "grain_air_drag", {{"linear", 0.01}});
+  const double swing = amplitude * w0 * g / (g * g + w0 * w0);
+  const double end = swing * (g / w0 * (std::cos(w0 * t) - 1) + std::sin(w0 * t) - w0 / g * (1 - std::exp(-g * t)));
+  std::vector<double> errors;
+  for (const double interval : {2e-2, 1e-2, 5e-3}) {
+    setup.hard.kick_interval = interval;
+    for (const EngineUnderTest& tested : engines_that_model("grain_air_drag"))
+      if (tested.name == "hard")
+        errors.push_back(std::abs(run_with(*tested.make(), setup, {{{amplitude, 0, 0}, {0, 0, 0}}}).x_com.back() - amplitude - end));
+  }
+  ASSERT_EQ(errors.size(), 3);
+  EXPECT_LT(errors[0], 5e-4);
+  EXPECT_NEAR(errors[0] / errors[1], 4, 0.2);
+  EXPECT_NEAR(errors[1] / errors[2], 4, 0.2);
+}
+
 TEST(Ball, FollowsAFormulaOfTime) {
   shakedown::Setup setup = large_box(0.5);
   add_effect(setup, "user_force", {{"on", std::string("grains")}, {"force", std::string("0.004*sin(10*t)")}});
