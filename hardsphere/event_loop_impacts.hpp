@@ -23,7 +23,7 @@ double EventLoop<Grains, Motion>::restitution(ContactClass contact, double closi
 template <class Grains, class Motion>
 double EventLoop<Grains, Motion>::elastic_below(double limit, int i, int j) const {
   if constexpr (driven)
-    if (contact_.has_attraction() && !held_.touched_quickly(i, now_) && (j < 0 || !held_.touched_quickly(j, now_))) return 0;
+    if (contact_.has_attraction()) return held_.elastic_below(limit, i, j, now_);
   return limit;
 }
 

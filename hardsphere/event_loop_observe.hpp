@@ -87,8 +87,8 @@ Health EventLoop<Grains, Motion>::health() const {
   health.elastic_pair_rescues = elastic_pairs_;
   health.refused_events = refused_;
   if (let_go_ > 0)
-    health.notes.push_back(std::to_string(let_go_) + " bonds of grain_cohesion hung at the edge of their well until they were pulled off with more "
-                           "than its force; the energy that this leaves unpaid is booked as its work");
+    health.notes.push_back("bonds of grain_cohesion hung at the edge of their well until they were pulled off with more than its force; the energy "
+                           "that this leaves unpaid is booked as its work");
   return health;
 }
 

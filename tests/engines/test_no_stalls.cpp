@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Event-driven engines stall where grains are pressed together: infinitely many impacts in a finite time, or a bed at rest that hops for
-// ever. Strong settings of every effect that presses, 32 seeds each through the whole 22 s, with a bound on the impacts of a run.
+// ever. Strong settings of every effect, 32 seeds each through the whole 22 s, with a bound on the impacts of a run.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -24,6 +24,22 @@ std::vector<Strong> strong_settings() {
   return {{"friction", "grain_friction", {{"grain_grain", 0.5}, {"grain_wall", 0.5}}},
           {"cohesion", "grain_cohesion", {{"force", 0.05}, {"range", 1e-4}}},
           {"short_cohesion", "grain_cohesion", {{"force", 0.05}, {"range", 2e-5}}},
+          {"glue", "grain_cohesion", {{"force", 0.2}, {"range", 2e-5}}},
+          {"slow_impacts_elastic", "velocity_dependent_restitution", {{"exponent", 0.5}}},
+          {"viscoelastic", "velocity_dependent_restitution", {{"law", std::string("viscoelastic")}}},
+          {"dead_side_walls", "side_wall_restitution", {{"restitution", 0.1}}},
+          {"viscous", "blade_viscous_damping", {{"damping", 0.5}}},
+          {"quadratic", "blade_quadratic_drag", {{"drag", 0.5}}},
+          {"hard_spring", "spring_cubic", {{"coefficient", 0.5}}},
+          {"soft_spring", "spring_cubic", {{"coefficient", -0.3}}},
+          {"heavy", "blade_mass", {{"mass", 0.4}}},
+          {"thrown", "initial_box_velocity", {{"velocity", 1.0}}},
+          {"square", "initial_packing", {{"packing", std::string("square")}}},
+          {"spread", "initial_packing", {{"packing", std::string("spread")}}},
+          {"shaken", "oscillating_acceleration", {{"amplitude", Vec3(0.5, 0.5, 0.5)}, {"frequency", 3.0}}},
+          {"thick_air", "grain_air_drag", {{"linear", 0.01}, {"quadratic", 0.01}}},
+          {"short_blade", "blade_arc", {{"blade_length", 0.3}}},
+          {"formula", "user_force", {{"force", std::string("-0.4*v*exp(-((x-0.045)/0.012)^2)")}}},
           {"clamp", "clamp_dry_friction", {{"force", 0.1}}},
           {"gravity_along", "constant_acceleration", {{"acceleration", Vec3(-twentieth_of_g, 0, 0)}}},
           {"gravity_across", "constant_acceleration", {{"acceleration", Vec3(0, 0, -twentieth_of_g)}}}};
@@ -37,6 +53,10 @@ class SlowStalls : public testing::TestWithParam<Strong> {
     setup.run.sample_rate = 50;
     add_effect(setup, GetParam().effect, GetParam().values);
     return setup;
+  }
+  static bool exact() {
+    const EffectRecord* record = find_effect(GetParam().effect);
+    return record->hard.fidelity == Fidelity::exact;
   }
 };
 
@@ -54,13 +74,13 @@ TEST_P(SlowStalls, NoneOf32Seeds) {
     most_events = std::max(most_events, result.events);
     most_impacts = std::max(most_impacts, result.collisions[0] + result.collisions[1] + result.collisions[2]);
     EXPECT_DOUBLE_EQ(result.end_time, 22);
-    EXPECT_LE(result.health.ledger_error, 1e-12);
-    EXPECT_LE(result.health.momentum_error, 1e-12);
+    EXPECT_LE(result.health.ledger_error, exact() ? 1e-12 : 1e-10);
+    EXPECT_LE(result.health.momentum_error, exact() ? 1e-12 : 1e-10);
     EXPECT_LE(result.health.deepest_overlap, 1e-12);
   }
   std::printf("%s: at most %.3g impacts, %.3g events, %.2f CPU s a run\n", GetParam().name.c_str(), static_cast<double>(most_impacts),
               static_cast<double>(most_events), worst_time);
-  EXPECT_LE(most_impacts, 6'000'000);  // most seen: 2.04 million, grains glued by 50 mN; a stall makes as many in a second and does not end
+  EXPECT_LE(most_impacts, 6'000'000);  // most seen: 1.16 million, grains glued by 200 mN; a stall makes as many in a second and does not end
   EXPECT_LE(worst_time, 10);
 }
 
