@@ -116,12 +116,10 @@ class GrainLines {
 
 template <class L, bool Periodic>
 GrainLines::Approach<L> GrainLines::approach(std::size_t i, const Self<L>& self, const std::int32_t* others) const {
-  constexpr std::size_t stride = sizeof(GrainLine) / sizeof(double);
-  const double* first = &line_[0].x;
-  const L flown = self.time - gather<stride, L>(first + 6, others);
-  const L ux = gather<stride, L>(first + 3, others), uy = gather<stride, L>(first + 4, others), uz = gather<stride, L>(first + 5, others);
-  L rx = gather<stride, L>(first, others) + ux * flown - self.x, ry = gather<stride, L>(first + 1, others) + uy * flown - self.y,
-    rz = gather<stride, L>(first + 2, others) + uz * flown - self.z;
+  static_assert(sizeof(GrainLine) == 8 * sizeof(double));
+  const auto [x, y, z, ux, uy, uz, time] = columns<L>(&line_[0].x, others);
+  const L flown = self.time - time;
+  L rx = x + ux * flown - self.x, ry = y + uy * flown - self.y, rz = z + uz * flown - self.z;
   if constexpr (Periodic) rx = period_.nearest(rx, 0), ry = period_.nearest(ry, 1), rz = period_.nearest(rz, 2);
   const L wx = ux - self.vx, wy = uy - self.vy, wz = uz - self.vz;
   L reach_squared = largest_reach_ * largest_reach_;

@@ -98,6 +98,33 @@ L gather(const double* first, const std::int32_t* index) {
   return L([&](auto lane) { return first[stride * static_cast<std::size_t>(index[lane])]; });
 }
 
+/// The first seven numbers of as many lines of eight numbers as there are lanes: number k of them all in one vector.
+template <class L>
+std::array<L, 7> columns(const double* first, const std::int32_t* index) {
+#ifdef __AVX512F__
+  if constexpr (L::size() == 8) {  // whole lines, transposed: 1 to 5 % of a fluid less than seven gathers
+    const auto line = [&](int lane) { return _mm512_load_pd(first + 8 * static_cast<std::size_t>(index[lane])); };
+    __m512d even[4], odd[4];  // numbers 0, 2, 4, 6 and 1, 3, 5, 7 of two lines each
+    for (int two = 0; two < 4; ++two) {
+      const __m512d a = line(2 * two), b = line(2 * two + 1);
+      even[two] = _mm512_shuffle_pd(a, b, 0x00);
+      odd[two] = _mm512_shuffle_pd(a, b, 0xff);
+    }
+    const auto quarters = [](const __m512d* of, auto first_level, auto second_level) {
+      constexpr int one = decltype(first_level)::value, two = decltype(second_level)::value;
+      const __m512d a = _mm512_maskz_shuffle_f64x2(0xff, of[0], of[1], one), b = _mm512_maskz_shuffle_f64x2(0xff, of[2], of[3], one);
+      return L(_mm512_maskz_shuffle_f64x2(0xff, a, b, two));
+    };
+    constexpr std::integral_constant<int, 0x88> low{};
+    constexpr std::integral_constant<int, 0xdd> high{};
+    return {quarters(even, low, low),  quarters(odd, low, low),  quarters(even, high, low), quarters(odd, high, low),
+            quarters(even, low, high), quarters(odd, low, high), quarters(even, high, high)};
+  }
+#endif
+  return {gather<8, L>(first, index),     gather<8, L>(first + 1, index), gather<8, L>(first + 2, index), gather<8, L>(first + 3, index),
+          gather<8, L>(first + 4, index), gather<8, L>(first + 5, index), gather<8, L>(first + 6, index)};
+}
+
 /// Writes those of eight `what` whose `size` is less than `limit` to `to`, which has room for eight; returns how many.
 inline std::size_t append_where_less(std::int32_t* to, const std::array<std::int32_t, 8>& what, const std::array<float, 8>& size, float limit) {
 #ifdef __AVX512VL__
