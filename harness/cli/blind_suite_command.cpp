@@ -8,6 +8,7 @@
 
 #include "command.hpp"
 #include "effects.hpp"
+#include "engine_differences.hpp"
 #include "engines.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
@@ -31,7 +32,8 @@ int blind_suite(const BlindSuiteArguments& arguments) {
   const OutputFolder folder(arguments.out);
   arguments.json.check();
   const std::unique_ptr<Engine> laboratory = engine_named(arguments.engine), model = engine_named("hard");
-  const TrialTools tools{laboratory.get(), model.get(), all_effects(), arguments.budget, arguments.threads, catch_interruption()};
+  const TrialTools tools{laboratory.get(), model.get(), all_effects(), arguments.budget, arguments.threads, catch_interruption(),
+                         &strength_uncertainty};
   BlindSuiteOptions options;
   options.counts = !arguments.cases.empty() ? parse_counts(arguments.cases) : arguments.small ? small_counts : full_counts;
   options.small = arguments.small;

@@ -10,6 +10,7 @@
 
 #include "command.hpp"
 #include "effects.hpp"
+#include "engine_differences.hpp"
 #include "engines.hpp"
 #include "experiment_file.hpp"
 #include "in_order.hpp"
@@ -103,6 +104,7 @@ int diagnose_data(const DiagnoseArguments& arguments) {
     ProgressDisplay display(fmt::format("{}: diagnosing, at most {} simulations", arguments.data, budget));
     DiagnoseOptions options{split_at_commas(arguments.effects), budget, arguments.threads, all_effects(), catch_interruption(), {}};
     options.fixed = split_at_commas(arguments.fixed);
+    options.strength_uncertainty = &strength_uncertainty;
     options.progress = [&](const std::string& stage, double fraction) {
       display.rename(stage);
       display.show(fraction);

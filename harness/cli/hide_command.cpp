@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "effects.hpp"
+#include "engine_differences.hpp"
 #include "engines.hpp"
 #include "hidden_case.hpp"
 #include "interruption.hpp"
@@ -145,7 +146,8 @@ std::string in_words(const Share& share) {
 int measure_power(const HideArguments& arguments, const Trial& trial) {
   const std::unique_ptr<Engine> laboratory = engine_named(arguments.engine), model = engine_named("hard");
   arguments.json.check();
-  const TrialTools tools{laboratory.get(), model.get(), all_effects(), arguments.budget, arguments.threads, catch_interruption()};
+  const TrialTools tools{laboratory.get(), model.get(), all_effects(), arguments.budget, arguments.threads, catch_interruption(),
+                         &strength_uncertainty};
   const Power power = power_of(trial, arguments.repeats, tools, [&](int done, const std::string& answer) {
     fmt::print(stderr, "{:>3} of {}: {}\n", done, arguments.repeats, answer);
   });

@@ -57,12 +57,28 @@ void Pipeline::sort_ranking() {
   });
 }
 
+/// Data may be of either engine's kind: the strength of an effect in which the engines differ is uncertain by that much more.
+FittedValue Pipeline::allowing_for_engines(FittedValue value) {
+  const std::string effect = effect_of(value.key);
+  const auto here = std::find_if(first_boxes_.begin(), first_boxes_.end(), [&](const Knob& knob) { return knob.key == value.key; });
+  const double relative = options_.strength_uncertainty ? options_.strength_uncertainty(effect) : 0;
+  if (here == first_boxes_.end() || relative == 0) return value;
+  const double absent = here->low <= 0 ? 0 : base_.restitution.grain_wall;
+  const double more = 1.96 * relative * std::abs(value.value - absent);
+  value.low = std::max(here->low, value.value - std::hypot(value.value - value.low, more));
+  value.high = std::min(here->high, value.value + std::hypot(value.high - value.value, more));
+  result_.notes.push_back("the interval of " + effect + " allows for " + write_number(std::round(100 * relative)) +
+                          " % by which hard impulses and soft contacts differ in it (shakedown effects " + effect + ")");
+  return value;
+}
+
 void Pipeline::finish() {
   sort_ranking();
   result_.amended = base_;
   result_.amended.hard = user_.hard;
-  for (const FittedValue& value : final_.values) {
+  for (const FittedValue& fitted : final_.values) {
     if (!refitted_) break;  // as given, within what codes differ by: nothing to change
+    const FittedValue value = allowing_for_engines(fitted);
     std::string keys = value.key;
     for (std::size_t at = 0; at < keys.size();) {
       const std::size_t end = std::min(keys.find('&', at), keys.size());

@@ -81,6 +81,7 @@ class Pipeline {
   void prune(Refit& best);
 
   // conclusion.cpp
+  FittedValue allowing_for_engines(FittedValue value);
   void finish();
   void sort_ranking();
   void conclude_unknown();

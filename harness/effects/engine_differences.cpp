@@ -66,4 +66,17 @@ std::optional<AddedDifference> added_difference(std::string_view effect, double 
                          std::hypot(with->half_width, plain->half_width)};
 }
 
+double strength_uncertainty(std::string_view effect) {
+  double squares = 0, weights = 0;
+  for (const EngineDifference& row : measured) {
+    if (row.effect != effect) continue;
+    const std::optional<AddedDifference> found = added_difference(effect, row.box_length);
+    if (!found) continue;
+    const double weight = std::pow(found->change / found->half_width, 2);
+    weights += weight;
+    if (std::abs(found->added) > found->half_width) squares += weight * std::pow(found->added / found->change, 2);
+  }
+  return weights > 0 ? std::sqrt(squares / weights) : 0;
+}
+
 }  // namespace shakedown

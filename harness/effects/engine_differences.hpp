@@ -31,4 +31,8 @@ struct AddedDifference {
 /// Empty for an effect or a box length that was not measured (40 and 104 mm were).
 std::optional<AddedDifference> added_difference(std::string_view effect, double box_length);
 
+/// Relative uncertainty of a strength that was found with one engine in data of the other's kind: root mean square over the lengths of
+/// added / change where `added` differs from zero (else 0), weighted by how well it is known; 0 where none was looked for.
+double strength_uncertainty(std::string_view effect);
+
 }  // namespace shakedown

@@ -14,6 +14,7 @@ Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools) {
   options.threads = tools.threads;
   options.known = tools.known;
   options.stop = tools.stop;
+  options.strength_uncertainty = tools.strength_uncertainty;
   return diagnose(trial.hidden.believed, experiment, *tools.model, options);
 }
 

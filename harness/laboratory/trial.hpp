@@ -25,6 +25,7 @@ struct TrialTools {
   std::int64_t budget = 14000;  ///< simulations of one diagnosis
   int threads = 0;
   const std::atomic<bool>* stop = nullptr;
+  double (*strength_uncertainty)(std::string_view effect) = nullptr;  ///< DiagnoseOptions
 };
 
 /// Measures in memory and diagnoses the believed setup. Throws what these throw.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "effects.hpp"
+#include "engine_differences.hpp"
 #include "engines.hpp"
 #include "experiment_file.hpp"
 #include "free_parameters.hpp"
@@ -78,6 +79,7 @@ Diagnosis diagnosed(const Experiment& experiment, const PuzzleOptions& options) 
   how.known = all_effects();
   how.stop = options.stop;
   how.fixed = {"restitution.grain_grain"};
+  how.strength_uncertainty = &strength_uncertainty;
   return diagnose(believed(), part_of(experiment, true), *engine_named("hard"), how);
 }
 

@@ -43,6 +43,9 @@ TEST(Catalogue, DifferencesOfTheEnginesAreThereAndSmallBesideTheEffect) {
       EXPECT_LT(std::abs(found->added), 1e-3 + found->half_width);
     }
   }
+  EXPECT_EQ(strength_uncertainty("camera_drift"), 0);
+  EXPECT_EQ(strength_uncertainty(""), 0);
+  for (const EffectRecord* effect : all_effects()) EXPECT_LT(strength_uncertainty(effect->name), 1) << effect->name;
   EXPECT_FALSE(added_difference("grain_friction", 0.3));
   EXPECT_FALSE(added_difference("", 0.04));
   EXPECT_FALSE(added_difference("camera_drift", 0.04));
