@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Data made with other people's soft spheres, each with something hidden whose truth is known: does the hard engine, told the truth, follow
-// them to within the spread of runs? Not a test: the data are not part of the tree.
-//   challenge_truths FOLDER [RUNS=8]      FOLDER holds truth.json and cases o01/ ... with setup.toml and L*.csv (t_s,x_box_m,x_com_m)
+// Data made with other people's soft spheres, each with something hidden whose truth is known: does an engine, told the truth, follow them to
+// within the spread of runs? Not a test: the data are not part of the tree.
+//   challenge_truths FOLDER [RUNS=8] [hard|soft] [CASE...]
+// FOLDER holds truth.json and cases o01/ ... with setup.toml and L*.csv (t_s,x_box_m,x_com_m)
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -17,6 +19,7 @@
 #include "ensemble.hpp"
 #include "hard_engine.hpp"
 #include "setup_file.hpp"
+#include "soft_engine.hpp"
 
 using namespace shakedown;
 namespace fs = std::filesystem;
@@ -103,16 +106,16 @@ Comparison compare(const Series& data, const Ensemble& ensemble) {
   return result;
 }
 
-Ensemble told(const fs::path& folder, const std::string& file, std::vector<Override> truth, int runs) {
+Ensemble told(const Engine& engine, const fs::path& folder, const std::string& file, std::vector<Override> truth, int runs) {
   truth.push_back({"box.length", file.substr(1, 3) + " mm"});  // "L040_a.csv"
   const Setup setup = read_setup(folder / "setup.toml", all_effects(), truth);
   EnsembleOptions options;
   options.runs = runs;
   options.keep_samples = true;
-  return run_ensemble(*make_hard_engine(), setup, options);
+  return run_ensemble(engine, setup, options);
 }
 
-void report_case(const fs::path& folder, const nlohmann::json& truth, int runs) {
+void report_case(const Engine& engine, const fs::path& folder, const nlohmann::json& truth, int runs) {
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".csv") files.push_back(entry.path().filename());
@@ -120,7 +123,8 @@ void report_case(const fs::path& folder, const nlohmann::json& truth, int runs) 
   const std::vector<Override> overrides = truth_as_overrides(truth.at("laboratory"));
   for (const std::string& file : files) {
     const Series data = read_series(folder / file);
-    const Comparison with = compare(data, told(folder, file, overrides, runs)), without = compare(data, told(folder, file, {}, runs));
+    const Comparison with = compare(data, told(engine, folder, file, overrides, runs)),
+                     without = compare(data, told(engine, folder, file, {}, runs));
     std::printf("%s  %-10s  %6.2f  %9.3f  %9.3f  %9.3f  %9.3f  %6.2f  %9.3f\n", folder.filename().c_str(), file.c_str(), with.until,
                 with.error * 1e3, with.spread * 1e3, with.noise * 1e3, with.expected(runs) * 1e3, with.error / with.expected(runs),
                 without.error * 1e3);
@@ -132,7 +136,7 @@ void report_case(const fs::path& folder, const nlohmann::json& truth, int runs) 
 
 int main(int count, char** arguments) {
   if (count < 2) {
-    std::fprintf(stderr, "usage: challenge_truths FOLDER [RUNS=8]\n");
+    std::fprintf(stderr, "usage: challenge_truths FOLDER [RUNS=8] [hard|soft] [CASE...]\n");
     return 2;
   }
   try {
@@ -143,7 +147,10 @@ int main(int count, char** arguments) {
     const nlohmann::json truths = nlohmann::json::parse(file);
     std::printf("x_box of the mean of %d runs told the truth against the data, while the amplitude exceeds 10 mm; mm\n", runs);
     std::printf("case file        until s  rms error  sd of run      noise   expected   ratio   untold rms\n");
-    for (const auto& [name, truth] : truths.items()) report_case(folder / name, truth, runs);
+    const std::unique_ptr<Engine> engine = count > 3 && arguments[3] == std::string("soft") ? make_soft_engine() : make_hard_engine();
+    const std::vector<std::string> wanted(arguments + std::min(count, 4), arguments + count);
+    for (const auto& [name, truth] : truths.items())
+      if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) report_case(*engine, folder / name, truth, runs);
   } catch (const FileError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 4;
