@@ -89,7 +89,9 @@ bool Pipeline::pays(const Rival& rival, const Refit& best) const {
   const bool beside_friction = std::find(result_.missing.begin(), result_.missing.end(), "grain_friction") != result_.missing.end();
   const bool confirmed = std::isfinite(rival.held_out_gain) && rival.held_out_gain > least_gain;
   const double least = beside_friction || (best.p_value > rejected && !confirmed) ? 2 * least_gain : least_gain;
-  return rival.gain >= least * std::max(1.0, rival.fit.scatter) + rival.doubt && rival.gain >= least_share * best.judged_chi2;
+  // A part of the effect (friction between grains only, tried with that at the walls) explains less of the misfit.
+  const double share = confirmed ? least_share / 2 : least_share;
+  return rival.gain >= least * std::max(1.0, rival.fit.scatter) + rival.doubt && rival.gain >= share * best.judged_chi2;
 }
 
 /// Adds an effect and fits it with full effort. False, and all as before: it neither explains nor differs from nothing, so that its gain was the
