@@ -77,30 +77,6 @@ void Pipeline::keep(const Refit& refit) {
         }
 }
 
-/// Elsewhere: the user's restitutions, and of each effect's first range the half in which the fit is not.
-std::vector<Knob> Pipeline::second_start() const {
-  std::vector<Knob> start = together(theta_, chosen_);
-  for (Knob& knob : start) {
-    if (knob.believed_error > 0) knob.centre = knob.believed, knob.width = knob.believed_error;
-    for (const Knob& first : first_boxes_)
-      if (first.key == knob.key) {
-        knob.width = 0.6 * first.width;
-        knob.centre = first.centre + (knob.centre < first.centre ? 0.5 : -0.5) * first.width;
-      }
-  }
-  return start;
-}
-
-/// The last fit, with full effort. The two restitutions are known well only together, and effects in the contacts with them. Along that valley
-/// there may be two minima (friction of .1 or of .35 with other restitutions), so that a second start is looked at first.
-Refit Pipeline::conclude(const std::string& step) {
-  if (!first_boxes_.empty()) {
-    const Refit other = fit("a second start for the fit", second_start(), to_look_again, &final_);
-    if (other.judged_chi2 < final_.chi2) keep(other);
-  }
-  return fit(step, together(theta_, chosen_), to_conclude);
-}
-
 LadderStep step_of(const std::string& name, const Refit& fit) {
   return {name, fit.error_box(), fit.error_centre(), fit.held_out_error_box, fit.floor_box(), fit.floor_centre(), fit.p_value, fit.scatter};
 }
@@ -187,7 +163,7 @@ void Pipeline::judge() {
   }
   prune(best);
   if (!result_.missing.empty() && !concluded_) {
-    best = conclude("refitting with what was found");
+    best = fit("refitting with what was found", together(theta_, chosen_), to_conclude);
     keep(best);
     result_.ladder.back() = step_of(result_.ladder.back().step, best);
   }

@@ -16,7 +16,7 @@ constexpr double codes_differ = 1.2;
 /// Below this an effect with a signature of its own is looked for.
 constexpr double doubtful = 0.05;
 /// A step up the ladder must bring chi2 down by this much and this share: a free parameter and the choice among some twenty effects.
-constexpr double least_gain = 14, least_share = 0.08;
+constexpr double least_gain = 14, least_share = 0.06;
 constexpr int most_effects = 3;
 constexpr std::size_t most_cells = 12;
 constexpr std::size_t most_tried = 4;
@@ -49,8 +49,6 @@ class Pipeline {
   void choose_packing();
   void judge();
   Refit fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by = nullptr);
-  std::vector<Knob> second_start() const;
-  Refit conclude(const std::string& step);
   void add_momentum_terms();
   bool possible(const FoundTerm& term) const;
   void add_sine(const FoundTerm& term);
