@@ -156,8 +156,8 @@ TEST(Ball, IsDraggedAlongByTheAirOfASwingingBoxToSecondOrderInTheKicks) {
   }
   ASSERT_EQ(errors.size(), 3);
   EXPECT_LT(errors[0], 5e-4);
-  EXPECT_NEAR(errors[0] / errors[1], 4, 0.2);
-  EXPECT_NEAR(errors[1] / errors[2], 4, 0.2);
+  EXPECT_NEAR(errors[0] / errors[1], 4, 0.02);  // seen: 4.004, 4.0008
+  EXPECT_NEAR(errors[1] / errors[2], 4, 0.005);
 }
 
 TEST(Ball, FollowsAFormulaOfTime) {
