@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "command.hpp"
@@ -19,13 +20,18 @@ namespace shakedown {
 namespace {
 
 struct BlindSuiteArguments {
-  std::string setup, out, cases, strengths, variant, engine = "soft";
-  bool small = false, resume = false, score_only = false;
+  std::string setup, out, cases, strengths, variant, mutation = "none", engine = "soft";
+  bool small = false, baselines = false, resume = false, score_only = false;
+  std::vector<double> signals;
   std::uint64_t seed = 1;
   std::int64_t budget = 14000;
   int threads = 0;
   JsonOutput json;
 };
+
+MethodFault fault_named(const std::string& name) {
+  return static_cast<MethodFault>(std::find(method_fault_names.begin(), method_fault_names.end(), name) - method_fault_names.begin());
+}
 
 int blind_suite(const BlindSuiteArguments& arguments) {
   const Setup believed = arguments.setup.empty() ? Setup{} : read_setup(arguments.setup, all_effects());
@@ -33,12 +39,14 @@ int blind_suite(const BlindSuiteArguments& arguments) {
   arguments.json.check();
   const std::unique_ptr<Engine> laboratory = engine_named(arguments.engine), model = engine_named("hard");
   const TrialTools tools{laboratory.get(), model.get(), all_effects(), arguments.budget, arguments.threads, catch_interruption(),
-                         &strength_uncertainty};
+                         &strength_uncertainty, fault_named(arguments.mutation)};
   BlindSuiteOptions options;
   options.counts = !arguments.cases.empty() ? parse_counts(arguments.cases) : arguments.small ? small_counts : full_counts;
   options.small = arguments.small;
+  options.signals = arguments.signals;
   options.variant = arguments.variant;
   options.seed = arguments.seed;
+  options.baselines = arguments.baselines;
   options.resume = arguments.resume;
   options.strengths = arguments.strengths;
   options.told = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
@@ -71,8 +79,16 @@ Command add_blind_suite_command(CLI::App& program) {
   command.add_option("--out", a->out, "folder for plan, sealed answers, diagnoses and score")->type_name("DIR")->required();
   command.add_option("--cases", a->cases, "how many of each kind: nulls=60,parameters=60,singles=120,camera=30,pairs=30,unlisted=24,twins=20")
       ->type_name("KIND=N,...");
+  command.add_option("--signals", a->signals, "signal to noise of what is hidden, in turn; default: 3,6,12,25 (--small: 25)")
+      ->delimiter(',')
+      ->check(CLI::Range(0.1, 1000.0))
+      ->type_name("RATIO,...");
   command.add_flag("--small", a->small, "a few cases, two short runs each, strong signals");
   command.add_option("--variant", a->variant, "a worse experiment: one-repeat, two-lengths, half-duration, 250fps, missing, outliers, no-centre")->type_name("NAME");
+  command.add_flag("--baselines", a->baselines, "ask simpler methods the same: smallest error, Akaike's criterion with white noise, one seed");
+  command.add_option("--mutation", a->mutation, "a mistake put into the diagnosis, to see which figures notice: in-sample, no-refit, no-centre, wrong-sign, noise-tenfold")
+      ->check(CLI::IsMember(std::vector<std::string>(method_fault_names.begin(), method_fault_names.end())))
+      ->type_name("NAME");
   command.add_flag("--resume", a->resume, "go on where an interrupted suite stopped");
   command.add_flag("--score", a->score_only, "only open and score what is there");
   command.add_option("--strengths", a->strengths, "strengths.json of an earlier suite of the same design, instead of measuring")->type_name("FILE");

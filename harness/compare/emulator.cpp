@@ -216,6 +216,7 @@ std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, con
       Eigen::MatrixXd features(rows, measured[m].values.size());
       for (Eigen::Index i = 0; i < rows; ++i) features.row(i) = simulated[g][static_cast<std::size_t>(i)].features[k].transpose();
       emulators[m] = regress(terms, features);
+      if (workshop.fault == MethodFault::wrong_sign && !knobs.empty()) emulators[m].coefficients.row(1) *= -1;
     }
   }
   return emulators;

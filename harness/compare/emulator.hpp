@@ -12,6 +12,7 @@
 
 #include "engine.hpp"
 #include "features.hpp"
+#include "method_fault.hpp"
 #include "simulation_pool.hpp"
 
 namespace shakedown {
@@ -49,6 +50,7 @@ struct Workshop {
   std::function<void(int runs)> done;  ///< told of finished simulations; may be empty
   std::int64_t* runs = nullptr;        ///< counts simulations; may be null
   SimulationPool* pool = nullptr;      ///< what was simulated before, and where new simulations go; may be null
+  MethodFault fault = MethodFault::none;
 };
 
 /// Regression of one run's features on the knobs.

@@ -17,12 +17,12 @@ constexpr int pseudo_experiments = 400;
 }  // namespace
 
 FitRound::FitRound(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, std::vector<Emulator> emulators,
-                   const RefitOptions& options)
-    : measured_(measured), knobs_(knobs), emulators_(std::move(emulators)) {
+                   const RefitOptions& options, MethodFault fault)
+    : measured_(measured), knobs_(knobs), in_sample_(fault == MethodFault::in_sample), emulators_(std::move(emulators)) {
   for (std::size_t r = 0; r < measured.size(); ++r) {
     const Eigen::MatrixXd& residuals = emulators_[r].residuals;
     const Eigen::MatrixXd covariance =
-        feature_covariance(residuals.topRows(residuals.rows() / 2), measured[r].plan, options.model_error * measured[r].setup.release.displacement);
+        feature_covariance(residuals.topRows(in_sample_ ? residuals.rows() : residuals.rows() / 2), measured[r].plan, options.model_error * measured[r].setup.release.displacement);
     Whitened w{Eigen::LLT<Eigen::MatrixXd>(covariance), {}, covariance.diagonal().cwiseSqrt()};
     w.model = w.root.matrixL().solve(emulators_[r].coefficients.transpose());
     w.chaos = w.root.matrixL().solve(unseen(r).transpose()).squaredNorm() / static_cast<double>(unseen(r).rows());

@@ -82,7 +82,7 @@ Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> kno
     const std::vector<Knob> here = knobs;
     // Rounds that only find the way need fewer simulations than the one that judges.
     const int count = knobs.empty() || number >= options.rounds ? options.count : std::max(64, options.count / 2);
-    const FitRound round(measured, here, emulate(measured, here, count, options.first_run + 10000 * number, pooling), options);
+    const FitRound round(measured, here, emulate(measured, here, count, options.first_run + 10000 * number, pooling), options, workshop.fault);
     const Minimum minimum = minimum_of(round.objective(), reach, knobs.empty() ? 1 : 6);
     bool left_the_box = false;
     for (std::size_t k = 0; k < knobs.size(); ++k) {

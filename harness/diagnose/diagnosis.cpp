@@ -20,11 +20,18 @@ const EffectRecord* record_of(const std::string& effect, std::span<const EffectR
   return nullptr;
 }
 
+Audit audited(const Experiment& experiment, MethodFault fault) {
+  Audit found = audit(experiment);
+  if (fault == MethodFault::noise_tenfold)
+    for (RunAudit& run : found.runs) run.box.standard_deviation *= 10, run.com.standard_deviation *= 10;
+  return found;
+}
+
 }  // namespace
 
 Pipeline::Pipeline(const Setup& setup, const Experiment& experiment, const Engine& engine, const DiagnoseOptions& options)
-    : user_(setup), base_(setup), experiment_(experiment), options_(options), audit_(audit(experiment)) {
-  workshop_ = {&engine, options.known, options.threads, options.stop, {}, &result_.runs_simulated, &pool_};
+    : user_(setup), base_(setup), experiment_(experiment), options_(options), audit_(audited(experiment, options.fault)) {
+  workshop_ = {&engine, options.known, options.threads, options.stop, {}, &result_.runs_simulated, &pool_, options.fault};
   workshop_.done = [this](int) {
     if (options_.progress && result_.runs_simulated % 64 == 0)
       options_.progress(stage_, static_cast<double>(result_.runs_simulated) / static_cast<double>(options_.budget));
@@ -150,6 +157,7 @@ void Pipeline::judge() {
   const double frequency = result_.momentum.possible ? result_.momentum.frequency : user_.spring.frequency;
   refitted_ = true;
   theta_ = free_parameters(base_, frequency, (result_.momentum.possible ? 0.004 : 0.01) * frequency);
+  if (options_.fault == MethodFault::no_refit) theta_.clear();
   std::erase_if(theta_, [&](const Knob& knob) { return std::find(options_.fixed.begin(), options_.fixed.end(), knob.key) != options_.fixed.end(); });
   add_momentum_terms();
   Refit best = fit(chosen_.empty() && result_.missing.empty() ? "refitting the parameters" : "refitting with the forces that the momentum balance convicts",

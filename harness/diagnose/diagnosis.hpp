@@ -67,6 +67,7 @@ struct DiagnoseOptions {
   std::vector<std::string> fixed{};  ///< of the restitutions and the spring's frequency: those known otherwise (a drop test), not refitted
   /// Relative uncertainty of an effect's strength because data may be of the other engine's kind (effects/engine_differences.hpp); null: none.
   double (*strength_uncertainty)(std::string_view effect) = nullptr;
+  MethodFault fault = MethodFault::none;
 };
 
 /// Throws InputError when the setup does not fit the experiment, Interrupted when stopped.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -322,6 +323,20 @@ void baselines(const std::vector<Opened>& cases, Table& table) {
   }
   table.beside("baseline: an effect at random, exact", guessed);
   table.beside("baseline: always viscous damping, exact", always);
+  constexpr std::array<std::pair<const char*, const char*>, 3> naive{{{"least_error", "smallest error after refitting"},
+                                                                      {"white_noise", "Akaike's criterion with white noise"},
+                                                                      {"one_seed", "smallest error, one seed"}}};
+  for (const auto& [key, what] : naive) {
+    Count exact, alarms;
+    for (const Opened& one : cases) {
+      if (!one.answer.contains("naive")) continue;
+      const std::string named = one.answer["naive"][key];
+      if (one.kind == BlindKind::single) exact.add(named == one.hidden.front());
+      else alarms.add(!named.empty());
+    }
+    table.beside(fmt::format("baseline: {}, exact", what), exact);
+    table.beside(fmt::format("baseline: {}, false alarms", what), alarms);
+  }
 }
 
 std::string line_of(const Opened& one) {

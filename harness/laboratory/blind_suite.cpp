@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "naive_answers.hpp"
 #include "output_file.hpp"
 #include "provenance.hpp"
 #include "sealed.hpp"
@@ -19,7 +20,9 @@ namespace fs = std::filesystem;
 class Suite {
  public:
   Suite(const fs::path& folder, const Setup& believed, const TrialTools& tools, const BlindSuiteOptions& options)
-      : folder_(folder), believed_(believed), tools_(tools), options_(options), design_(varied(options.small ? small_design() : full_design(), options.variant)) {}
+      : folder_(folder), believed_(believed), tools_(tools), options_(options), design_(varied(options.small ? small_design() : full_design(), options.variant)) {
+    if (!options.signals.empty()) design_.signals = options.signals;
+  }
 
   void run() {
     open();
@@ -45,8 +48,8 @@ class Suite {
   Json plan() const {
     Json counts = Json::object();
     for (std::size_t kind = 0; kind < options_.counts.size(); ++kind) counts[std::string(blind_kind_names[kind])] = options_.counts[kind];
-    return {{"schema_version", 1}, {"seed", options_.seed}, {"small", options_.small}, {"variant", options_.variant}, {"counts", counts}, {"believed", digest(believed_)},
-            {"laboratory", tools_.laboratory->name()}, {"budget", tools_.budget}};
+    return {{"schema_version", 1}, {"seed", options_.seed}, {"small", options_.small}, {"variant", options_.variant}, {"counts", counts}, {"signals", design_.signals}, {"believed", digest(believed_)},
+            {"laboratory", tools_.laboratory->name()}, {"budget", tools_.budget}, {"fault", method_fault_names[static_cast<std::size_t>(tools_.fault)]}};
   }
 
   /// A folder holds one suite.
@@ -133,6 +136,10 @@ class Suite {
         formulas.push_back({{"formula", found.formula}, {"constants", constants}, {"look_alikes", found.look_alikes}});
       }
       document["formulas"] = formulas;
+      if (options_.baselines && (one.kind == BlindKind::null || one.kind == BlindKind::single)) {
+        const NaiveAnswers naive = naive_answers(trial, tools_);
+        document["naive"] = {{"least_error", naive.least_error}, {"white_noise", naive.white_noise}, {"one_seed", naive.one_seed}};
+      }
     } catch (const PhysicsError& error) {  // a case lost is a wrong answer, not the end of the suite
       document["error"] = error.what();
     }

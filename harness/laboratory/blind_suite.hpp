@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "blind_case.hpp"
 
@@ -17,8 +18,10 @@ namespace shakedown {
 struct BlindSuiteOptions {
   BlindCounts counts = full_counts;
   bool small = false;        ///< two short runs a case, strong signals
+  std::vector<double> signals;  ///< signal to noise of what is hidden; empty: as designed
   std::string variant;       ///< a worse experiment, one of variant_names; empty: as designed
   std::uint64_t seed = 1;
+  bool baselines = false;    ///< asks simpler methods as well (naive_answers.hpp), of singles and nulls
   bool resume = false;       ///< go on in a folder that has a plan
   std::filesystem::path strengths;  ///< a table of an earlier suite instead of measuring one
   std::function<void(const std::string& line)> told;  ///< of each thing done; may be empty

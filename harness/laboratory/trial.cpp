@@ -6,16 +6,22 @@
 
 namespace shakedown {
 
-Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools) {
+Experiment measured_in(const Trial& trial, const TrialTools& tools) {
   const Laboratory laboratory{tools.laboratory, tools.known, trial.seed, tools.threads, tools.stop};
-  const Experiment experiment = make_measurements(trial.hidden.truth, trial.runs, trial.recording, laboratory);
+  RecordingSettings recording = trial.recording;
+  if (tools.fault == MethodFault::no_centre) recording.centre = false;
+  return make_measurements(trial.hidden.truth, trial.runs, recording, laboratory);
+}
+
+Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools) {
   DiagnoseOptions options;
   options.budget = tools.budget;
   options.threads = tools.threads;
   options.known = tools.known;
   options.stop = tools.stop;
   options.strength_uncertainty = tools.strength_uncertainty;
-  return diagnose(trial.hidden.believed, experiment, *tools.model, options);
+  options.fault = tools.fault;
+  return diagnose(trial.hidden.believed, measured_in(trial, tools), *tools.model, options);
 }
 
 Judgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict, const std::vector<std::string>& missing) {

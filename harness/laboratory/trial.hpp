@@ -26,7 +26,11 @@ struct TrialTools {
   int threads = 0;
   const std::atomic<bool>* stop = nullptr;
   double (*strength_uncertainty)(std::string_view effect) = nullptr;  ///< DiagnoseOptions
+  MethodFault fault = MethodFault::none;  ///< put into the diagnosis
 };
+
+/// The trial's measurements, in memory. Throws what make_measurements() throws.
+Experiment measured_in(const Trial& trial, const TrialTools& tools);
 
 /// Measures in memory and diagnoses the believed setup. Throws what these throw.
 Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -179,6 +180,34 @@ TEST(FitRound, TellsHowFarItsEmulatorsNoiseMovesTheMinimum) {
     EXPECT_GT(std::sqrt(told[k] / seen), 0.4) << theta[static_cast<std::size_t>(k)].key;
     EXPECT_LT(std::sqrt(told[k] / seen), 1.5) << theta[static_cast<std::size_t>(k)].key;
   }
+}
+
+TEST(MethodFault, AWrongSignLeadsTheFitAstray) {
+  const DampedOscillation engine;
+  Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  shakedown::Setup truth = believed_setup();
+  truth.restitution.grain_grain = 0.85;
+  const std::vector<MeasuredFeatures> measured = measured_on(truth, believed_setup(), 0);
+  EXPECT_NEAR(refit(measured, theta, workshop, {}).values[0].value, 0.85, 0.03);
+  workshop.fault = MethodFault::wrong_sign;
+  const Refit astray = refit(measured, theta, workshop, {});
+  EXPECT_TRUE(astray.p_value < 0.01 || std::abs(astray.values[0].value - 0.85) > 0.1) << astray.p_value << " " << astray.values[0].value;
+}
+
+TEST(MethodFault, WeightsThatHaveSeenTheSpreadCallTheSameDataWorse) {
+  const DampedOscillation engine;
+  Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  RefitOptions few;
+  few.count = 16;
+  few.model_error = 0;  // it would cover the mistake
+  std::array<double, 2> scatter{};
+  for (int run = 0; run < 20; ++run)
+    for (const bool fault : {false, true}) {
+      workshop.fault = fault ? MethodFault::in_sample : MethodFault::none;
+      scatter[fault] += refit(measured_on(believed_setup(), believed_setup(), run), {}, workshop, few).scatter / 20;
+    }
+  // Seen: .919 and .955; two shapes of chaos leave little to learn by heart.
+  EXPECT_GT(scatter[1], scatter[0] + 0.01) << scatter[0] << " and " << scatter[1];
 }
 
 TEST(Refit, GivesTheSameAnswerForAnyNumberOfThreads) {

@@ -190,6 +190,20 @@ TEST(BlindScores, ADiagnosisThatAlwaysAccusesTheSameFails) {
     EXPECT_EQ(figure(score, what).verdict, BlindFigure::Verdict::missed) << what << ": " << figure(score, what).found;
 }
 
+TEST(BlindScores, SimplerMethodsStandBeside) {
+  const Folder folder;
+  answered(folder.path, {2, 0, 3, 0, 0, 0, 0}, [](const nlohmann::json& truth) {
+    auto answer = nlohmann::json::parse(answer_of("adequate", {}));
+    const auto hidden = truth["hidden"].get<std::vector<std::string>>();
+    answer["naive"] = {{"least_error", "grain_friction"}, {"white_noise", hidden.empty() ? "" : hidden[0]}, {"one_seed", ""}};
+    return answer.dump();
+  });
+  const BlindScore score = scored(folder.path);
+  EXPECT_EQ(figure(score, "baseline: smallest error after refitting, false alarms").found.substr(0, 6), "2 of 2");
+  EXPECT_EQ(figure(score, "baseline: Akaike's criterion with white noise, exact").found.substr(0, 6), "3 of 3");
+  EXPECT_EQ(figure(score, "baseline: smallest error, one seed, exact").found.substr(0, 6), "0 of 3");
+}
+
 TEST(BlindScores, ASealedAnswerThatWasTouchedIsRefused) {
   const Folder folder;
   answered(folder.path, {1, 0, 0, 0, 0, 0, 0}, [](const nlohmann::json&) { return answer_of("adequate", {}); });

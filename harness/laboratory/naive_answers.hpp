@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What simpler methods would name from the same measurements: what a diagnosis has to beat.
+#pragma once
+#include "trial.hpp"
+
+namespace shakedown {
+
+/// Effect ids; empty: nothing named.
+struct NaiveAnswers {
+  std::string least_error;  ///< whose refit leaves the smallest rms error of the box
+  std::string white_noise;  ///< whose refit has the smallest of Akaike's criterion, the camera's white noise taken for all there is
+  std::string one_seed;     ///< least_error against one simulation of each model instead of an ensemble's mean
+};
+
+/// Refits the parameters to the trial's measurements, then every known effect beside them, linearly. Throws what diagnose_trial() throws.
+NaiveAnswers naive_answers(const Trial& trial, const TrialTools& tools);
+
+}  // namespace shakedown
