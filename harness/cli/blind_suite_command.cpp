@@ -38,8 +38,9 @@ int blind_suite(const BlindSuiteArguments& arguments) {
   const OutputFolder folder(arguments.out);
   arguments.json.check();
   const std::unique_ptr<Engine> laboratory = engine_named(arguments.engine), model = engine_named("hard");
+  EnsembleCache ensembles;
   const TrialTools tools{laboratory.get(), model.get(), all_effects(), arguments.budget, arguments.threads, catch_interruption(),
-                         &strength_uncertainty, fault_named(arguments.mutation)};
+                         &strength_uncertainty, fault_named(arguments.mutation), &ensembles};
   BlindSuiteOptions options;
   options.counts = !arguments.cases.empty() ? parse_counts(arguments.cases) : arguments.small ? small_counts : full_counts;
   options.small = arguments.small;

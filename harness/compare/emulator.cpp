@@ -158,9 +158,9 @@ Simulated simulate(const Group& group, std::uint64_t stream, const std::vector<M
   Simulated simulated{scatter(knobs, group.setup.run.seed + 7919 * stream, run, sparse), {}};
   Setup setup = setup_at(group.setup, knobs, simulated.z, workshop.known);
   setup.run.seed += 104729 * stream;
-  const Trajectory trajectory = run_surely(setup, run, workshop);
-  const Recording recording = recorded_by(physics_of(setup).camera, trajectory);
-  for (const std::size_t m : group.members) simulated.features.push_back(simulated_features(measured[m].plan, recording));
+  const auto recorded = [&] { return recorded_by(physics_of(setup).camera, run_surely(setup, run, workshop)); };
+  const auto recording = workshop.ensembles ? workshop.ensembles->recording(setup, run, recorded) : std::make_shared<const Recording>(recorded());
+  for (const std::size_t m : group.members) simulated.features.push_back(simulated_features(measured[m].plan, *recording));
   return simulated;
 }
 

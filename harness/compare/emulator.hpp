@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine.hpp"
+#include "ensemble_cache.hpp"
 #include "features.hpp"
 #include "method_fault.hpp"
 #include "simulation_pool.hpp"
@@ -51,6 +52,7 @@ struct Workshop {
   std::int64_t* runs = nullptr;        ///< counts simulations; may be null
   SimulationPool* pool = nullptr;      ///< what was simulated before, and where new simulations go; may be null
   MethodFault fault = MethodFault::none;
+  EnsembleCache* ensembles = nullptr;  ///< where simulations that other experiments repeat are kept; may be null
 };
 
 /// Regression of one run's features on the knobs.

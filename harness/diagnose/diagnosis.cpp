@@ -144,7 +144,9 @@ void Pipeline::add_momentum_terms() {
 void Pipeline::judge() {
   choose_packing();
   const bool packing_changed = base_.release.packing != user_.release.packing;
+  workshop_.ensembles = options_.ensembles;  // every diagnosis of this setup begins with the same simulations
   const Refit given = fit("the model as given", as_given(base_), only_look);
+  workshop_.ensembles = nullptr;
   result_.ladder.push_back(step_of("as given", given));
   final_ = given;
   note_failures(given);

@@ -68,6 +68,7 @@ struct DiagnoseOptions {
   /// Relative uncertainty of an effect's strength because data may be of the other engine's kind (effects/engine_differences.hpp); null: none.
   double (*strength_uncertainty)(std::string_view effect) = nullptr;
   MethodFault fault = MethodFault::none;
+  EnsembleCache* ensembles = nullptr;  ///< shared by diagnoses of one setup; may be null
 };
 
 /// Throws InputError when the setup does not fit the experiment, Interrupted when stopped.

@@ -243,7 +243,7 @@ MomentumAudit audit_momentum(const std::vector<MomentumRun>& runs, const Plateau
     all.chosen.push_back({-1, sine->frequency});  // last, whatever the order
     selection = fit_terms(p, all.chosen);
   }
-  if (selection.chosen.size() > 1 || balance_of(selection.fit).p_value < options.accept_p) {
+  if (options.formulas && (selection.chosen.size() > 1 || balance_of(selection.fit).p_value < options.accept_p)) {
     // Known terms have the advantage: a formula must be better by more than the price of its parameters.
     FormulaFit formulas = fit_formulas(p, options);
     audit.unlisted =

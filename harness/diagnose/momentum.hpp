@@ -92,6 +92,7 @@ struct MomentumOptions {
   double reject_p = 1e-3;       ///< below: not explained; one experiment in a hundred lies below 0.01 by chance, and "unknown" is a grave word
   int most_terms = 6;
   int most_sines = 2;
+  bool formulas = true;  ///< false: known terms alone
   double lowest_frequency = 0.1, highest_frequency = 10;  ///< Hz, scan for forcing
 };
 

@@ -78,12 +78,14 @@ void Draw::parameters(Random& random, std::vector<Override>& truth) const {
 }
 
 void Draw::hide(Random& random, const Hideable& hideable, double signal, std::vector<Override>& truth, BlindCase& drawn) const {
-  const auto unit = strengths_.find(hideable.id);
+  const std::string name = strength_name(hideable.id, drawn.kind);
+  const auto unit = strengths_.find(name);
   const double of_unit = unit == strengths_.end() || unit->second <= 0 ? signal : unit->second;
   const double strength = std::min(signal / of_unit, hideable.strongest);
   const double frequency = between(random, 0.5, 6), phase = between(random, 0, 6);
   for (Override& override : at_strength(hideable, strength, frequency, phase)) truth.push_back(std::move(override));
   drawn.ids.emplace_back(hideable.id);
+  drawn.strengths.push_back(name);
   const double reached = strength * of_unit;
   drawn.signal_to_noise = drawn.signal_to_noise > 0 ? std::min(drawn.signal_to_noise, reached) : reached;
 }
@@ -116,7 +118,7 @@ void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Overri
       const TwinPair& pair = twin_pairs[static_cast<std::size_t>(index) % twin_pairs.size()];
       hide(random, *find_hideable(pair.hidden), twin_signal, truth, drawn);
       drawn.twin = pair.twin;
-      drawn.trial.runs = lasting(runs_of_lengths({0.04, 0.04}), {10, 10});
+      drawn.trial.runs = twin_runs();
       drawn.more = design_.runs;
       drawn.more.push_back({"N60", {{"box.length", "\"65 mm\"", ""}, {"grains.count", "60", ""}, {"run.duration", "\"12 s\"", ""}}});
       drawn.more.push_back({"N20", {{"box.length", "\"40 mm\"", ""}, {"grains.count", "20", ""}, {"run.duration", "\"20 s\"", ""}}});
@@ -154,6 +156,10 @@ BlindCounts parse_counts(std::string_view text, const std::string& origin) {
   }
   return counts;
 }
+
+std::vector<PlannedRun> twin_runs() { return lasting(runs_of_lengths({0.04, 0.04}), {10, 10}); }
+
+std::string strength_name(std::string_view id, BlindKind kind) { return (kind == BlindKind::twins ? "twins:" : "") + std::string(id); }
 
 BlindDesign full_design() { return {lasting(runs_of_lengths({0.04, 0.04, 0.065, 0.085, 0.104}), {20, 20, 12, 10, 8}), {3, 6, 12, 25}, {}}; }
 

@@ -23,6 +23,7 @@ struct BlindCase {
   BlindKind kind = BlindKind::null;
   Trial trial;
   std::vector<std::string> ids;  ///< of what is hidden
+  std::vector<std::string> strengths;  ///< their names in the table of strengths
   double signal_to_noise = 0;    ///< of each hidden thing by the table of strengths; 0: nothing hidden
   std::string twin;              ///< effect that these measurements cannot tell from the hidden one
   std::vector<PlannedRun> more;  ///< of twins: runs that tell them apart
@@ -38,6 +39,9 @@ BlindDesign full_design();
 /// Two short runs and strong signals, for a first look and for tests.
 BlindDesign small_design();
 
+/// Too little to tell twins apart: one length, ten seconds.
+std::vector<PlannedRun> twin_runs();
+
 /// How a worse experiment is made of a design.
 constexpr std::array<std::string_view, 7> variant_names{"one-repeat", "two-lengths", "half-duration", "250fps", "missing", "outliers", "no-centre"};
 
@@ -45,8 +49,11 @@ constexpr std::array<std::string_view, 7> variant_names{"one-repeat", "two-lengt
 /// jump; grains not tracked. Throws InputError for another name.
 BlindDesign varied(BlindDesign design, std::string_view variant, const std::string& origin = "--variant");
 
-/// Signal to noise of strength 1 of each hideable thing.
+/// Signal to noise of strength 1 of each hideable thing, by strength_name().
 using Strengths = std::map<std::string, double, std::less<>>;
+
+/// In the twins' small experiment a strength is worth less than in the full one.
+std::string strength_name(std::string_view id, BlindKind kind);
 
 /// Laboratory and diagnosis differ in parameters drawn at random (of nulls the believed ones), in contact time, packing
 /// (three in five are as believed), camera noise and seed. Same arguments, same cases.

@@ -75,11 +75,13 @@ class Suite {
       for (const auto& [id, value] : document.at("signal_of_strength_1").items()) table[id] = value.get<double>();
     }
     const std::vector<std::string> needed = needed_ids();
+    const std::string twins = strength_name("", BlindKind::twins);
     for (const std::string& id : needed) {
       if (table.contains(id)) continue;
       // Of the experiment as designed: a worse one is given the same strengths.
-      const std::vector<PlannedRun> runs = (options_.small ? small_design() : full_design()).runs;
-      table[id] = signal_of_unit_strength(*find_hideable(id), believed_, options_.seed + 77, {runs, options_.small ? 48 : 96}, tools_);
+      const bool twin = id.starts_with(twins);
+      const std::vector<PlannedRun> runs = twin ? twin_runs() : (options_.small ? small_design() : full_design()).runs;
+      table[id] = signal_of_unit_strength(*find_hideable(twin ? id.substr(twins.size()) : id), believed_, options_.seed + 77, {runs, options_.small ? 48 : 96}, tools_);
       tell("a typical " + id + " has signal to noise " + std::to_string(table[id]).substr(0, 5));
       save(file, table);
     }
@@ -97,7 +99,7 @@ class Suite {
   std::vector<std::string> needed_ids() const {
     std::vector<std::string> ids;
     for (const BlindCase& one : draw_cases(believed_, options_.counts, design_, {}, options_.seed, tools_.known))
-      for (const std::string& id : one.ids)
+      for (const std::string& id : one.strengths)
         if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
     std::sort(ids.begin(), ids.end());
     return ids;

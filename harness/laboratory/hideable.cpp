@@ -125,7 +125,12 @@ double signal_to_noise(const HiddenCase& hidden, std::uint64_t seed, const Signa
   const Experiment experiment = make_measurements(hidden.truth, settings.runs, {}, laboratory);
   const Audit found = audit(experiment);
   const std::vector<Setup> setups = setups_of_runs(hidden.believed, experiment, tools.known);
-  const MomentumAudit momentum = audit_momentum(experiment, found, setups);
+  const std::vector<std::string> effects = hidden_effects(hidden);
+  const bool unlisted = std::find(effects.begin(), effects.end(), "unknown") != effects.end();
+  MomentumOptions by_balance;
+  by_balance.formulas = false;
+  const MomentumAudit momentum = audit_momentum(experiment, found, setups, by_balance);
+  if (unlisted) return momentum.possible ? std::sqrt(std::max(momentum.final_fit.chi2 - momentum.final_fit.degrees, 0.0)) : 0;
   const Setup& believed = hidden.believed;
   const double frequency = momentum.possible ? momentum.refitted.degrees > 0 ? momentum.frequency : believed.spring.frequency : believed.spring.frequency;
   const std::vector<Knob> knobs{{"restitution.grain_grain", believed.restitution.grain_grain, 0.15, 0.2, 0.999, true},

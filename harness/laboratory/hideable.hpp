@@ -48,7 +48,8 @@ struct SignalSettings {
 };
 
 /// Nonlinear-profile signal to noise of the hidden case: sqrt of what chi2 keeps above its expectation after restitutions and frequency
-/// have been refitted without the effect; by ensembles or by the momentum balance, whichever sees more.
+/// have been refitted without the effect; by ensembles or by the momentum balance, whichever sees more. Of a force in no list: what the
+/// balance keeps with the known effects that imitate it best, since no method can miss an effect whose place another takes.
 double signal_to_noise(const HiddenCase& hidden, std::uint64_t seed, const SignalSettings& settings, const TrialTools& tools);
 
 /// Signal to noise of strength 1, found near a signal of 20 where it is well above its own error (about 6 %) and still proportional.

@@ -21,6 +21,7 @@ Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools) {
   options.stop = tools.stop;
   options.strength_uncertainty = tools.strength_uncertainty;
   options.fault = tools.fault;
+  options.ensembles = tools.ensembles;
   return diagnose(trial.hidden.believed, measured_in(trial, tools), *tools.model, options);
 }
 

@@ -27,6 +27,7 @@ struct TrialTools {
   const std::atomic<bool>* stop = nullptr;
   double (*strength_uncertainty)(std::string_view effect) = nullptr;  ///< DiagnoseOptions
   MethodFault fault = MethodFault::none;  ///< put into the diagnosis
+  EnsembleCache* ensembles = nullptr;  ///< shared by the diagnoses; may be null
 };
 
 /// The trial's measurements, in memory. Throws what make_measurements() throws.

@@ -182,6 +182,23 @@ TEST(FitRound, TellsHowFarItsEmulatorsNoiseMovesTheMinimum) {
   }
 }
 
+TEST(EnsembleCache, ChangesNoAnswerAndSimulatesOnce) {
+  const DampedOscillation engine;
+  Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  RefitOptions options;
+  options.count = 32;
+  shakedown::Setup longer = believed_setup();
+  longer.run.duration = 9;
+  const std::vector<MeasuredFeatures> first = measured_on(believed_setup(), believed_setup(), 1), second = measured_on(longer, believed_setup(), 2);
+  const Refit alone = refit(first, {}, workshop, options), other_alone = refit(second, {}, workshop, options);
+  EnsembleCache cache;
+  workshop.ensembles = &cache;
+  EXPECT_EQ(refit(second, {}, workshop, options).chi2, other_alone.chi2);
+  EXPECT_EQ(cache.reused(), 0);
+  EXPECT_EQ(refit(first, {}, workshop, options).chi2, alone.chi2);  // shorter runs are the beginnings of longer ones
+  EXPECT_EQ(cache.reused(), 64);
+}
+
 TEST(MethodFault, AWrongSignLeadsTheFitAstray) {
   const DampedOscillation engine;
   Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
