@@ -123,6 +123,10 @@ std::vector<Group> groups_of(const std::vector<MeasuredFeatures>& measured) {
   return groups;
 }
 
+bool is_point(const std::vector<Knob>& knobs) {
+  return std::all_of(knobs.begin(), knobs.end(), [](const Knob& knob) { return knob.width == 0; });
+}
+
 /// What simulations must share to be comparable: the setup but for the knobs' values, which knobs, and what is read off.
 std::string model_name(const Group& group, const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const Workshop& workshop) {
   Setup canonical = group.setup;
@@ -167,7 +171,7 @@ Simulated simulate(const Group& group, std::uint64_t stream, const std::vector<M
 /// Adds what the pool has of this model in the box, and gives the pool what is new.
 void exchange(std::vector<Simulated>& simulated, const std::string& model, const std::vector<Knob>& knobs, SimulationPool& pool) {
   std::vector<PooledRun>& pooled = pool[model];
-  const std::size_t fresh = simulated.size(), before = pooled.size();
+  const std::size_t fresh = simulated.size(), before = is_point(knobs) ? 0 : pooled.size();
   for (std::size_t i = 0; i < before; ++i)
     if (const auto z = place_in_box(pooled[i], knobs)) simulated.push_back({*z, pooled[i].features});
   for (std::size_t i = 0; i < fresh; ++i) {
@@ -208,15 +212,17 @@ std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, con
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (workshop.pool) exchange(simulated[g], model_name(groups[g], measured, knobs, workshop), knobs, *workshop.pool);
     const auto rows = static_cast<Eigen::Index>(simulated[g].size());
-    const auto n_terms = regression_terms(knobs, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs.size()))).size();
+    const std::vector<Knob> varied = is_point(knobs) ? std::vector<Knob>{} : knobs;
+    const auto n_terms = regression_terms(varied, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(varied.size()))).size();
     Eigen::MatrixXd terms(rows, n_terms);
-    for (Eigen::Index i = 0; i < rows; ++i) terms.row(i) = regression_terms(knobs, simulated[g][static_cast<std::size_t>(i)].z).transpose();
+    for (Eigen::Index i = 0; i < rows; ++i)
+      terms.row(i) = regression_terms(varied, simulated[g][static_cast<std::size_t>(i)].z.head(static_cast<Eigen::Index>(varied.size()))).transpose();
     for (std::size_t k = 0; k < groups[g].members.size(); ++k) {
       const std::size_t m = groups[g].members[k];
       Eigen::MatrixXd features(rows, measured[m].values.size());
       for (Eigen::Index i = 0; i < rows; ++i) features.row(i) = simulated[g][static_cast<std::size_t>(i)].features[k].transpose();
       emulators[m] = regress(terms, features);
-      if (workshop.fault == MethodFault::wrong_sign && !knobs.empty()) emulators[m].coefficients.row(1) *= -1;
+      if (workshop.fault == MethodFault::wrong_sign && !varied.empty()) emulators[m].coefficients.row(1) *= -1;
     }
   }
   return emulators;

@@ -30,7 +30,7 @@ struct Knob {
   bool cubic = false;   ///< ... and a cube (with curved)
 
   double at(double z) const;       ///< value at z in [-1, 1], kept in bounds
-  double z_of(double value) const { return (value - centre) / width; }
+  double z_of(double value) const { return width > 0 ? (value - centre) / width : 0; }
 };
 
 /// The measured runs with what is needed to compare them; runs of equal setup share their simulations.
@@ -76,7 +76,7 @@ void set_knob(Setup& setup, const Knob& knob, std::span<const EffectRecord* cons
 Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::VectorXd& z, std::span<const EffectRecord* const> known);
 
 /// One emulator for each measured run from `count` simulations (of each different setup) scattered over the knobs' box, and those in the
-/// workshop's pool that lie in it; first_run addresses the random numbers of the new ones. A knob with `sparse` < 1 is moved in that fraction of the simulations only.
+/// workshop's pool that lie in it; knobs of no width: all at the centre, the mean and the chaos of one ensemble. first_run addresses the random numbers of the new ones. A knob with `sparse` < 1 is moved in that fraction of the simulations only.
 std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, int count, int first_run,
                               const Workshop& workshop, double sparse = 1);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "fit_round.hpp"
 
@@ -17,12 +18,37 @@ double root_mean_square(const std::vector<RunComparison>& runs, double RunCompar
   return runs.empty() ? 0 : std::sqrt(squares / static_cast<double>(runs.size()));
 }
 
+void judge_at(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z, Refit& result) {
+  result.chi2 = round.objective().chi2(z);
+  round.calibrate(z, result.chi2, result);
+  result.runs.clear();
+  for (std::size_t r = 0; r < runs; ++r) result.runs.push_back(round.comparison(r, z));
+}
+
+/// Simulations at the solution judge it.
+void confirm(const std::vector<MeasuredFeatures>& measured, const Workshop& workshop, const RefitOptions& options, Refit& result) {
+  std::vector<Knob> point = result.knobs;
+  for (std::size_t k = 0; k < point.size(); ++k) {
+    point[k].centre = result.values[k].value;
+    point[k].width = 0;
+  }
+  const std::vector<Knob> none;
+  const FitRound round(measured, none, emulate(measured, point, options.confirming, options.first_run + 9000, workshop), options, workshop.fault);
+  const Eigen::VectorXd here(0);
+  result.promised_scatter = result.scatter;
+  result.promised_chi2 = result.judged_chi2;
+  judge_at(round, measured.size(), here, result);
+  result.covariances = round.covariances();
+  const std::vector<Rule> rules = round.rules_of(options.judged_by);
+  result.judged_chi2 = 0;
+  for (std::size_t r = 0; r < measured.size(); ++r) result.judged_chi2 += round.judged_chi2(r, here, rules[r]);
+}
+
 Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const Minimum& minimum,
-                const Refit* judged_by) {
+                const Workshop& workshop, const RefitOptions& options) {
   Refit result;
   result.knobs = knobs;
-  result.chi2 = round.objective().chi2(minimum.z);
-  round.calibrate(minimum.z, result.chi2, result);
+  judge_at(round, measured.size(), minimum.z, result);
   Eigen::MatrixXd covariance = round.covariance_at(minimum.z, reach) * std::max(1.0, result.scatter);
   if (!knobs.empty()) covariance += round.emulator_scatter(minimum.z);
   for (std::size_t k = 0; k < knobs.size(); ++k) {
@@ -33,11 +59,12 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
     value.at_bound = value.value <= knobs[k].low || value.value >= knobs[k].high;
     result.values.push_back(value);
   }
-  for (std::size_t r = 0; r < measured.size(); ++r) result.runs.push_back(round.comparison(r, minimum.z));
-  const std::vector<Rule> rules = round.rules_of(judged_by);
-  for (std::size_t r = 0; r < measured.size(); ++r) result.judged_chi2 += round.judged_chi2(r, minimum.z, rules[r]);
-  round.hold_out(result, rules);
+  const std::vector<Rule> own = round.rules_of(options.judged_by);
+  for (std::size_t r = 0; r < measured.size(); ++r) result.judged_chi2 += round.judged_chi2(r, minimum.z, own[r]);
   result.covariances = round.covariances();
+  if (options.confirming > 0 && !knobs.empty()) confirm(measured, workshop, options, result);
+  // Lengths left out are fitted anew, which only the emulators can do.
+  round.hold_out(result, round.rules_of(options.judged_by ? options.judged_by : &result));
   return result;
 }
 
@@ -49,6 +76,23 @@ std::vector<Knob> next_box(std::vector<Knob> knobs, const Minimum& minimum, cons
     const double z = minimum.z[i], open = 2 * std::sqrt(covariance(i, i));
     knobs[k].centre = knobs[k].at(z);
     knobs[k].width = std::min(knobs[k].width * std::clamp(open, std::abs(z) < 0.8 ? 0.25 : 1.0, 1.5), 0.6 * first[k].width);
+  }
+  return knobs;
+}
+
+constexpr int most_looks = 2;
+
+/// The emulator promised much more than its solution keeps.
+bool misled(const Refit& result, const RefitOptions& options) {
+  return options.confirming > 0 && result.scatter > 1.3 * result.promised_scatter + 0.3 && result.promised_chi2 < options.look_again_below;
+}
+
+/// Half as wide, about the best solution so far.
+std::vector<Knob> nearer_box(const Refit& best, const std::vector<Knob>& last) {
+  std::vector<Knob> knobs = last;
+  for (std::size_t k = 0; k < knobs.size(); ++k) {
+    knobs[k].centre = best.values[k].value;
+    knobs[k].width *= 0.5;
   }
   return knobs;
 }
@@ -78,6 +122,8 @@ Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> kno
   SimulationPool of_this_fit;
   Workshop pooling = workshop;
   if (pooling.pool == nullptr) pooling.pool = &of_this_fit;
+  std::optional<Refit> best;
+  int looks = 0;
   for (int number = 1;; ++number) {
     const std::vector<Knob> here = knobs;
     // Rounds that only find the way need fewer simulations than the one that judges.
@@ -91,8 +137,15 @@ Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> kno
       left_the_box = left_the_box || (std::abs(z) > 1.05 && inner);
     }
     const bool last = knobs.empty() || number >= options.most_rounds || (number >= options.rounds && !left_the_box);
-    if (last) return result_at(round, measured, here, minimum, options.judged_by);
-    knobs = next_box(here, minimum, round.covariance_at(minimum.z, reach), first);
+    if (!last) {
+      knobs = next_box(here, minimum, round.covariance_at(minimum.z, reach), first);
+      continue;
+    }
+    Refit result = result_at(round, measured, here, minimum, pooling, options);
+    const bool look_again = misled(result, options) && ++looks <= most_looks;
+    if (!best || result.scatter < best->scatter) best = std::move(result);
+    if (!look_again) return *best;
+    knobs = nearer_box(*best, here);
   }
 }
 

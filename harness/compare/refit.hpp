@@ -3,6 +3,7 @@
 // noise and the emulator's own error. Whether what remains is within the model's spread is told by pseudo-experiments drawn from
 // simulations that the covariance has not seen.
 #pragma once
+#include <limits>
 #include <vector>
 
 #include "failure_cells.hpp"
@@ -41,6 +42,7 @@ struct Refit {
   /// Each box length predicted from a fit to the others, rms, m; NaN with one length only.
   double held_out_error_box = 0, held_out_error_centre = 0;
   double held_out_chi2 = 0;  ///< sum over the lengths left out
+  double promised_scatter = 1, promised_chi2 = 0;  ///< `scatter` and `judged_chi2` by the emulator, where simulations at the solution have judged
   /// chi2 and held_out_chi2 in the covariances of RefitOptions::judged_by, so that rivals are measured with one rule.
   double judged_chi2 = 0, judged_held_out_chi2 = 0;
   double error_box() const;
@@ -56,6 +58,12 @@ struct RefitOptions {
   int first_run = 1000;
   double model_error = 0.002;  ///< of the release: how well two codes of the same physics agree (soft contacts of finite duration ...)
   const Refit* judged_by = nullptr;  ///< a fit to the same measured runs; null: by itself
+  /// Simulations of each different setup at the solution, which then judge it: its chi2, errors, p-value and cells. An emulator that cannot
+  /// follow the model takes its own misfit for chaos, and where the model is wrong it promises too much. 0: the emulator judges.
+  int confirming = 0;
+  /// Where it promised much more than the simulations at the solution confirm, it looks again in a narrower box, if what it promised is below
+  /// this judged_chi2.
+  double look_again_below = std::numeric_limits<double>::infinity();
 };
 
 /// Fits the knobs (none: the setup as it is). `measured` may leave runs out; compare_at() then judges them.

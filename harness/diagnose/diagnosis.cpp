@@ -62,12 +62,14 @@ void Pipeline::choose_packing() {
                           std::string(name_of(user_.release.packing)) + "'");
 }
 
-Refit Pipeline::fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by) {
+Refit Pipeline::fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by, double look_again_below) {
   stage_ = step;
   RefitOptions options;
   options.rounds = effort.rounds;
   options.count = effort.count;
   options.judged_by = judged_by;
+  options.confirming = effort.confirming;
+  options.look_again_below = look_again_below;
   options.first_run = 100000 * ++batch_;
   return refit(features(), knobs, workshop_, options);
 }

@@ -76,13 +76,14 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   const auto first = std::find_if_not(screened.begin(), screened.end(), always);
   const Setup before = base_;
   std::vector<Rival> rivals;
-  double best_score = 0;
+  double best_score = 0, lowest = best.judged_chi2;
   for (const ScreenedEffect& effect : screened) {
     if (rivals.size() >= most_tried || result_.runs_simulated > options_.budget) break;
     // Linear gains rank well enough to leave out what promises half of what another has already brought.
     if (!always(effect) && (effect.gain < least_gain / 2 || promise(effect) < std::max(0.25 * promise(*first), 0.5 * best_score))) continue;
     try {
-      rivals.push_back(try_candidate(effect, candidates[effect.candidate], before, fitted, best));
+      rivals.push_back(try_candidate(effect, candidates[effect.candidate], before, fitted, best, lowest));
+      lowest = std::min(lowest, rivals.back().fit.judged_chi2);
       best_score = std::max(best_score, rivals.back().score());
     } catch (const PhysicsError& error) {
       result_.notes.push_back(effect.effect + " could not be tried: " + error.what());
@@ -151,7 +152,7 @@ bool Pipeline::add_best_candidate(Refit& best) {
 
 /// One candidate with everything refitted.
 Pipeline::Rival Pipeline::try_candidate(const ScreenedEffect& effect, const Candidate& candidate, const Setup& before, const std::vector<Knob>& fitted,
-                                        const Refit& best) {
+                                        const Refit& best, double lowest) {
   base_ = prepared(before, candidate, options_.known);
   std::vector<Knob> added = candidate.knobs;
   for (Knob& knob : added)
@@ -161,11 +162,11 @@ Pipeline::Rival Pipeline::try_candidate(const ScreenedEffect& effect, const Cand
       knob.centre = std::clamp(effect.value, knob.low, knob.high);
       knob.width = std::max(knob.width, 0.5 * std::abs(effect.value));
     }
-  Rival rival{candidate.effect, candidate.doubt, base_, added, fit("trying " + candidate.effect, together(covering_the_users_values(fitted), added), to_try, &best), 0, 0, false};
+  Rival rival{candidate.effect, candidate.doubt, base_, added, fit("trying " + candidate.effect, together(covering_the_users_values(fitted), added), to_try, &best, lowest), 0, 0, false};
   // The restitutions are known well only together, and friction with them: along that valley there may be two minima (friction of .1, and of
   // .35 with other restitutions).
   if (std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; })) {
-    const Refit other = fit("trying " + candidate.effect + " from elsewhere", second_start(rival.fit, added), to_look_again, &best);
+    const Refit other = fit("trying " + candidate.effect + " from elsewhere", second_start(rival.fit, added), to_look_again, &best, std::min(lowest, rival.fit.judged_chi2));
     if (other.judged_chi2 < rival.fit.judged_chi2) rival.fit = other;
   }
   rank(rival, best);

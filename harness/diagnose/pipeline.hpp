@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The steps of a diagnosis and what they know of each other; diagnosis.hpp is what others see.
 #pragma once
+#include <limits>
 #include <optional>
 
 #include "diagnosis.hpp"
@@ -27,11 +28,12 @@ constexpr double quick_kick_interval = 1e-2;  // s
 
 inline std::string effect_of(const std::string& key) { return key.substr(0, key.find('.')); }
 
-/// Simulations of each different setup in a fit's last round, and re-centrings at least.
+/// Re-centrings at least, simulations of each different setup in a fit's last round, and at its solution.
 struct Effort {
-  int rounds, count;
+  int rounds, count, confirming;
 };
-constexpr Effort only_look{1, 128}, to_refit{3, 192}, to_try{3, 160}, to_look_again{2, 128}, to_decide{1, 160}, to_prune{2, 160}, to_conclude{1, 256};
+constexpr Effort only_look{1, 128, 0}, to_refit{3, 160, 128}, to_try{3, 128, 96}, to_look_again{2, 112, 96}, to_decide{1, 128, 128}, to_prune{2, 128, 96},
+    to_conclude{1, 192, 160};
 
 class Pipeline {
  public:
@@ -48,7 +50,8 @@ class Pipeline {
 
   void choose_packing();
   void judge();
-  Refit fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by = nullptr);
+  Refit fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by = nullptr,
+            double look_again_below = std::numeric_limits<double>::infinity());
   void add_momentum_terms();
   bool possible(const FoundTerm& term) const;
   void add_sine(const FoundTerm& term);
@@ -72,7 +75,8 @@ class Pipeline {
   bool pays(const Rival& rival, const Refit& best) const;
   bool take(const Rival& winner, Refit& best);
   bool add_best_candidate(Refit& best);
-  Rival try_candidate(const ScreenedEffect& effect, const Candidate& candidate, const Setup& before, const std::vector<Knob>& fitted, const Refit& best);
+  Rival try_candidate(const ScreenedEffect& effect, const Candidate& candidate, const Setup& before, const std::vector<Knob>& fitted, const Refit& best,
+                      double lowest);
   Rival decide(Rival rival, const Refit& best);
   void rank(Rival& rival, const Refit& best);
   void call_twins(const std::string& named, const std::string& other);

@@ -99,23 +99,24 @@ void Draw::hide_pair(Random& random, std::vector<Override>& truth, BlindCase& dr
 }
 
 void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Override>& truth, BlindCase& drawn) const {
-  const double signal = design_.signals[static_cast<std::size_t>(index) % design_.signals.size()];
-  const auto from = [&](const std::vector<Hideable>& all, auto accepts) {
+  const auto number = static_cast<std::size_t>(index);
+  // All of a list in turn, each time round at the next signal: a few cases meet every one, many meet every one at every signal.
+  const auto hide_next = [&](const std::vector<Hideable>& all, double least_signal, auto accepts) {
     std::vector<const Hideable*> list;
     for (const Hideable& hideable : all)
       if (accepts(hideable)) list.push_back(&hideable);
-    // In turn, so that every one is met at every signal.
-    return list[(static_cast<std::size_t>(index) / design_.signals.size()) % list.size()];
+    const std::size_t place = number % list.size(), turn = number / list.size();
+    hide(random, *list[place], std::max(least_signal, design_.signals[(place + turn) % design_.signals.size()]), truth, drawn);
   };
   switch (drawn.kind) {
     case BlindKind::null: return;
     case BlindKind::parameters: return;
-    case BlindKind::single: return hide(random, *from(hideable_effects(), [](const Hideable& h) { return !h.camera; }), signal, truth, drawn);
-    case BlindKind::camera: return hide(random, *from(hideable_effects(), [](const Hideable& h) { return h.camera; }), signal, truth, drawn);
+    case BlindKind::single: return hide_next(hideable_effects(), 0, [](const Hideable& h) { return !h.camera; });
+    case BlindKind::camera: return hide_next(hideable_effects(), 0, [](const Hideable& h) { return h.camera; });
     case BlindKind::pair: return hide_pair(random, truth, drawn);
-    case BlindKind::unlisted: return hide(random, *from(hideable_forces(), [](const Hideable&) { return true; }), std::max(signal, 12.0), truth, drawn);
+    case BlindKind::unlisted: return hide_next(hideable_forces(), 12, [](const Hideable&) { return true; });
     case BlindKind::twins: {
-      const TwinPair& pair = twin_pairs[static_cast<std::size_t>(index) % twin_pairs.size()];
+      const TwinPair& pair = twin_pairs[number % twin_pairs.size()];
       hide(random, *find_hideable(pair.hidden), twin_signal, truth, drawn);
       drawn.twin = pair.twin;
       drawn.trial.runs = twin_runs();

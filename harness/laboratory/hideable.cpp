@@ -137,7 +137,7 @@ double signal_to_noise(const HiddenCase& hidden, std::uint64_t seed, const Signa
                                 {"restitution.grain_wall", believed.restitution.grain_wall, 0.15, 0.2, 0.999, true},
                                 {"spring.frequency", frequency, 0.01 * frequency, 0.5 * frequency, 2 * frequency, true}};
   RefitOptions options;
-  options.count = settings.count;
+  options.count = options.confirming = settings.count;
   const Workshop workshop{tools.model, tools.known, tools.threads, tools.stop, {}, nullptr};
   const Refit fit = refit(features_of(experiment, found, setups), knobs, workshop, options);
   const double ensembles = fit.chi2 - fit.degrees, balance = momentum.possible ? momentum.refitted.chi2 - momentum.refitted.degrees : 0;
