@@ -139,7 +139,8 @@ class Suite {
       }
       document["formulas"] = formulas;
       if (options_.baselines && (one.kind == BlindKind::null || one.kind == BlindKind::single)) {
-        const NaiveAnswers naive = naive_answers(trial, tools_);
+        const Workshop workshop{tools_.model, tools_.known, tools_.threads, tools_.stop, {}, nullptr};
+        const NaiveAnswers naive = naive_answers(trial.hidden.believed, measured_in(trial, tools_), workshop);
         document["naive"] = {{"least_error", naive.least_error}, {"white_noise", naive.white_noise}, {"one_seed", naive.one_seed}};
       }
     } catch (const PhysicsError& error) {  // a case lost is a wrong answer, not the end of the suite

@@ -182,6 +182,42 @@ TEST(FitRound, TellsHowFarItsEmulatorsNoiseMovesTheMinimum) {
   }
 }
 
+/// Amplitude with a step in the restitution that no parabola follows.
+class Step final : public Engine {
+ public:
+  std::string_view name() const override { return "step"; }
+  Capability can_model(const EffectRecord&) const override { return {Fidelity::exact, ""}; }
+  Trajectory run(const shakedown::Setup& setup, const RunOptions& options) const override {
+    shakedown::Setup smooth = setup;
+    smooth.restitution.grain_grain = 0.75 + 0.2 * std::tanh((setup.restitution.grain_grain - 0.82) / 0.02);
+    return DampedOscillation{}.run(smooth, options);
+  }
+};
+
+TEST(Refit, SimulationsAtTheSolutionJudgeItAndWhatPromisedTooMuchLooksAgain) {
+  const Step engine;
+  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  shakedown::Setup truth = believed_setup();
+  truth.restitution.grain_grain = 0.82;  // half way up
+  shakedown::Setup seen = truth;
+  seen.restitution.grain_grain = 0.75;   // what the stand-in makes of it
+  const std::vector<MeasuredFeatures> measured = measured_on(seen, believed_setup(), 0);
+  RefitOptions trusting, confirming;
+  trusting.rounds = confirming.rounds = 1;
+  trusting.most_rounds = confirming.most_rounds = 1;
+  confirming.confirming = 96;
+  const Refit promised = refit(measured, theta, workshop, trusting), confirmed = refit(measured, theta, workshop, confirming);
+  const auto at = [&](const Refit& fit) {
+    std::vector<Knob> knobs = theta;
+    for (std::size_t k = 0; k < knobs.size(); ++k) knobs[k].centre = fit.values[k].value;
+    return compare_at(measured, knobs, workshop, trusting);
+  };
+  EXPECT_NEAR(confirmed.error_box(), at(confirmed).error_box(), 0.05 * confirmed.error_box());
+  EXPECT_GT(at(promised).scatter, 2 * promised.scatter);   // seen: the emulator promised far too much
+  EXPECT_LT(at(confirmed).scatter, at(promised).scatter);  // nearer boxes found better
+  EXPECT_NEAR(confirmed.values[0].value, 0.82, 0.01);
+}
+
 TEST(EnsembleCache, ChangesNoAnswerAndSimulatesOnce) {
   const DampedOscillation engine;
   Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};

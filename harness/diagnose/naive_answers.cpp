@@ -68,14 +68,13 @@ struct Best {
 
 class Naive {
  public:
-  Naive(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> theta, const TrialTools& tools)
-      : measured_(measured), theta_(std::move(theta)), tools_(tools), box_(weights_of(measured, false)), noise_(weights_of(measured, true)) {}
+  Naive(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> theta, const Workshop& workshop)
+      : measured_(measured), theta_(std::move(theta)), workshop_(workshop), box_(weights_of(measured, false)), noise_(weights_of(measured, true)) {}
 
   NaiveAnswers answers() {
-    const std::vector<Candidate> candidates = candidates_for(measured_.front().setup, {}, tools_.known);
-    for (const Candidate& candidate : candidates) {
+    const std::vector<Candidate> candidates = candidates_for(measured_.front().setup, {}, workshop_.known);
+    for (const Candidate& candidate : candidates)
       if (candidate.knobs.empty()) offer_switch(candidate);
-    }
     offer_strengths(candidates);
     return {least_error_.effect, akaike_.effect, one_seed_.effect};
   }
@@ -84,8 +83,7 @@ class Naive {
   static constexpr int few = 48, many = 224;
 
   std::vector<Emulator> emulators_of(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, int count) {
-    const Workshop workshop{tools_.model, tools_.known, tools_.threads, tools_.stop, {}, nullptr};
-    return emulate(measured, knobs, count, 100000 * ++batch_, workshop);
+    return emulate(measured, knobs, count, 100000 * ++batch_, workshop_);
   }
 
   void offer(const std::string& effect, const Residual& mean, const Residual& single, const Eigen::MatrixXd& columns, const Eigen::MatrixXd& single_columns) {
@@ -96,7 +94,7 @@ class Naive {
 
   void offer_switch(const Candidate& candidate) {
     std::vector<MeasuredFeatures> with = measured_;
-    for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidate, tools_.known);
+    for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidate, workshop_.known);
     const std::vector<Emulator> emulators = emulators_of(with, theta_, few);
     const auto n = static_cast<Eigen::Index>(theta_.size());
     const Residual mean = residual_of(with, emulators, n, false), single = residual_of(with, emulators, n, true);
@@ -115,7 +113,7 @@ class Naive {
         effects.push_back(candidate.effect);
       }
       if (!candidate.knobs.empty())
-        for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidate, tools_.known);
+        for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidate, workshop_.known);
     }
     const auto n_theta = static_cast<Eigen::Index>(theta_.size()), n = static_cast<Eigen::Index>(knobs.size());
     const std::vector<Emulator> emulators = emulators_of(with, knobs, many);
@@ -138,7 +136,7 @@ class Naive {
 
   const std::vector<MeasuredFeatures>& measured_;
   std::vector<Knob> theta_;
-  const TrialTools& tools_;
+  const Workshop& workshop_;
   Eigen::VectorXd box_, noise_;
   Best least_error_, akaike_, one_seed_;
   int batch_ = 0;
@@ -146,20 +144,18 @@ class Naive {
 
 }  // namespace
 
-NaiveAnswers naive_answers(const Trial& trial, const TrialTools& tools) {
-  const Experiment experiment = measured_in(trial, tools);
-  const std::vector<MeasuredFeatures> measured = features_of(experiment, audit(experiment), setups_of_runs(trial.hidden.believed, experiment, tools.known));
-  std::vector<Knob> theta = free_parameters(trial.hidden.believed);
+NaiveAnswers naive_answers(const Setup& setup, const Experiment& experiment, const Workshop& workshop) {
+  const std::vector<MeasuredFeatures> measured = features_of(experiment, audit(experiment), setups_of_runs(setup, experiment, workshop.known));
+  std::vector<Knob> theta = free_parameters(setup);
   RefitOptions options;
   options.count = 96;
-  const Workshop workshop{tools.model, tools.known, tools.threads, tools.stop, {}, nullptr};
   const Refit fit = refit(measured, theta, workshop, options);
   for (std::size_t k = 0; k < theta.size(); ++k) {
     theta[k].centre = fit.values[k].value;
     theta[k].width *= 0.5;
     theta[k].curved = false;
   }
-  return Naive(measured, theta, tools).answers();
+  return Naive(measured, theta, workshop).answers();
 }
 
 }  // namespace shakedown

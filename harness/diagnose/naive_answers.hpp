@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What simpler methods would name from the same measurements: what a diagnosis has to beat.
 #pragma once
-#include "trial.hpp"
+#include <string>
+
+#include "emulator.hpp"
 
 namespace shakedown {
 
@@ -12,7 +14,8 @@ struct NaiveAnswers {
   std::string one_seed;     ///< least_error against one simulation of each model instead of an ensemble's mean
 };
 
-/// Refits the parameters to the trial's measurements, then every known effect beside them, linearly. Throws what diagnose_trial() throws.
-NaiveAnswers naive_answers(const Trial& trial, const TrialTools& tools);
+/// Refits the parameters to the experiment, then every known effect beside them, linearly. Throws InputError when the setup does not fit the
+/// experiment, Interrupted.
+NaiveAnswers naive_answers(const Setup& setup, const Experiment& experiment, const Workshop& workshop);
 
 }  // namespace shakedown
