@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "refit.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +12,8 @@
 namespace shakedown {
 
 namespace {
+
+constexpr int most_looks = 2;
 
 double root_mean_square(const std::vector<RunComparison>& runs, double RunComparison::*what) {
   double squares = 0;
@@ -25,6 +28,9 @@ void judge_at(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z,
   for (std::size_t r = 0; r < runs; ++r) result.runs.push_back(round.comparison(r, z));
 }
 
+/// The emulator promised much more than its solution keeps.
+bool misled(const Refit& result) { return result.scatter > 1.3 * result.promised_scatter + 0.3; }
+
 /// Simulations at the solution judge it.
 void confirm(const std::vector<MeasuredFeatures>& measured, const Workshop& workshop, const RefitOptions& options, Refit& result) {
   std::vector<Knob> point = result.knobs;
@@ -35,9 +41,11 @@ void confirm(const std::vector<MeasuredFeatures>& measured, const Workshop& work
   const std::vector<Knob> none;
   const FitRound round(measured, none, emulate(measured, point, options.confirming, options.first_run + 9000, workshop), options, workshop.fault);
   const Eigen::VectorXd here(0);
+  const double promised_p = result.p_value;
   result.promised_scatter = result.scatter;
   result.promised_chi2 = result.judged_chi2;
   judge_at(round, measured.size(), here, result);
+  if (!misled(result)) result.p_value = std::max(result.p_value, promised_p);
   result.covariances = round.covariances();
   const std::vector<Rule> rules = round.rules_of(options.judged_by);
   result.judged_chi2 = 0;
@@ -58,6 +66,12 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
     value.high = std::min(knobs[k].high, value.value + 1.96 * value.error);
     value.at_bound = value.value <= knobs[k].low || value.value >= knobs[k].high;
     result.values.push_back(value);
+  }
+  if (!knobs.empty()) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(covariance);  // in units of the box
+    const Eigen::Index least = covariance.rows() - 1;
+    result.least_known = axes.eigenvectors().col(least) * std::sqrt(std::max(0.0, axes.eigenvalues()[least]));
+    for (std::size_t k = 0; k < knobs.size(); ++k) result.least_known[static_cast<Eigen::Index>(k)] *= knobs[k].width;
   }
   const std::vector<Rule> own = round.rules_of(options.judged_by);
   for (std::size_t r = 0; r < measured.size(); ++r) result.judged_chi2 += round.judged_chi2(r, minimum.z, own[r]);
@@ -80,19 +94,16 @@ std::vector<Knob> next_box(std::vector<Knob> knobs, const Minimum& minimum, cons
   return knobs;
 }
 
-constexpr int most_looks = 2;
-
-/// The emulator promised much more than its solution keeps.
-bool misled(const Refit& result, const RefitOptions& options) {
-  return options.confirming > 0 && result.scatter > 1.3 * result.promised_scatter + 0.3 && result.promised_chi2 < options.look_again_below;
-}
-
-/// Half as wide, about the best solution so far.
-std::vector<Knob> nearer_box(const Refit& best, const std::vector<Knob>& last) {
+/// Where to look next, about the best solution so far: nearer where the emulator was misled; along a valley 1.5 standard errors to one side,
+/// then to the other. Empty: no need.
+std::vector<Knob> next_look(const Refit& latest, const Refit& best, const std::vector<Knob>& last, const RefitOptions& options, int looks) {
+  const bool nearer = misled(latest) && latest.promised_chi2 < options.look_again_below;
+  if (options.confirming == 0 || last.empty() || looks >= most_looks || (!nearer && best.p_value > options.look_beside_below)) return {};
   std::vector<Knob> knobs = last;
   for (std::size_t k = 0; k < knobs.size(); ++k) {
-    knobs[k].centre = best.values[k].value;
-    knobs[k].width *= 0.5;
+    const double beside = nearer ? 0 : (looks % 2 == 0 ? 1.5 : -1.5) * best.least_known[static_cast<Eigen::Index>(k)];
+    knobs[k].centre = std::clamp(best.values[k].value + beside, knobs[k].low, knobs[k].high);
+    if (nearer) knobs[k].width *= 0.5;
   }
   return knobs;
 }
@@ -142,10 +153,9 @@ Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> kno
       continue;
     }
     Refit result = result_at(round, measured, here, minimum, pooling, options);
-    const bool look_again = misled(result, options) && ++looks <= most_looks;
-    if (!best || result.scatter < best->scatter) best = std::move(result);
-    if (!look_again) return *best;
-    knobs = nearer_box(*best, here);
+    if (!best || result.scatter < best->scatter) best = result;
+    knobs = next_look(result, *best, here, options, looks++);
+    if (knobs.empty()) return *best;
   }
 }
 

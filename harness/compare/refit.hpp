@@ -32,10 +32,13 @@ void set_errors(RunComparison& run, const FeaturePlan& plan);
 
 struct Refit {
   std::vector<Knob> knobs;
+  Eigen::VectorXd least_known;  ///< a standard error along the direction in which the knobs are known least, in their units
   std::vector<Eigen::MatrixXd> covariances;  ///< m^2, of each measured run's features: chaos, camera noise and model error
   std::vector<FittedValue> values;
   double chi2 = 0, degrees = 0;
-  double p_value = 1;        ///< share of pseudo-experiments that fit no better
+  /// Share of pseudo-experiments that fit no better: the larger of the emulator's, refitted, and that of simulations at the solution, which is not
+  /// quite the minimum; the latter alone where the emulator is misled.
+  double p_value = 1;
   double scatter = 1;        ///< chi2 over the median of the pseudo-experiments'
   std::vector<RunComparison> runs;
   std::vector<FailureCell> cells;  ///< worst first
@@ -64,6 +67,8 @@ struct RefitOptions {
   /// Where it promised much more than the simulations at the solution confirm, it looks again in a narrower box, if what it promised is below
   /// this judged_chi2.
   double look_again_below = std::numeric_limits<double>::infinity();
+  /// Below this p-value it looks again on both sides along the direction that is known least, and keeps the best: a valley's emulator is noisy.
+  double look_beside_below = 0;
 };
 
 /// Fits the knobs (none: the setup as it is). `measured` may leave runs out; compare_at() then judges them.

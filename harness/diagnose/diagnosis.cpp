@@ -70,6 +70,8 @@ Refit Pipeline::fit(const std::string& step, const std::vector<Knob>& knobs, Eff
   options.judged_by = judged_by;
   options.confirming = effort.confirming;
   options.look_again_below = look_again_below;
+  // What others must beat is looked for with more effort than they are.
+  if (judged_by == nullptr) options.look_beside_below = doubtful;
   options.first_run = 100000 * ++batch_;
   return refit(features(), knobs, workshop_, options);
 }

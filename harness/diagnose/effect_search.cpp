@@ -162,7 +162,9 @@ Pipeline::Rival Pipeline::try_candidate(const ScreenedEffect& effect, const Cand
       knob.centre = std::clamp(effect.value, knob.low, knob.high);
       knob.width = std::max(knob.width, 0.5 * std::abs(effect.value));
     }
-  Rival rival{candidate.effect, candidate.doubt, base_, added, fit("trying " + candidate.effect, together(covering_the_users_values(fitted), added), to_try, &best, lowest), 0, 0, false};
+  const Effort effort = candidate.dear && !candidate.always ? to_try_dear : to_try;
+  const std::vector<Knob> knobs = together(covering_the_users_values(fitted), added);
+  Rival rival{candidate.effect, candidate.doubt, base_, added, fit("trying " + candidate.effect, knobs, effort, &best, lowest), 0, 0, false};
   // The restitutions are known well only together, and friction with them: along that valley there may be two minima (friction of .1, and of
   // .35 with other restitutions).
   if (std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; })) {

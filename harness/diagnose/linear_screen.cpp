@@ -111,7 +111,7 @@ std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured
   int batch = 0;
   const auto next = [&] { return first_run + 5000 * batch++; };
   const double without = screen_together(measured, fitted, candidates, cheap, workshop, count, next(), screening);
-  const int few = std::max(48, count / 6);
+  const int few = std::max(40, count / 8);
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (candidates[c].dear && candidates[c].always) {
       screening.list.push_back({c, candidates[c].effect, 0, candidates[c].knobs.front().centre, {}});

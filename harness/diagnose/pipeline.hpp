@@ -32,7 +32,7 @@ inline std::string effect_of(const std::string& key) { return key.substr(0, key.
 struct Effort {
   int rounds, count, confirming;
 };
-constexpr Effort only_look{1, 128, 0}, to_refit{3, 160, 128}, to_try{3, 128, 96}, to_look_again{2, 112, 96}, to_decide{1, 128, 128}, to_prune{2, 128, 96},
+constexpr Effort only_look{1, 128, 0}, to_refit{3, 160, 128}, to_try{3, 128, 96}, to_try_dear{2, 96, 64}, to_look_again{2, 112, 96}, to_decide{1, 128, 128}, to_prune{2, 128, 96},
     to_conclude{1, 192, 160};
 
 class Pipeline {
