@@ -137,8 +137,8 @@ Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> kno
   int looks = 0;
   for (int number = 1;; ++number) {
     const std::vector<Knob> here = knobs;
-    // Rounds that only find the way need fewer simulations than the one that judges.
-    const int count = knobs.empty() || number >= options.rounds ? options.count : std::max(64, options.count / 2);
+    // Rounds that only find the way, or look again where many were made, need fewer simulations than the one that judges.
+    const int count = knobs.empty() || (number >= options.rounds && !best) ? options.count : std::max(64, options.count / 2);
     const FitRound round(measured, here, emulate(measured, here, count, options.first_run + 10000 * number, pooling), options, workshop.fault);
     const Minimum minimum = minimum_of(round.objective(), reach, knobs.empty() ? 1 : 6);
     bool left_the_box = false;

@@ -71,7 +71,7 @@ Refit Pipeline::fit(const std::string& step, const std::vector<Knob>& knobs, Eff
   options.confirming = effort.confirming;
   options.look_again_below = look_again_below;
   // What others must beat is looked for with more effort than they are.
-  if (judged_by == nullptr) options.look_beside_below = doubtful;
+  if (effort.beside) options.look_beside_below = doubtful;
   options.first_run = 100000 * ++batch_;
   return refit(features(), knobs, workshop_, options);
 }

@@ -28,11 +28,12 @@ constexpr double quick_kick_interval = 1e-2;  // s
 
 inline std::string effect_of(const std::string& key) { return key.substr(0, key.find('.')); }
 
-/// Re-centrings at least, simulations of each different setup in a fit's last round, and at its solution.
+/// Re-centrings at least, simulations of each different setup in a fit's last round, and at its solution; whether a poor one looks beside it.
 struct Effort {
   int rounds, count, confirming;
+  bool beside = false;
 };
-constexpr Effort only_look{1, 128, 0}, to_refit{3, 160, 128}, to_try{3, 128, 96}, to_try_dear{2, 96, 64}, to_look_again{2, 112, 96}, to_decide{1, 128, 128}, to_prune{2, 128, 96},
+constexpr Effort only_look{1, 128, 0}, to_refit{3, 160, 128, true}, to_try{3, 128, 96}, to_try_dear{2, 96, 64}, to_look_again{2, 112, 96}, to_decide{1, 128, 128}, to_prune{2, 128, 96, true},
     to_conclude{1, 192, 160};
 
 class Pipeline {
