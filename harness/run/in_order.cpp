@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -14,8 +15,8 @@ namespace {
 
 class Line {
  public:
-  Line(int count, const std::function<std::function<void()>(int)>& work)
-      : count_(count), failed_(count), work_(work) {}
+  Line(int count, int window, const std::function<std::function<void()>(int)>& work)
+      : count_(count), window_(window), failed_(count), work_(work) {}
 
   void serve() {
     for (int number = take(); number < count_; number = take()) do_one(number);
@@ -27,8 +28,9 @@ class Line {
 
  private:
   int take() {
-    const std::lock_guard lock(mutex_);
-    return failed_ < count_ ? count_ : next_++;
+    std::unique_lock lock(mutex_);
+    turn_changed_.wait(lock, [&] { return next_ >= count_ || failed_ < count_ || next_ < turn_ + window_; });
+    return next_ >= count_ || failed_ < count_ ? count_ : next_++;
   }
 
   void do_one(int number) {
@@ -41,29 +43,45 @@ class Line {
     }
     std::unique_lock lock(mutex_);
     if (failure) note(number, failure);
-    turn_changed_.wait(lock, [&] { return turn_ == number; });
-    if (number < failed_ && deliver) {
-      lock.unlock();  // nobody else can have this turn
-      try {
-        deliver();
-      } catch (...) {
-        failure = std::current_exception();
+    waiting_.emplace(number, std::move(deliver));
+    if (!delivering_) deliver_all(lock);
+  }
+
+  /// Whoever finds his result due delivers it, and those behind it that wait already.
+  void deliver_all(std::unique_lock<std::mutex>& lock) {
+    delivering_ = true;
+    for (auto due = waiting_.begin(); due != waiting_.end() && due->first == turn_; due = waiting_.begin()) {
+      const std::function<void()> deliver = std::move(due->second);
+      waiting_.erase(due);
+      if (turn_ < failed_ && deliver) {
+        std::exception_ptr failure;
+        lock.unlock();
+        try {
+          deliver();
+        } catch (...) {
+          failure = std::current_exception();
+        }
+        lock.lock();
+        if (failure) note(turn_, failure);
       }
-      lock.lock();
-      if (failure) note(number, failure);
+      ++turn_;
+      turn_changed_.notify_all();
     }
-    ++turn_;
-    turn_changed_.notify_all();
+    delivering_ = false;
   }
 
   void note(int number, const std::exception_ptr& failure) {
-    if (number >= failed_) return;
-    failed_ = number;
-    failure_ = failure;
+    if (number < failed_) {
+      failed_ = number;
+      failure_ = failure;
+    }
+    turn_changed_.notify_all();
   }
 
-  const int count_;
+  const int count_, window_;
   int next_ = 0, turn_ = 0, failed_;
+  bool delivering_ = false;
+  std::map<int, std::function<void()>> waiting_;
   std::exception_ptr failure_;
   std::mutex mutex_;
   std::condition_variable turn_changed_;
@@ -78,10 +96,13 @@ int threads_or_all(int threads) {
 
 void work_in_parallel_deliver_in_order(int count, int threads,
                                        const std::function<std::function<void()>(int)>& work) {
-  Line line(count, work);
+  // Runs of one batch differ tenfold in cost: with room for few results the quick ones would wait for the slow ones.
+  constexpr int results_a_thread = 16;
+  const int all = threads_or_all(threads);
+  Line line(count, all > 1 ? results_a_thread * all : 1, work);
   {
     std::vector<std::jthread> helpers;
-    for (int i = 1; i < std::min(threads_or_all(threads), count); ++i)
+    for (int i = 1; i < std::min(all, count); ++i)
       helpers.emplace_back([&] { line.serve(); });
     line.serve();
   }
