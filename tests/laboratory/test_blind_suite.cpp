@@ -9,6 +9,7 @@
 
 #include "effects.hpp"
 #include "engines.hpp"
+#include "naive_answers.hpp"
 #include "toml_document.hpp"
 
 using namespace shakedown;
@@ -243,4 +244,19 @@ TEST(SlowBlindSuite, NullsAndACameraErrorAreToldApart) {
   EXPECT_EQ(score.answered, 3);
   EXPECT_EQ(figure(score, "false alarms").found.substr(0, 6), "0 of 2");
   EXPECT_EQ(figure(score, "camera artefacts named exactly").found.substr(0, 6), "1 of 1");
+}
+
+TEST(SlowNaiveAnswers, NameAStrongForceAndNeverFallSilent) {
+  const auto hard = engine_named("hard");
+  const TrialTools tools{hard.get(), hard.get(), all_effects(), 4000, 0, nullptr};
+  Trial trial;
+  trial.runs = small_design().runs;
+  trial.hidden = {{}, changed({}, at_strength(*find_hideable("spring_cubic"), 1), all_effects())};
+  const Workshop workshop{hard.get(), all_effects(), 0, nullptr, {}, nullptr};
+  const NaiveAnswers strong = naive_answers({}, measured_in(trial, tools), workshop);
+  EXPECT_EQ(strong.least_error, "spring_cubic");
+  EXPECT_EQ(strong.white_noise, "spring_cubic");
+  EXPECT_NE(strong.one_seed, "");
+  trial.hidden.truth = {};
+  EXPECT_NE(naive_answers({}, measured_in(trial, tools), workshop).least_error, "");  // some effect always fits a little better
 }
