@@ -108,13 +108,6 @@ std::string example(const std::string& name) {
   return std::string(PROJECT_ROOT) + "/harness/examples/" + name;
 }
 
-void WithFolder::SetUp() {
-  std::string name = (fs::temp_directory_path() / "shakedown_cli_XXXXXX").string();
-  folder = ::mkdtemp(name.data());
-}
-
-void WithFolder::TearDown() { fs::remove_all(folder); }
-
 std::string WithFolder::file(const std::string& name, const std::string& text) const {
   std::ofstream(folder / name) << text;
   return in_folder(name);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "scratch_folder.hpp"
+
 struct Outcome {
   int code = -1;
   std::string out, err;
@@ -29,10 +31,8 @@ std::string example(const std::string& name);
 /// A test with an empty folder of its own.
 class WithFolder : public testing::Test {
  protected:
-  void SetUp() override;
-  void TearDown() override;
   std::string in_folder(const std::string& name) const { return (folder / name).string(); }
   /// Writes a file into the folder and returns its path.
   std::string file(const std::string& name, const std::string& text) const;
-  std::filesystem::path folder;
+  const shakedown::ScratchFolder folder;
 };

@@ -76,7 +76,7 @@ TEST_F(BadInput, UnwritableOutputIsExitFourBeforeAnyWork) {
        std::vector<std::vector<std::string>>{{"--out", in_folder("plain/out")},
                                              {"--out", in_folder("plain")},
                                              {"--json", in_folder("plain/a.json")},
-                                             {"--json", folder.string()}}) {
+                                             {"--json", folder.path().string()}}) {
     std::vector<std::string> arguments{"run", example("L040.toml"), "--set", forever, "--rate", "1"};
     arguments.insert(arguments.end(), option.begin(), option.end());
     const Outcome outcome = shakedown_program(arguments);

@@ -10,6 +10,7 @@
 
 #include "effects.hpp"
 #include "engines_under_test.hpp"
+#include "scratch_folder.hpp"
 
 namespace shakedown {
 
@@ -21,12 +22,7 @@ struct PlacedGrain {
 class PlacedGrains {
  public:
   explicit PlacedGrains(const std::vector<PlacedGrain>& grains) {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(test->test_suite_name()) + "_" + test->name() + ".csv";
-    for (char& letter : name)
-      if (letter == '/') letter = '_';
-    path_ = std::filesystem::temp_directory_path() / name;
-    std::ofstream file(path_);
+    std::ofstream file(path());
     file.precision(17);
     file << "id,x,y,z,vx,vy,vz\n";
     int id = 0;
@@ -37,13 +33,10 @@ class PlacedGrains {
       file << '\n';
     }
   }
-  PlacedGrains(const PlacedGrains&) = delete;
-  PlacedGrains& operator=(const PlacedGrains&) = delete;
-  ~PlacedGrains() { std::filesystem::remove(path_); }
-  std::string path() const { return path_.string(); }
+  std::string path() const { return (folder_ / "grains.csv").string(); }
 
  private:
-  std::filesystem::path path_;
+  ScratchFolder folder_;
 };
 
 /// Runs a setup whose grains are these.

@@ -20,16 +20,4 @@ inline StoredRun logged_run() {
   return {"test", setup, 0, *make_hard_engine()->run(setup, options).collision_log};
 }
 
-/// A folder of this test alone, empty at first.
-inline std::filesystem::path own_folder() {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  std::string name = std::string("shakedown_") + test->test_suite_name() + "_" + test->name();
-  for (char& letter : name)
-    if (letter == '/') letter = '_';
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / name;
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
 }  // namespace shakedown

@@ -4,11 +4,12 @@
 
 #include "logged_run.hpp"
 #include "output_file.hpp"
+#include "scratch_folder.hpp"
 
 using namespace shakedown;
 
 TEST(CollisionLogFile, ReadsBackBitForBit) {
-  const std::filesystem::path folder = own_folder();
+  const ScratchFolder folder;
   const StoredRun run = logged_run();
   write_file(folder / collision_log_name, collision_log_bytes(run));
   const StoredRun back = read_collision_log(folder, all_effects());
@@ -26,7 +27,7 @@ TEST(CollisionLogFile, ReadsBackBitForBit) {
 }
 
 TEST(CollisionLogFile, NamesADamagedFile) {
-  const std::filesystem::path folder = own_folder();
+  const ScratchFolder folder;
   const std::string bytes = collision_log_bytes(logged_run());
   for (const std::size_t length : {std::size_t{0}, std::size_t{40}, bytes.size() / 2, bytes.size() - 1}) {
     write_file(folder / "cut.log", bytes.substr(0, length));

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "logged_run.hpp"
+#include "scratch_folder.hpp"
 #include "text_frames.hpp"
 
 using namespace shakedown;
@@ -48,7 +49,7 @@ std::vector<Frame> frames_of(const StoredRun& run, const FrameTimes& times) {
 TEST_P(ExportAs, IsReadBackByTheProgramItIsFor) {
   const StoredRun run = logged_run();
   const FrameTimes times{0.2, 0.3, 200};
-  const std::filesystem::path folder = own_folder();
+  const ScratchFolder folder;
   const Exported exported = export_run(run, times, export_format_named(GetParam()), folder);
   EXPECT_EQ(exported.frames, 21);
   EXPECT_TRUE(std::filesystem::exists(exported.open));

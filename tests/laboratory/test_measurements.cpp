@@ -9,6 +9,7 @@
 #include "effects.hpp"
 #include "engines.hpp"
 #include "experiment_file.hpp"
+#include "scratch_folder.hpp"
 
 using namespace shakedown;
 
@@ -110,12 +111,11 @@ TEST(Measurements, AreTheSameForAnyNumberOfThreadsAndDifferentForAnotherSeed) {
 }
 
 TEST(Measurements, ReadBackFromTheirFilesAsTheyWere) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "shakedown_measurements_test";
-  std::filesystem::create_directories(folder);
+  const ScratchFolder folder;
   RecordingSettings recording;
   recording.missing = 0.05;
   const Experiment experiment = measure(short_damper(), recording, 1, 5, {0.04, 0.04, 0.104});
-  write_measurements(folder, experiment);
+  write_measurements(folder.path(), experiment);
   const Experiment back = read_experiment(folder / "experiment.toml");
   ASSERT_EQ(back.runs.size(), 3u);
   EXPECT_EQ(back.runs[1].name, "L040_b");
@@ -129,7 +129,6 @@ TEST(Measurements, ReadBackFromTheirFilesAsTheyWere) {
       EXPECT_TRUE(std::isnan(wrote) ? std::isnan(read) : std::abs(wrote - read) < 1e-12) << i;
     }
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Measurements, RunsAreNamedByLength) {

@@ -8,6 +8,7 @@
 #include "effects.hpp"
 #include "experiment_file.hpp"
 #include "measured_file.hpp"
+#include "scratch_folder.hpp"
 
 namespace shakedown {
 namespace {
@@ -16,17 +17,10 @@ namespace fs = std::filesystem;
 
 class ExperimentFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("shakedown_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "_" +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   void write(const std::string& name, const std::string& text) {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
-  Experiment parse(const std::string& text) { return parse_experiment(text, "experiment.toml", folder_); }
+  Experiment parse(const std::string& text) { return parse_experiment(text, "experiment.toml", folder_.path()); }
   std::string message_of(const std::string& text) {
     try {
       parse(text);
@@ -36,7 +30,7 @@ class ExperimentFile : public ::testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  const ScratchFolder folder_;
   const std::string columns_ =
       "[column.time]\nfrom = \"t_s\"\nunit = \"s\"\n[column.box_position]\nfrom = \"x\"\nunit = "
       "\"mm\"\nuncertainty = \"0.2 mm\"\n";

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <string>
 
+#include "scratch_folder.hpp"
+
 namespace fs = std::filesystem;
 
 namespace {
-
-const fs::path folder = fs::temp_directory_path() / "shakedown_browser";
 
 int status_of(const std::string& command) { return std::system(command.c_str()) >> 8; }
 
@@ -30,7 +30,7 @@ int check(const fs::path& report) {
 
 TEST(SlowBrowser, ShowsARunWithItsGrains) {
   if (const std::string missing = what_is_missing(); !missing.empty()) GTEST_SKIP() << missing;
-  fs::create_directories(folder);
+  const shakedown::ScratchFolder folder;
   const fs::path report = folder / "run.html";
   ASSERT_EQ(status_of(SHAKEDOWN " run " PROJECT_ROOT "/harness/examples/L065.toml --report " + report.string() + " > /dev/null"), 0);
   EXPECT_LT(fs::file_size(report), 1'500'000u);
@@ -39,8 +39,8 @@ TEST(SlowBrowser, ShowsARunWithItsGrains) {
 
 TEST(SlowBrowser, ShowsAStudyOfFourLengthsWithAHiddenEffect) {
   if (const std::string missing = what_is_missing(); !missing.empty()) GTEST_SKIP() << missing;
+  const shakedown::ScratchFolder folder;
   const fs::path study = folder / "study", report = folder / "study.html";
-  fs::remove_all(study);
   ASSERT_EQ(status_of(SHAKEDOWN " hide " PROJECT_ROOT "/harness/examples/L040.toml --effect blade_viscous_damping --lengths 40mm,65mm,85mm,104mm --engine hard "
                       "--duration '10 s' --out " + study.string() + " > /dev/null"), 0);
   const int rejected = status_of(SHAKEDOWN " compare " + (study / "setup.toml").string() + " --data " + (study / "experiment.toml").string() +
@@ -52,9 +52,8 @@ TEST(SlowBrowser, ShowsAStudyOfFourLengthsWithAHiddenEffect) {
 
 TEST(SlowBrowser, ShowsASweepWithoutGrains) {
   if (const std::string missing = what_is_missing(); !missing.empty()) GTEST_SKIP() << missing;
-  fs::create_directories(folder);
+  const shakedown::ScratchFolder folder;
   const fs::path report = folder / "sweep.html", results = folder / "sweep.sqlite";
-  fs::remove(results);
   ASSERT_EQ(status_of(SHAKEDOWN " sweep " PROJECT_ROOT "/harness/examples/L040.toml --vary box.length=40:80:10mm --vary restitution.grain_grain=0.6:0.9:0.1 --set 'run.duration=3 s' --out " +
                       results.string() + " --report " + report.string() + " > /dev/null 2>&1"), 0);
   EXPECT_EQ(check(report), 0);

@@ -14,6 +14,7 @@
 #include "packed_numbers.hpp"
 #include "paper_report.hpp"
 #include "report_joined.hpp"
+#include "scratch_folder.hpp"
 
 using namespace shakedown;
 
@@ -76,10 +77,10 @@ TEST(Report, PageEscapesWhatItIsGiven) {
 TEST(Report, SameReportSameBytes) { EXPECT_EQ(report_html(small_report()), report_html(small_report())); }
 
 TEST(Report, SurvivesItsFile) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "shakedown_report_survives";
+  const ScratchFolder folder;
   const Report report = small_report();
   write_file(folder / report_file_name, report_json(report));
-  EXPECT_EQ(report_html(read_report(folder)), report_html(report));
+  EXPECT_EQ(report_html(read_report(folder.path())), report_html(report));
   write_file(folder / "other.json", "{\"schema_version\": 99}");
   EXPECT_THROW(read_report(folder / "other.json"), FileError);
   write_file(folder / "other.json", "nonsense");

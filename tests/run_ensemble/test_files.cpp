@@ -10,6 +10,7 @@
 #include "closed_form_engine.hpp"
 #include "output_file.hpp"
 #include "run_results.hpp"
+#include "scratch_folder.hpp"
 #include "series_file.hpp"
 
 using namespace shakedown;
@@ -19,9 +20,6 @@ namespace {
 
 class Files : public testing::Test {
  protected:
-  void SetUp() override { fs::remove_all(folder); }
-  void TearDown() override { fs::remove_all(folder); }
-
   static std::string contents(const fs::path& file) {
     std::ifstream stream(file);
     std::ostringstream text;
@@ -29,12 +27,10 @@ class Files : public testing::Test {
     return text.str();
   }
   std::size_t entries() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
   }
 
-  const fs::path folder =
-      fs::temp_directory_path() /
-      ("shakedown_files_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  const ScratchFolder folder;
 };
 
 Trajectory two_samples() {
@@ -75,7 +71,6 @@ TEST_F(Files, SayBeforehandThatTheyCannotBeWritten) {
 
 TEST_F(Files, AFullDiskIsHeardAndLeavesTheOldFile) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  fs::create_directories(folder);
   // A neighbour that is a link to the full device stands for a full disk.
   write_file(folder / "a.txt", "old");
   fs::create_symlink("/dev/full", folder / ("a.txt.partial-" + std::to_string(::getpid())));

@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "bullet_world.hpp"
+#include "scratch_folder.hpp"
 
 using namespace shakedown;
 
@@ -41,7 +42,8 @@ std::vector<double> row_after_impact(const std::vector<double>& x, const std::ve
 }
 
 double end_wall_restitution(double speed, double time_step, bool defaults) {
-  const auto path = std::filesystem::temp_directory_path() / "shakedown_one_grain.csv";
+  const ScratchFolder folder;
+  const std::filesystem::path path = folder / "grains.csv";
   std::ofstream(path) << "id,x,y,z,vx,vy,vz\n1,0.0148,0,0," << speed << ",0,0\n";
   shakedown::Setup setup;
   setup.release.displacement = 0;
@@ -52,7 +54,6 @@ double end_wall_restitution(double speed, double time_step, bool defaults) {
   setup.run.duration = 4e-4 / speed;
   setup.run.sample_rate = 1 / setup.run.duration;
   const Trajectory result = make_bullet_engine()->run(setup);
-  std::filesystem::remove(path);
   const double m = setup.grains.mass, reduced_mass = m * setup.box.mass / (m + setup.box.mass);
   return std::sqrt(std::max(0.0, 1 - result.ledger.contact_loss[1] / (reduced_mass * speed * speed / 2)));
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "scratch_folder.hpp"
 #include "soft_engine.hpp"
 
 using namespace shakedown;
@@ -45,9 +46,7 @@ class SoftEffects : public ::testing::Test {
     setup.domain = Domain::closed;
     setup.box.length = setup.box.width[0] = setup.box.width[1] = 0.2;
     setup.grains.count = static_cast<int>(grains.size());
-    file = (std::filesystem::temp_directory_path() /
-            (std::string("shakedown_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv"))
-               .string();
+    const std::filesystem::path file = folder / "grains.csv";
     std::ofstream out(file);
     out.precision(17);
     out << "id,x,y,z,vx,vy,vz\n";
@@ -56,12 +55,8 @@ class SoftEffects : public ::testing::Test {
       for (const double value : grains[i]) out << ',' << value;
       out << '\n';
     }
-    setup.release.initial_grains = file;
+    setup.release.initial_grains = file.string();
     return setup;
-  }
-
-  ~SoftEffects() override {
-    if (!file.empty()) std::filesystem::remove(file);
   }
 
   Trajectory run(const shakedown::Setup& setup, double ledger_error = 1e-12) const {
@@ -73,7 +68,7 @@ class SoftEffects : public ::testing::Test {
   }
 
   std::vector<std::unique_ptr<EffectRecord>> records;
-  std::string file;
+  ScratchFolder folder;
 };
 
 const double angular_frequency = 2 * std::numbers::pi * 1.23;

@@ -13,6 +13,7 @@
 #include "effects.hpp"
 #include "engines.hpp"
 #include "run_numbers.hpp"
+#include "scratch_folder.hpp"
 #include "setup_file.hpp"
 
 using namespace shakedown;
@@ -23,12 +24,9 @@ namespace {
 class Sweep : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "shakedown_sweep_XXXXXX").string();
-    folder = ::mkdtemp(name.data());
     base.run.duration = 2;
     plan = plan_sweep(base, parse_axes({"box.length=40:60:10 mm", "restitution.grain_grain=0.7,0.8"}, all_effects()), 3, *engine, all_effects());
   }
-  void TearDown() override { fs::remove_all(folder); }
 
   ResultFile file(const std::string& name, ResultFile::Opening opening = ResultFile::Opening::resume) const {
     return ResultFile(folder / name, identity_of(plan, *engine), opening);
@@ -59,7 +57,7 @@ class Sweep : public testing::Test {
     ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) << status;
   }
 
-  fs::path folder;
+  const ScratchFolder folder;
   const std::unique_ptr<Engine> engine = engine_named("hard");
   shakedown::Setup base;
   SweepPlan plan;
