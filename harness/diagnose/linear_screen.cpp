@@ -6,30 +6,31 @@
 #include <cmath>
 
 #include "feature_covariance.hpp"
+#include "linear_model.hpp"
 
 namespace shakedown {
 
 namespace {
 
-/// Columns (features x knobs) and residual of one experiment, whitened and stacked over the runs.
-struct Linear {
-  Eigen::MatrixXd columns;
-  Eigen::VectorXd residual;
-};
+using Roots = std::vector<Eigen::LLT<Eigen::MatrixXd>>;
 
-Linear whitened(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators, Eigen::Index knobs) {
-  Eigen::Index total = 0, at = 0;
-  for (const MeasuredFeatures& m : measured) total += m.values.size();
-  Linear linear{Eigen::MatrixXd(total, knobs), Eigen::VectorXd(total)};
-  for (std::size_t r = 0; r < measured.size(); ++r) {
-    const Emulator& e = emulators[r];
-    const Eigen::LLT<Eigen::MatrixXd> root(feature_covariance(e.residuals, measured[r].plan, 0));
-    const Eigen::Index n = measured[r].values.size();
-    linear.columns.middleRows(at, n) = root.matrixL().solve(e.coefficients.middleRows(1, knobs).transpose());
-    linear.residual.segment(at, n) = root.matrixL().solve(measured[r].values - e.coefficients.row(0).transpose());
-    at += n;
-  }
-  return linear;
+/// Of each run's chaos and camera noise.
+Roots roots_of(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators) {
+  Roots roots;
+  for (std::size_t r = 0; r < measured.size(); ++r) roots.emplace_back(feature_covariance(emulators[r].residuals, measured[r].plan, 0));
+  return roots;
+}
+
+LinearModel whitened(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators, std::size_t knobs, const Roots& roots) {
+  return linear_model(measured, emulators, knobs, [&](std::size_t r, Eigen::MatrixXd& block) { roots[r].matrixL().solveInPlace(block); });
+}
+
+/// What the regression's own error adds to a whitened square: a term's share of each feature.
+double own_error(const std::vector<Emulator>& emulators) {
+  double sum = 0;
+  for (const Emulator& e : emulators)
+    sum += static_cast<double>(e.coefficients.size()) / static_cast<double>(e.residuals.rows());
+  return sum;
 }
 
 /// What the fitted parameters cannot take up of a column.
@@ -46,36 +47,21 @@ class Outside {
 
 struct Screening {
   std::vector<ScreenedEffect> list;
+  Roots roots;                              ///< one metric for all, of the first and largest regression
   std::vector<Eigen::VectorXd> signatures;  ///< of each in the list, whitened, with the fitted parameters projected out; empty: on or off
 };
-
-std::vector<Knob> straight(std::vector<Knob> knobs, double widths) {
-  for (Knob& knob : knobs) {
-    knob.width *= widths;
-    knob.curved = false;
-  }
-  return knobs;
-}
 
 /// Candidates with knobs, scattered together in `count` runs.
 /// Returns what the fitted parameters alone leave of the residual's square.
 double screen_together(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
                      const std::vector<std::size_t>& members, const Workshop& workshop, int count, int first_run, Screening& screening) {
-  std::vector<Knob> knobs = straight(fitted, 0.5);
-  std::vector<std::size_t> candidate_of;
-  std::vector<MeasuredFeatures> with = measured;
-  for (const std::size_t c : members) {
-    for (const Knob& knob : straight(candidates[c].knobs, 1)) {
-      knobs.push_back(knob);
-      candidate_of.push_back(c);
-    }
-    for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidates[c], workshop.known);
-  }
+  const auto [knobs, candidate_of, with] = beside_fitted(measured, fitted, candidates, members, workshop.known);
   const auto n_fitted = static_cast<Eigen::Index>(fitted.size());
-  const Linear linear = whitened(with, emulate(with, knobs, count, first_run, workshop), static_cast<Eigen::Index>(knobs.size()));
+  const std::vector<Emulator> emulators = emulate(with, knobs, count, first_run, workshop);
+  if (screening.roots.empty()) screening.roots = roots_of(with, emulators);
+  const LinearModel linear = whitened(with, emulators, knobs.size(), screening.roots);
   const Outside outside(linear.columns.leftCols(n_fitted));
-  Eigen::VectorXd without = linear.residual;  // of the model with all candidates absent
-  for (std::size_t k = fitted.size(); k < knobs.size(); ++k) without -= linear.columns.col(static_cast<Eigen::Index>(k)) * knobs[k].z_of(when_absent(knobs[k]));
+  const Eigen::VectorXd without = residual_without(linear, knobs, fitted.size());  // of the model with all candidates absent
   const Eigen::VectorXd residual = outside(without);
   for (std::size_t k = 0; k < candidate_of.size(); ++k) {
     const Knob& knob = knobs[fitted.size() + k];
@@ -86,7 +72,7 @@ double screen_together(const std::vector<MeasuredFeatures>& measured, const std:
     screening.list.push_back({candidate_of[k], candidates[candidate_of[k]].effect, allowed ? by * by * square : 0, knob.at(z), {}});
     screening.signatures.push_back(signature);
   }
-  return residual.squaredNorm();
+  return residual.squaredNorm() - own_error(emulators);
 }
 
 /// On or off: the model with it, beside the model without.
@@ -94,9 +80,10 @@ void screen_switch(const std::vector<MeasuredFeatures>& measured, const std::vec
                    std::size_t c, const Workshop& workshop, int count, int first_run, double without, Screening& screening) {
   std::vector<MeasuredFeatures> with = measured;
   for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidates[c], workshop.known);
-  const auto n_fitted = static_cast<Eigen::Index>(fitted.size());
-  const Linear linear = whitened(with, emulate(with, straight(fitted, 0.5), count, first_run, workshop), n_fitted);
-  screening.list.push_back({c, candidates[c].effect, without - Outside(linear.columns)(linear.residual).squaredNorm(), 0, {}});
+  const std::vector<Emulator> emulators = emulate(with, straight(fitted, 0.5), count, first_run, workshop);
+  const LinearModel linear = whitened(with, emulators, fitted.size(), screening.roots);
+  const double left = Outside(linear.columns)(linear.residual).squaredNorm() - own_error(emulators);
+  screening.list.push_back({c, candidates[c].effect, without - left, 0, {}});
   screening.signatures.emplace_back();
 }
 

@@ -8,7 +8,7 @@
 
 #include "audit.hpp"
 #include "experiment_file.hpp"
-#include "linear_screen.hpp"
+#include "linear_model.hpp"
 #include "parameter_knobs.hpp"
 #include "refit.hpp"
 
@@ -16,30 +16,14 @@ namespace shakedown {
 
 namespace {
 
-/// Measured less modelled, and what each knob does, features x knobs, all runs stacked.
-struct Residual {
-  Eigen::VectorXd values;
-  Eigen::MatrixXd columns;
-};
-
-/// `one_seed`: each column from the difference of two single simulations, as if the mean of many were not known.
-Residual residual_of(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators, Eigen::Index knobs, bool one_seed) {
-  Eigen::Index total = 0, at = 0;
-  for (const MeasuredFeatures& m : measured) total += m.values.size();
-  Residual residual{Eigen::VectorXd(total), Eigen::MatrixXd(total, knobs)};
-  for (std::size_t r = 0; r < measured.size(); ++r) {
-    const Emulator& e = emulators[r];
-    const Eigen::Index n = measured[r].values.size();
-    const Eigen::RowVectorXd chaos = (one_seed ? 1.0 : 0.0) * e.residuals.row(0);
-    residual.values.segment(at, n) = measured[r].values - (e.coefficients.row(0) + chaos).transpose();
-    for (Eigen::Index k = 0; k < knobs; ++k) {
-      Eigen::RowVectorXd column = e.coefficients.row(1 + k);
-      if (one_seed) column += e.residuals.row(1 + k % (e.residuals.rows() - 1)) - chaos;
-      residual.columns.col(k).segment(at, n) = column.transpose();
-    }
-    at += n;
+/// The emulators that two single simulations would give: each coefficient has the chaos of one, as if the mean of many were not known.
+std::vector<Emulator> of_one_seed(std::vector<Emulator> emulators, std::size_t knobs) {
+  for (Emulator& e : emulators) {
+    const Eigen::RowVectorXd chaos = e.residuals.row(0);
+    e.coefficients.row(0) += chaos;
+    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(knobs); ++k) e.coefficients.row(1 + k) += e.residuals.row(1 + k % (e.residuals.rows() - 1)) - chaos;
   }
-  return residual;
+  return emulators;
 }
 
 /// What a feature counts: of the box alone, or by the camera's noise.
@@ -51,8 +35,8 @@ Eigen::VectorXd weights_of(const std::vector<MeasuredFeatures>& measured, bool b
 }
 
 /// Weighted square that the columns leave.
-double left_by(const Residual& residual, const Eigen::MatrixXd& columns, const Eigen::VectorXd& weights) {
-  const Eigen::VectorXd values = weights.asDiagonal() * residual.values;
+double left_by(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns, const Eigen::VectorXd& weights) {
+  const Eigen::VectorXd values = weights.asDiagonal() * residual;
   if (columns.cols() == 0) return values.squaredNorm();
   const Eigen::MatrixXd weighted = weights.asDiagonal() * columns;
   return (values - weighted * weighted.colPivHouseholderQr().solve(values)).squaredNorm();
@@ -86,52 +70,37 @@ class Naive {
     return emulate(measured, knobs, count, 100000 * ++batch_, workshop_);
   }
 
-  void offer(const std::string& effect, const Residual& mean, const Residual& single, const Eigen::MatrixXd& columns, const Eigen::MatrixXd& single_columns) {
-    least_error_.offer(effect, left_by(mean, columns, box_));
-    akaike_.offer(effect, left_by(mean, columns, noise_) + 2 * static_cast<double>(columns.cols()));
-    one_seed_.offer(effect, left_by(single, single_columns, box_));
+  void offer(const std::string& effect, const LinearModel& mean, const LinearModel& single) {
+    least_error_.offer(effect, left_by(mean.residual, mean.columns, box_));
+    akaike_.offer(effect, left_by(mean.residual, mean.columns, noise_) + 2 * static_cast<double>(mean.columns.cols()));
+    one_seed_.offer(effect, left_by(single.residual, single.columns, box_));
   }
 
   void offer_switch(const Candidate& candidate) {
     std::vector<MeasuredFeatures> with = measured_;
     for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidate, workshop_.known);
-    const std::vector<Emulator> emulators = emulators_of(with, theta_, few);
-    const auto n = static_cast<Eigen::Index>(theta_.size());
-    const Residual mean = residual_of(with, emulators, n, false), single = residual_of(with, emulators, n, true);
-    offer(candidate.effect, mean, single, mean.columns, single.columns);
+    const std::vector<Emulator> emulators = emulators_of(with, straight(theta_, 0.5), few);
+    offer(candidate.effect, linear_model(with, emulators, theta_.size()), linear_model(with, of_one_seed(emulators, theta_.size()), theta_.size()));
   }
 
   /// All strengths scattered at once; each is then fitted beside the parameters with the others absent.
   void offer_strengths(const std::vector<Candidate>& candidates) {
-    std::vector<Knob> knobs = theta_;
-    std::vector<std::string> effects;
-    std::vector<MeasuredFeatures> with = measured_;
-    for (const Candidate& candidate : candidates) {
-      for (Knob knob : candidate.knobs) {
-        knob.curved = false;
-        knobs.push_back(knob);
-        effects.push_back(candidate.effect);
-      }
-      if (!candidate.knobs.empty())
-        for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidate, workshop_.known);
-    }
-    const auto n_theta = static_cast<Eigen::Index>(theta_.size()), n = static_cast<Eigen::Index>(knobs.size());
+    std::vector<std::size_t> members;
+    for (std::size_t c = 0; c < candidates.size(); ++c)
+      if (!candidates[c].knobs.empty()) members.push_back(c);
+    const auto [knobs, candidate_of, with] = beside_fitted(measured_, theta_, candidates, members, workshop_.known);
     const std::vector<Emulator> emulators = emulators_of(with, knobs, many);
-    Residual mean = residual_of(with, emulators, n, false), single = residual_of(with, emulators, n, true);
-    for (Residual* residual : {&mean, &single})
-      for (Eigen::Index k = n_theta; k < n; ++k) {
-        const Knob& knob = knobs[static_cast<std::size_t>(k)];
-        residual->values -= residual->columns.col(k) * knob.z_of(when_absent(knob));
-      }
-    const Eigen::MatrixXd theta = mean.columns.leftCols(n_theta), single_theta = single.columns.leftCols(n_theta);
-    akaike_.offer("", left_by(mean, theta, noise_) + 2 * static_cast<double>(n_theta));
-    for (std::size_t k = 0; k < effects.size(); ++k) {
-      const Eigen::Index column = n_theta + static_cast<Eigen::Index>(k);
-      Eigen::MatrixXd columns(theta.rows(), n_theta + 1), single_columns(theta.rows(), n_theta + 1);
-      columns << theta, mean.columns.col(column);
-      single_columns << single_theta, single.columns.col(column);
-      offer(effects[k], mean, single, columns, single_columns);
-    }
+    const std::size_t n = theta_.size();
+    LinearModel mean = linear_model(with, emulators, knobs.size()), single = linear_model(with, of_one_seed(emulators, knobs.size()), knobs.size());
+    for (LinearModel* model : {&mean, &single}) model->residual = residual_without(*model, knobs, n);
+    const auto beside_theta = [&](const LinearModel& model, std::size_t k) {
+      const auto fitted = static_cast<Eigen::Index>(n);
+      LinearModel one{Eigen::MatrixXd(model.columns.rows(), fitted + 1), model.residual};
+      one.columns << model.columns.leftCols(fitted), model.columns.col(fitted + static_cast<Eigen::Index>(k));
+      return one;
+    };
+    akaike_.offer("", left_by(mean.residual, mean.columns.leftCols(static_cast<Eigen::Index>(n)), noise_) + 2 * static_cast<double>(n));
+    for (std::size_t k = 0; k < candidate_of.size(); ++k) offer(candidates[candidate_of[k]].effect, beside_theta(mean, k), beside_theta(single, k));
   }
 
   const std::vector<MeasuredFeatures>& measured_;
@@ -150,11 +119,7 @@ NaiveAnswers naive_answers(const Setup& setup, const Experiment& experiment, con
   RefitOptions options;
   options.count = 96;
   const Refit fit = refit(measured, theta, workshop, options);
-  for (std::size_t k = 0; k < theta.size(); ++k) {
-    theta[k].centre = fit.values[k].value;
-    theta[k].width *= 0.5;
-    theta[k].curved = false;
-  }
+  for (std::size_t k = 0; k < theta.size(); ++k) theta[k].centre = fit.values[k].value;
   return Naive(measured, theta, workshop).answers();
 }
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Measured less modelled, and what each knob does to it: the linear regression that ranks effects, whatever the weights.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "candidates.hpp"
+
+namespace shakedown {
+
+/// All measured runs stacked.
+struct LinearModel {
+  Eigen::MatrixXd columns;   ///< features x knobs, by one width of each knob
+  Eigen::VectorXd residual;  ///< measured less the model at the knobs' centres
+};
+
+/// Weighs a block of run `r`: features x anything, in place.
+using Weigh = std::function<void(std::size_t r, Eigen::MatrixXd& block)>;
+
+/// The linear terms of the emulators, one of each measured run. No `weigh`: metres.
+LinearModel linear_model(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators, std::size_t knobs, const Weigh& weigh = {});
+
+/// The fitted parameters and some candidates, to be scattered together.
+struct BesideFitted {
+  std::vector<Knob> knobs;                  ///< the fitted ones, then the candidates', all straight
+  std::vector<std::size_t> candidate_of;    ///< of each knob after the fitted ones
+  std::vector<MeasuredFeatures> measured;   ///< with what the candidates need besides
+};
+BesideFitted beside_fitted(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
+                           const std::vector<std::size_t>& members, std::span<const EffectRecord* const> known);
+
+/// The residual of the model in which every knob from the number `fitted` on is at its absence.
+Eigen::VectorXd residual_without(const LinearModel& model, const std::vector<Knob>& knobs, std::size_t fitted);
+
+/// The knobs with no curvature, `widths` times as wide.
+std::vector<Knob> straight(std::vector<Knob> knobs, double widths);
+
+}  // namespace shakedown
