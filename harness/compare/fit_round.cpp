@@ -34,6 +34,25 @@ FitRound::FitRound(const std::vector<MeasuredFeatures>& measured, const std::vec
   objective_ = objective_of(measured_values(), true);
 }
 
+std::vector<Emulator> FitRound::recentred(const Eigen::VectorXd& z, std::vector<Emulator> there) const {
+  const Eigen::Index n = z.size();
+  const Eigen::MatrixXd slopes = slopes_at(z);
+  for (std::size_t r = 0; r < there.size(); ++r) {
+    Emulator& e = there[r];
+    const Eigen::RowVectorXd mean = e.coefficients.row(0);
+    e.coefficients.resize(1 + n, mean.size());
+    e.coefficients.row(0) = mean;
+    e.coefficients.bottomRows(n) = slopes.transpose() * emulators_[r].coefficients;
+    const double of_mean = e.inverse_normal(0, 0);
+    e.inverse_normal.setZero(1 + n, 1 + n);
+    e.inverse_normal(0, 0) = of_mean;
+    e.inverse_normal.bottomRightCorner(n, n) = slopes.transpose() * emulators_[r].inverse_normal * slopes;
+    e.terms = Eigen::MatrixXd::Zero(e.residuals.rows(), 1 + n);
+    e.terms.col(0).setOnes();
+  }
+  return there;
+}
+
 Eigen::VectorXd FitRound::model(std::size_t r, const Eigen::VectorXd& z) const {
   return emulators_[r].coefficients.transpose() * regression_terms(knobs_, z);
 }

@@ -34,6 +34,9 @@ class FitRound {
            const RefitOptions& options, MethodFault fault = MethodFault::none);
 
   const Objective& objective() const { return objective_; }
+
+  /// Linear emulators about z, of simulations made there (regressions on nothing) and this round's slopes, by one width of each knob.
+  std::vector<Emulator> recentred(const Eigen::VectorXd& z, std::vector<Emulator> there) const;
   Eigen::VectorXd model(std::size_t r, const Eigen::VectorXd& z) const;
 
   /// The smallest sum over pseudo-experiments: the model at z, a simulation that the covariance has not seen for each run, and camera

@@ -14,11 +14,22 @@ namespace shakedown {
 namespace {
 
 constexpr int most_looks = 2;
+/// How far (in boxes) the regression's slopes are trusted about simulations at one point, and the share of chi2 that a step must promise to be worth
+/// simulations of its own at its end.
+constexpr double nearby = 0.5, worth_a_step = 0.1;
+constexpr int most_steps = 1;
 
 double root_mean_square(const std::vector<RunComparison>& runs, double RunComparison::*what) {
   double squares = 0;
   for (const RunComparison& run : runs) squares += run.*what * (run.*what);
   return runs.empty() ? 0 : std::sqrt(squares / static_cast<double>(runs.size()));
+}
+
+void set_value(const Knob& knob, double at, FittedValue& value) {
+  value.value = at;
+  value.low = std::max(knob.low, at - 1.96 * value.error);
+  value.high = std::min(knob.high, at + 1.96 * value.error);
+  value.at_bound = at <= knob.low || at >= knob.high;
 }
 
 void judge_at(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z, Refit& result) {
@@ -31,25 +42,39 @@ void judge_at(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z,
 /// The emulator promised much more than its solution keeps.
 bool misled(const Refit& result) { return result.scatter > 1.3 * result.promised_scatter + 0.3; }
 
-/// Simulations at the solution judge it.
-void confirm(const std::vector<MeasuredFeatures>& measured, const Workshop& workshop, const RefitOptions& options, Refit& result) {
-  std::vector<Knob> point = result.knobs;
-  for (std::size_t k = 0; k < point.size(); ++k) {
-    point[k].centre = result.values[k].value;
-    point[k].width = 0;
-  }
-  const std::vector<Knob> none;
-  const FitRound round(measured, none, emulate(measured, point, options.confirming, options.first_run + 9000, workshop), options, workshop.fault);
-  const Eigen::VectorXd here(0);
-  const double promised_p = result.p_value;
+/// Simulations at the solution judge it, and move it: about the mean of real simulations the regression's slopes tell where the minimum is, which
+/// the regression itself, led by what it cannot follow, may miss.
+void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& measured, const Workshop& workshop, const RefitOptions& options,
+             Eigen::VectorXd z, Refit& result) {
   result.promised_scatter = result.scatter;
   result.promised_chi2 = result.judged_chi2;
-  judge_at(round, measured.size(), here, result);
-  if (!misled(result)) result.p_value = std::max(result.p_value, promised_p);
-  result.covariances = round.covariances();
-  const std::vector<Rule> rules = round.rules_of(options.judged_by);
-  result.judged_chi2 = 0;
-  for (std::size_t r = 0; r < measured.size(); ++r) result.judged_chi2 += round.judged_chi2(r, here, rules[r]);
+  for (int step = 0;; ++step) {
+    std::vector<Knob> about = result.knobs;
+    for (std::size_t k = 0; k < about.size(); ++k) {
+      about[k].centre = about[k].at(z[static_cast<Eigen::Index>(k)]);
+      about[k].curved = about[k].cubic = false;
+    }
+    std::vector<Knob> point = about;
+    for (Knob& knob : point) knob.width = 0;
+    const FitRound round(measured, about, emulated.recentred(z, emulate(measured, point, options.confirming, options.first_run + 9000 + 250 * step, workshop)),
+                         options, workshop.fault);
+    const Eigen::VectorXd here = Eigen::VectorXd::Zero(z.size());
+    Eigen::VectorXd there = minimum_of(round.objective(), nearby, 1).z;
+    if (round.objective().chi2(there) < (1 - worth_a_step) * round.objective().chi2(here)) {
+      if (step < most_steps) {
+        z += there;
+        continue;
+      }
+      there = here;  // promised once more, and not seen
+    }
+    judge_at(round, measured.size(), there, result);
+    for (std::size_t k = 0; k < about.size(); ++k) set_value(about[k], about[k].at(there[static_cast<Eigen::Index>(k)]), result.values[k]);
+    result.covariances = round.covariances();
+    const std::vector<Rule> rules = round.rules_of(options.judged_by);
+    result.judged_chi2 = 0;
+    for (std::size_t r = 0; r < measured.size(); ++r) result.judged_chi2 += round.judged_chi2(r, there, rules[r]);
+    return;
+  }
 }
 
 Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const Minimum& minimum,
@@ -61,10 +86,8 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
   if (!knobs.empty()) covariance += round.emulator_scatter(minimum.z);
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    FittedValue value{knobs[k].key, knobs[k].at(minimum.z[i]), 0, 0, std::sqrt(covariance(i, i)) * knobs[k].width, false};
-    value.low = std::max(knobs[k].low, value.value - 1.96 * value.error);
-    value.high = std::min(knobs[k].high, value.value + 1.96 * value.error);
-    value.at_bound = value.value <= knobs[k].low || value.value >= knobs[k].high;
+    FittedValue value{knobs[k].key, 0, 0, 0, std::sqrt(covariance(i, i)) * knobs[k].width, false};
+    set_value(knobs[k], knobs[k].at(minimum.z[i]), value);
     result.values.push_back(value);
   }
   if (!knobs.empty()) {
@@ -76,7 +99,7 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
   const std::vector<Rule> own = round.rules_of(options.judged_by);
   for (std::size_t r = 0; r < measured.size(); ++r) result.judged_chi2 += round.judged_chi2(r, minimum.z, own[r]);
   result.covariances = round.covariances();
-  if (options.confirming > 0 && !knobs.empty()) confirm(measured, workshop, options, result);
+  if (options.confirming > 0 && !knobs.empty()) confirm(round, measured, workshop, options, minimum.z, result);
   // Lengths left out are fitted anew, which only the emulators can do.
   round.hold_out(result, round.rules_of(options.judged_by ? options.judged_by : &result));
   return result;

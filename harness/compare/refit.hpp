@@ -36,9 +36,7 @@ struct Refit {
   std::vector<Eigen::MatrixXd> covariances;  ///< m^2, of each measured run's features: chaos, camera noise and model error
   std::vector<FittedValue> values;
   double chi2 = 0, degrees = 0;
-  /// Share of pseudo-experiments that fit no better: the larger of the emulator's, refitted, and that of simulations at the solution, which is not
-  /// quite the minimum; the latter alone where the emulator is misled.
-  double p_value = 1;
+  double p_value = 1;  ///< share of pseudo-experiments that, refitted, fit no better
   double scatter = 1;        ///< chi2 over the median of the pseudo-experiments'
   std::vector<RunComparison> runs;
   std::vector<FailureCell> cells;  ///< worst first
@@ -61,8 +59,9 @@ struct RefitOptions {
   int first_run = 1000;
   double model_error = 0.002;  ///< of the release: how well two codes of the same physics agree (soft contacts of finite duration ...)
   const Refit* judged_by = nullptr;  ///< a fit to the same measured runs; null: by itself
-  /// Simulations of each different setup at the solution, which then judge it: its chi2, errors, p-value and cells. An emulator that cannot
-  /// follow the model takes its own misfit for chaos, and where the model is wrong it promises too much. 0: the emulator judges.
+  /// Simulations of each different setup at the solution, which then move it to the minimum that they and the emulator's slopes show, and judge it:
+  /// its chi2, errors, p-value and cells. An emulator that cannot follow the model takes its own misfit for chaos, and where the model is
+  /// wrong it promises too much. 0: the emulator judges.
   int confirming = 0;
   /// Where it promised much more than the simulations at the solution confirm, it looks again in a narrower box, if what it promised is below
   /// this judged_chi2.

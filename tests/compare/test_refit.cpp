@@ -218,6 +218,35 @@ TEST(Refit, SimulationsAtTheSolutionJudgeItAndWhatPromisedTooMuchLooksAgain) {
   EXPECT_NEAR(confirmed.values[0].value, 0.82, 0.01);
 }
 
+/// A restitution that works along a curve which no parabola over the whole box follows, and one over a part of it does.
+class Curve final : public Engine {
+ public:
+  std::string_view name() const override { return "curve"; }
+  Capability can_model(const EffectRecord&) const override { return {Fidelity::exact, ""}; }
+  Trajectory run(const shakedown::Setup& setup, const RunOptions& options) const override {
+    shakedown::Setup other = setup;
+    other.restitution.grain_grain = 0.75 + 0.2 * std::tanh((setup.restitution.grain_grain - 0.75) / 0.12);
+    return DampedOscillation{}.run(other, options);
+  }
+};
+
+TEST(Refit, SimulationsAtTheSolutionMoveItToTheMinimum) {
+  const Curve engine;
+  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  const double truth = 0.85;
+  shakedown::Setup seen = believed_setup();
+  seen.restitution.grain_grain = 0.75 + 0.2 * std::tanh((truth - 0.75) / 0.12);
+  const std::vector<MeasuredFeatures> measured = measured_on(seen, believed_setup(), 0);
+  RefitOptions trusting, confirming;
+  trusting.rounds = confirming.rounds = 1;
+  trusting.most_rounds = confirming.most_rounds = 1;
+  confirming.confirming = 96;
+  const Refit promised = refit(measured, theta, workshop, trusting), confirmed = refit(measured, theta, workshop, confirming);
+  const double before = std::abs(promised.values[0].value - truth), after = std::abs(confirmed.values[0].value - truth);
+  EXPECT_LT(after, 0.5 * before) << promised.values[0].value << " " << confirmed.values[0].value << " p " << promised.p_value << " " << confirmed.p_value;
+  EXPECT_GT(confirmed.p_value, 0.01);
+}
+
 TEST(EnsembleCache, ChangesNoAnswerAndSimulatesOnce) {
   const DampedOscillation engine;
   Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
