@@ -48,6 +48,7 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
     knob.low = 0;
   }
   list.push_back({"blade_arc", {}, {{"blade_arc.blade_length", 0.59}}, false});
+  list.back().when_tried = {{"blade_arc.blade_length", 0.7, 0.3, 0.2, 3, true}};
   add("camera_com_bias", "bias", true);
   list.push_back({"camera_arc", {}, {{"camera_arc.blade_length", 0.59}}, true});
   add("camera_scale", "scale", false);

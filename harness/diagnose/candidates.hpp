@@ -17,6 +17,7 @@ struct Candidate {
   bool dear = false;              ///< costs several times a plain run: screened by itself, with fewer runs
   /// Tried whatever the linear estimate says: inside the contacts a refit hides most of what is linear, and at full strength it is not.
   bool always = false;
+  std::vector<Knob> when_tried{};  ///< of one that is on or off to the linear estimate: what its fit may vary
 };
 
 /// The knob's value at which the effect is absent: zero for strengths, the centre for what replaces a parameter.

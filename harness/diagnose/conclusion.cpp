@@ -63,7 +63,7 @@ FittedValue Pipeline::allowing_for_engines(FittedValue value) {
   const auto here = std::find_if(first_boxes_.begin(), first_boxes_.end(), [&](const Knob& knob) { return knob.key == value.key; });
   const double relative = options_.strength_uncertainty ? options_.strength_uncertainty(effect) : 0;
   if (here == first_boxes_.end() || relative == 0) return value;
-  const double absent = here->low <= 0 ? 0 : base_.restitution.grain_wall;
+  const double absent = effect == "side_wall_restitution" ? base_.restitution.grain_wall : 0;
   const double more = 1.96 * relative * std::abs(value.value - absent);
   value.low = std::max(here->low, value.value - std::hypot(value.value - value.low, more));
   value.high = std::min(here->high, value.value + std::hypot(value.high - value.value, more));

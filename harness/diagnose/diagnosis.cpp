@@ -173,13 +173,18 @@ void Pipeline::judge() {
   result_.ladder.push_back(step_of(step, best));
   keep(best);
   if (result_.missing.empty()) note_failures(best);  // else those of the model as given stay
-  while (best.p_value <= doubtful && static_cast<int>(result_.missing.size()) < most_effects && add_best_candidate(best)) {
-  }
-  prune(best);
-  if (!result_.missing.empty() && !concluded_) {
+  for (bool searched = false;;) {
+    while (best.p_value <= doubtful && static_cast<int>(result_.missing.size()) < most_effects) {
+      searched = true;
+      if (!add_best_candidate(best)) break;
+    }
+    prune(best);
+    if (result_.missing.empty() || concluded_) break;
     best = fit("refitting with what was found", together(theta_, chosen_), to_conclude);
+    concluded_ = true;
     keep(best);
     result_.ladder.back() = step_of(result_.ladder.back().step, best);
+    if (searched) break;  // else this fit may show what the quick one did not
   }
   if (result_.missing.empty()) {
     result_.verdict = best.p_value > rejected || best.scatter < codes_differ ? Verdict::refit : Verdict::unknown;

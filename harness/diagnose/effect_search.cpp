@@ -11,6 +11,9 @@ namespace shakedown {
 
 namespace {
 
+/// A rival has explained so much more (chi2) that another start of this one will not catch up; the two minima of friction differ by less.
+constexpr double hopelessly_behind = 60;
+
 /// Without the effect the restitutions were led astray: the box reaches from there to what the user gave.
 std::vector<Knob> covering_the_users_values(std::vector<Knob> knobs) {
   for (Knob& knob : knobs) {
@@ -73,14 +76,17 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   const auto always = [&](const ScreenedEffect& effect) { return candidates[effect.candidate].always; };
   std::stable_sort(screened.begin(), screened.end(), [&](const ScreenedEffect& a, const ScreenedEffect& b) { return promise(a) > promise(b); });
   std::stable_partition(screened.begin(), screened.end(), always);
-  const auto first = std::find_if_not(screened.begin(), screened.end(), always);
+  const auto others = std::find_if_not(screened.begin(), screened.end(), always);
+  const double most_promised = others == screened.end() ? 0 : promise(*others);
+  // What promises much goes first: it may make closer looks at the others needless.
+  if (most_promised > 2 * least_gain) std::rotate(screened.begin(), others, others + 1);
   const Setup before = base_;
   std::vector<Rival> rivals;
   double best_score = 0, lowest = best.judged_chi2;
   for (const ScreenedEffect& effect : screened) {
     if (rivals.size() >= most_tried || result_.runs_simulated > options_.budget) break;
     // Linear gains rank well enough to leave out what promises half of what another has already brought.
-    if (!always(effect) && (effect.gain < least_gain / 2 || promise(effect) < std::max(0.25 * promise(*first), 0.5 * best_score))) continue;
+    if (!always(effect) && (effect.gain < least_gain / 2 || promise(effect) < std::max(0.25 * most_promised, 0.5 * best_score))) continue;
     try {
       rivals.push_back(try_candidate(effect, candidates[effect.candidate], before, fitted, best, lowest));
       lowest = std::min(lowest, rivals.back().fit.judged_chi2);
@@ -106,8 +112,8 @@ bool Pipeline::pays(const Rival& rival, const Refit& best) const {
   const bool beside_friction = std::find(result_.missing.begin(), result_.missing.end(), "grain_friction") != result_.missing.end();
   const bool confirmed = std::isfinite(rival.held_out_gain) && rival.held_out_gain > least_gain;
   const double least = beside_friction || (best.p_value > rejected && !confirmed) ? 2 * least_gain : least_gain;
-  // A part of the effect (friction between grains only, tried with that at the walls) explains less of the misfit.
-  const double share = confirmed ? least_share / 2 : least_share;
+  // Restitutions far from the user's imitate friction to within a few per cent of the misfit; lengths left out tell.
+  const double share = confirmed ? 0 : least_share;
   return rival.gain >= least * std::max(1.0, rival.fit.scatter) + rival.doubt && rival.gain >= share * best.judged_chi2;
 }
 
@@ -154,20 +160,23 @@ bool Pipeline::add_best_candidate(Refit& best) {
 Pipeline::Rival Pipeline::try_candidate(const ScreenedEffect& effect, const Candidate& candidate, const Setup& before, const std::vector<Knob>& fitted,
                                         const Refit& best, double lowest) {
   base_ = prepared(before, candidate, options_.known);
-  std::vector<Knob> added = candidate.knobs;
-  for (Knob& knob : added)
-    if (candidate.always) {  // its whole usual range
+  std::vector<Knob> added = candidate.knobs.empty() ? candidate.when_tried : candidate.knobs;
+  for (Knob& knob : added) {
+    if (candidate.knobs.empty()) break;  // nothing is known of it yet
+    if (candidate.always) {              // its whole usual range
       knob.centre += knob.width;
     } else {  // where the linear estimate points
       knob.centre = std::clamp(effect.value, knob.low, knob.high);
       knob.width = std::max(knob.width, 0.5 * std::abs(effect.value));
     }
+  }
   const Effort effort = candidate.dear && !candidate.always ? to_try_dear : to_try;
   const std::vector<Knob> knobs = together(covering_the_users_values(fitted), added);
   Rival rival{candidate.effect, candidate.doubt, base_, added, fit("trying " + candidate.effect, knobs, effort, &best, lowest), 0, 0, false};
   // The restitutions are known well only together, and friction with them: along that valley there may be two minima (friction of .1, and of
   // .35 with other restitutions).
-  if (std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; })) {
+  const bool hopeless = lowest < best.judged_chi2 - 2 * least_gain && rival.fit.judged_chi2 > lowest + hopelessly_behind;
+  if (!hopeless && std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; })) {
     const Refit other = fit("trying " + candidate.effect + " from elsewhere", second_start(rival.fit, added), to_look_again, &best, std::min(lowest, rival.fit.judged_chi2));
     if (other.judged_chi2 < rival.fit.judged_chi2) rival.fit = other;
   }

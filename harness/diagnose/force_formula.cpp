@@ -182,7 +182,7 @@ ForceFormula described(const SelectionProblem& p, const Selection& selection, st
   return formula;
 }
 
-/// Families that would take this formula's place with chi2 no more than 6 higher.
+/// Families that would take this formula's place.
 void find_look_alikes(const SelectionProblem& p, ForceMap& map, const Selection& selection, std::size_t which,
                       ForceFormula& formula) {
   std::vector<ChosenTerm> others = selection.chosen;
@@ -192,7 +192,7 @@ void find_look_alikes(const SelectionProblem& p, ForceMap& map, const Selection&
   formula.gain = without.chi2 - selection.fit.chi2;
   map.project_out(without.residual, orthonormal_basis(columns));
   for (const ForceShape& shape : force_shapes())
-    if (shape.formula != formula.formula && best_of(p, map, shape).gain > formula.gain - 6)
+    if (shape.formula != formula.formula && best_of(p, map, shape).gain > formula.gain - as_good)
       formula.look_alikes.push_back(shape.formula);
 }
 
@@ -206,7 +206,7 @@ std::vector<std::string> plain_formulas_like(const SelectionProblem& p, ForceMap
   map.project_out(without.residual, orthonormal_basis(columns));
   std::vector<std::string> found;
   for (const ForceShape& shape : force_shapes())
-    if (shape.parameters.empty() && without.chi2 - map.gain(shape, {}) < selection.fit.chi2 + 4)
+    if (shape.parameters.empty() && without.chi2 - map.gain(shape, {}) < selection.fit.chi2 + as_good)
       found.push_back(shape.formula);
   return found;
 }

@@ -66,7 +66,7 @@ double differs_between_runs(const SelectionProblem& p, const Selection& selectio
   return chi_squared_tail(fall, static_cast<double>(runs - 1));
 }
 
-/// Terms that could stand in for this one: chi2 would rise by less than three standard deviations.
+/// Terms that could stand in for this one.
 std::vector<std::string> look_alikes(const SelectionProblem& p, const Selection& selection,
                                      std::size_t which) {
   std::vector<std::string> names;
@@ -81,7 +81,7 @@ std::vector<std::string> look_alikes(const SelectionProblem& p, const Selection&
       continue;
     const Gain gain =
         gain_of(without.residual, basis, p.problem.column(p.terms[term]), p.terms[term].never_negative);
-    if (gain.gain > 0 && without.chi2 - gain.gain < selection.fit.chi2 + 9)
+    if (gain.gain > 0 && without.chi2 - gain.gain < selection.fit.chi2 + as_good)
       names.push_back(p.terms[term].name);
   }
   return names;

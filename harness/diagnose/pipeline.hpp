@@ -33,7 +33,7 @@ struct Effort {
   int rounds, count, confirming;
   bool beside = false;
 };
-constexpr Effort only_look{1, 128, 0}, to_refit{3, 160, 128, true}, to_try{3, 128, 96}, to_try_dear{2, 96, 64}, to_look_again{2, 112, 96}, to_decide{1, 128, 128}, to_prune{2, 128, 96, true},
+constexpr Effort only_look{1, 128, 0}, to_refit{2, 160, 128, true}, to_try{2, 128, 96}, to_try_dear{1, 96, 64}, to_look_again{2, 112, 96}, to_decide{1, 128, 128}, to_prune{2, 128, 96, true},
     to_conclude{1, 192, 160};
 
 class Pipeline {
