@@ -39,8 +39,8 @@ std::vector<PlannedRun> lasting(std::vector<PlannedRun> runs, const std::vector<
 
 class Draw {
  public:
-  Draw(const Setup& believed, const BlindDesign& design, const Strengths& strengths, std::uint64_t seed, std::span<const EffectRecord* const> known)
-      : believed_(believed), design_(design), strengths_(strengths), seed_(seed), known_(known) {}
+  Draw(const Setup& believed, const BlindDesign& design, const SignalLaws& laws, std::uint64_t seed, std::span<const EffectRecord* const> known)
+      : believed_(believed), design_(design), laws_(laws), seed_(seed), known_(known) {}
 
   BlindCase one(BlindKind kind, int index) const;
 
@@ -55,7 +55,7 @@ class Draw {
 
   const Setup& believed_;
   const BlindDesign& design_;
-  const Strengths& strengths_;
+  const SignalLaws& laws_;
   std::uint64_t seed_;
   std::span<const EffectRecord* const> known_;
 };
@@ -79,14 +79,16 @@ void Draw::parameters(Random& random, std::vector<Override>& truth) const {
 
 void Draw::hide(Random& random, const Hideable& hideable, double signal, std::vector<Override>& truth, BlindCase& drawn) const {
   const std::string name = strength_name(hideable.id, drawn.kind);
-  const auto unit = strengths_.find(name);
-  const double of_unit = unit == strengths_.end() || unit->second <= 0 ? signal : unit->second;
-  const double strength = std::min(signal / of_unit, hideable.strongest);
-  const double frequency = between(random, 0.5, 6), phase = between(random, 0, 6);
+  const auto found = laws_.find(name);
+  const SignalLaw law = found == laws_.end() || found->second.signal <= 0 ? SignalLaw{1, signal} : found->second;
+  const double noise = relative_noise(drawn.trial.recording, believed_);
+  const double strength = std::min(law.strength_for(signal, noise), hideable.strongest);
+  // Not faster: the balance's windows would see much less of it than of the one that the law was measured with.
+  const double frequency = between(random, 0.5, 3), phase = between(random, 0, 6);
   for (Override& override : at_strength(hideable, strength, frequency, phase)) truth.push_back(std::move(override));
   drawn.ids.emplace_back(hideable.id);
   drawn.strengths.push_back(name);
-  const double reached = strength * of_unit;
+  const double reached = law.signal_at(strength, noise);
   drawn.signal_to_noise = drawn.signal_to_noise > 0 ? std::min(drawn.signal_to_noise, reached) : reached;
 }
 
@@ -194,9 +196,9 @@ BlindDesign varied(BlindDesign design, std::string_view variant, const std::stri
   return design;
 }
 
-std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design, const Strengths& strengths, std::uint64_t seed,
+std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design, const SignalLaws& laws, std::uint64_t seed,
                                   std::span<const EffectRecord* const> known) {
-  const Draw draw(believed, design, strengths, seed, known);
+  const Draw draw(believed, design, laws, seed, known);
   std::vector<BlindCase> cases;
   for (std::size_t kind = 0; kind < counts.size(); ++kind)
     for (int index = 0; index < counts[kind]; ++index) cases.push_back(draw.one(static_cast<BlindKind>(kind), index));

@@ -4,7 +4,7 @@
 #include <array>
 #include <map>
 
-#include "hideable.hpp"
+#include "signal_law.hpp"
 
 namespace shakedown {
 
@@ -23,8 +23,8 @@ struct BlindCase {
   BlindKind kind = BlindKind::null;
   Trial trial;
   std::vector<std::string> ids;  ///< of what is hidden
-  std::vector<std::string> strengths;  ///< their names in the table of strengths
-  double signal_to_noise = 0;    ///< of each hidden thing by the table of strengths; 0: nothing hidden
+  std::vector<std::string> strengths;  ///< their names in the table of signal laws
+  double signal_to_noise = 0;    ///< of each hidden thing by the table of signal laws; 0: nothing hidden
   std::string twin;              ///< effect that these measurements cannot tell from the hidden one
   std::vector<PlannedRun> more;  ///< of twins: runs that tell them apart
 };
@@ -49,15 +49,15 @@ constexpr std::array<std::string_view, 7> variant_names{"one-repeat", "two-lengt
 /// jump; grains not tracked. Throws InputError for another name.
 BlindDesign varied(BlindDesign design, std::string_view variant, const std::string& origin = "--variant");
 
-/// Signal to noise of strength 1 of each hideable thing, by strength_name().
-using Strengths = std::map<std::string, double, std::less<>>;
+/// Of each hideable thing, by strength_name().
+using SignalLaws = std::map<std::string, SignalLaw, std::less<>>;
 
 /// In the twins' small experiment a strength is worth less than in the full one.
 std::string strength_name(std::string_view id, BlindKind kind);
 
 /// Laboratory and diagnosis differ in parameters drawn at random (of nulls the believed ones), in contact time, packing
 /// (three in five are as believed), camera noise and seed. Same arguments, same cases.
-std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design, const Strengths& strengths, std::uint64_t seed,
+std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design, const SignalLaws& laws, std::uint64_t seed,
                                   std::span<const EffectRecord* const> known);
 
 }  // namespace shakedown

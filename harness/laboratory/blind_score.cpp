@@ -10,7 +10,7 @@
 
 #include "blind_suite.hpp"
 #include "effects.hpp"
-#include "formula.hpp"
+#include "force_likeness.hpp"
 #include "random.hpp"
 #include "sealed.hpp"
 #include "toml_document.hpp"
@@ -248,28 +248,6 @@ void inventions(const std::vector<Opened>& cases, Table& table) {
 
 // ---- forces in no list ----
 
-/// |cos| of two series after a linear spring has been taken out of both: the spring's frequency is refitted anyway.
-double likeness(std::vector<double> a, std::vector<double> b, const std::vector<double>& x) {
-  const auto dot = [](const std::vector<double>& p, const std::vector<double>& q) {
-    double sum = 0;
-    for (std::size_t i = 0; i < p.size(); ++i) sum += p[i] * q[i];
-    return sum;
-  };
-  for (std::vector<double>* series : {&a, &b}) {
-    const double share = dot(*series, x) / dot(x, x);
-    for (std::size_t i = 0; i < x.size(); ++i) (*series)[i] -= share * x[i];
-  }
-  const double size = std::sqrt(dot(a, a) * dot(b, b));
-  return size > 0 ? std::abs(dot(a, b)) / size : 0;
-}
-
-std::vector<double> along(const std::string& formula, const std::map<std::string, double>& constants, const Trajectory& motion) {
-  const Formula force(formula, constants);
-  std::vector<double> values;
-  for (std::size_t i = 0; i < motion.time.size(); ++i) values.push_back(force(motion.x_box[i], motion.v_box[i], motion.time[i]));
-  return values;
-}
-
 /// One of the formulas offered is the hidden force to within its strength.
 bool form_is_offered(const Opened& one, const TrialTools& tools) {
   if (one.lost || !one.answer.contains("formulas")) return false;
@@ -277,14 +255,14 @@ bool form_is_offered(const Opened& one, const TrialTools& tools) {
   truth.run.duration = 8;
   const Trajectory motion = tools.model->run(truth);
   const EffectChoice& hidden = truth.effects.front();
-  const std::vector<double> force = along(hidden.text("force"), hidden.constants("constants"), motion);
+  const std::vector<double> force = force_along(hidden.text("force"), hidden.constants("constants"), motion);
   for (const Json& found : one.answer["formulas"]) {
     const auto constants = found["constants"].get<std::map<std::string, double>>();
     std::vector<std::string> forms = found["look_alikes"].get<std::vector<std::string>>();
     forms.push_back(found["formula"].get<std::string>());
     for (const std::string& form : forms) {
       try {
-        if (likeness(force, along(form, constants, motion), motion.x_box) > 0.95) return true;
+        if (force_likeness(force, force_along(form, constants, motion), motion.x_box) > 0.95) return true;
       } catch (const FormulaProblem&) {  // a look-alike with constants of its own
       }
     }

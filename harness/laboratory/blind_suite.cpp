@@ -26,7 +26,7 @@ class Suite {
 
   void run() {
     open();
-    const std::vector<BlindCase> cases = draw_cases(believed_, options_.counts, design_, strengths(), options_.seed, tools_.known);
+    const std::vector<BlindCase> cases = draw_cases(believed_, options_.counts, design_, laws(), options_.seed, tools_.known);
     seal(cases);
     int done = 0;
     for (const BlindCase& one : cases) {
@@ -66,13 +66,14 @@ class Suite {
                          "go on with the same ones, or name another folder"}});
   }
 
-  Strengths strengths() const {
+  SignalLaws laws() const {
     const fs::path file = folder_ / "strengths.json";
-    Strengths table;
+    SignalLaws table;
     const fs::path given = fs::exists(file) ? file : options_.strengths;
     if (!given.empty()) {
       const Json document = Json::parse(read_text_file(given));
-      for (const auto& [id, value] : document.at("signal_of_strength_1").items()) table[id] = value.get<double>();
+      for (const auto& [id, law] : document.at("signals").items())
+        table[id] = {law.at("strength").get<double>(), law.at("signal").get<double>(), law.at("power").get<double>(), law.at("by") == "balance"};
     }
     const std::vector<std::string> needed = needed_ids();
     const std::string twins = strength_name("", BlindKind::twins);
@@ -81,18 +82,20 @@ class Suite {
       // Of the experiment as designed: a worse one is given the same strengths.
       const bool twin = id.starts_with(twins);
       const std::vector<PlannedRun> runs = twin ? twin_runs() : (options_.small ? small_design() : full_design()).runs;
-      table[id] = signal_of_unit_strength(*find_hideable(twin ? id.substr(twins.size()) : id), believed_, options_.seed + 77, {runs, options_.small ? 48 : 96}, tools_);
-      tell("a typical " + id + " has signal to noise " + std::to_string(table[id]).substr(0, 5));
+      const SignalSettings settings{runs, options_.small ? 48 : 96};
+      table[id] = signal_law(*find_hideable(twin ? id.substr(twins.size()) : id), believed_, options_.seed + 77, settings, tools_);
+      tell("a typical " + id + " has signal to noise " + std::to_string(table[id].signal_at(1, 1)).substr(0, 5));
       save(file, table);
     }
     save(file, table);
     return table;
   }
 
-  static void save(const fs::path& file, const Strengths& table) {
+  static void save(const fs::path& file, const SignalLaws& table) {
     Json values = Json::object();
-    for (const auto& [id, value] : table) values[id] = value;
-    write_file(file, Json{{"schema_version", 1}, {"signal_of_strength_1", values}}.dump(2) + "\n");
+    for (const auto& [id, law] : table)
+      values[id] = {{"strength", law.strength}, {"signal", law.signal}, {"power", law.power}, {"by", law.by_balance ? "balance" : "ensembles"}};
+    write_file(file, Json{{"schema_version", 2}, {"signals", values}}.dump(2) + "\n");
   }
 
   /// What these cases hide; drawn once with no table to learn it.

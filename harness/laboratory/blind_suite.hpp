@@ -2,7 +2,7 @@
 // Diagnoses on trial by the hundred: cases are drawn, their answers written and closed, each case diagnosed without them, and only then
 // are the answers opened and scored. A folder holds it all, so that an interrupted suite goes on where it stopped:
 //   plan.json            what was asked for, and a digest of every sealed answer
-//   strengths.json       signal to noise of strength 1 of everything that can be hidden
+//   strengths.json       signal to noise against strength of everything that can be hidden
 //   sealed/case_0001.json  what is hidden
 //   answers/case_0001.json what the diagnosis says; of twins case_0001_more.json with the runs that decide
 #pragma once

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hideable.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "audit.hpp"
-#include "experiment_file.hpp"
-#include "momentum.hpp"
 #include "quantity.hpp"
-#include "refit.hpp"
 #include "setup_keys.hpp"
 #include "toml_document.hpp"
 
@@ -118,43 +111,6 @@ std::vector<Override> at_strength(const Hideable& hideable, double strength, dou
 
 Setup changed(const Setup& setup, const std::vector<Override>& overrides, std::span<const EffectRecord* const> known) {
   return parse_setup(write_setup(setup), "setup", known, overrides);
-}
-
-double signal_to_noise(const HiddenCase& hidden, std::uint64_t seed, const SignalSettings& settings, const TrialTools& tools) {
-  const Laboratory laboratory{tools.laboratory, tools.known, seed, tools.threads, tools.stop};
-  const Experiment experiment = make_measurements(hidden.truth, settings.runs, {}, laboratory);
-  const Audit found = audit(experiment);
-  const std::vector<Setup> setups = setups_of_runs(hidden.believed, experiment, tools.known);
-  const std::vector<std::string> effects = hidden_effects(hidden);
-  const bool unlisted = std::find(effects.begin(), effects.end(), "unknown") != effects.end();
-  MomentumOptions by_balance;
-  by_balance.formulas = false;
-  const MomentumAudit momentum = audit_momentum(experiment, found, setups, by_balance);
-  if (unlisted) return momentum.possible ? std::sqrt(std::max(momentum.final_fit.chi2 - momentum.final_fit.degrees, 0.0)) : 0;
-  const Setup& believed = hidden.believed;
-  const double frequency = momentum.possible ? momentum.refitted.degrees > 0 ? momentum.frequency : believed.spring.frequency : believed.spring.frequency;
-  const std::vector<Knob> knobs{{"restitution.grain_grain", believed.restitution.grain_grain, 0.15, 0.2, 0.999, true},
-                                {"restitution.grain_wall", believed.restitution.grain_wall, 0.15, 0.2, 0.999, true},
-                                {"spring.frequency", frequency, 0.01 * frequency, 0.5 * frequency, 2 * frequency, true}};
-  RefitOptions options;
-  options.count = options.confirming = settings.count;
-  const Workshop workshop{tools.model, tools.known, tools.threads, tools.stop, {}, nullptr};
-  const Refit fit = refit(features_of(experiment, found, setups), knobs, workshop, options);
-  const double ensembles = fit.chi2 - fit.degrees, balance = momentum.possible ? momentum.refitted.chi2 - momentum.refitted.degrees : 0;
-  return std::sqrt(std::max({ensembles, balance, 0.0}));
-}
-
-double signal_of_unit_strength(const Hideable& hideable, const Setup& believed, std::uint64_t seed, const SignalSettings& settings, const TrialTools& tools) {
-  double strength = 1, signal = 0;
-  for (int round = 0; round < 3; ++round) {
-    const HiddenCase hidden{believed, changed(believed, at_strength(hideable, strength), tools.known)};
-    signal = signal_to_noise(hidden, seed + static_cast<std::uint64_t>(round), settings, tools);
-    if ((signal > 12 && signal < 40) || round == 2) break;
-    const double next = std::min(strength * std::clamp(20 / std::max(signal, 3.0), 0.05, 4.0), hideable.strongest);
-    if (next == strength) break;
-    strength = next;
-  }
-  return signal / strength;
 }
 
 }  // namespace shakedown

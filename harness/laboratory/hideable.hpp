@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a blind suite hides, each with one number that says how strong it is, and how much of a signal a strength leaves once everything
-// that the user may refit has been refitted.
+// What a blind suite hides, each with one number that says how strong it is.
 #pragma once
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,18 +39,5 @@ std::vector<Override> at_strength(const Hideable& hideable, double strength, dou
 
 /// The setup with overrides on top.
 Setup changed(const Setup& setup, const std::vector<Override>& overrides, std::span<const EffectRecord* const> known);
-
-struct SignalSettings {
-  std::vector<PlannedRun> runs;
-  int count = 96;  ///< simulations of each different setup and round
-};
-
-/// Nonlinear-profile signal to noise of the hidden case: sqrt of what chi2 keeps above its expectation after restitutions and frequency
-/// have been refitted without the effect; by ensembles or by the momentum balance, whichever sees more. Of a force in no list: what the
-/// balance keeps with the known effects that imitate it best, since no method can miss an effect whose place another takes.
-double signal_to_noise(const HiddenCase& hidden, std::uint64_t seed, const SignalSettings& settings, const TrialTools& tools);
-
-/// Signal to noise of strength 1, found near a signal of 20 where it is well above its own error (about 6 %) and still proportional.
-double signal_of_unit_strength(const Hideable& hideable, const Setup& believed, std::uint64_t seed, const SignalSettings& settings, const TrialTools& tools);
 
 }  // namespace shakedown
