@@ -16,8 +16,7 @@ namespace {
 constexpr int most_looks = 2;
 /// How far (in boxes) the regression's slopes are trusted about simulations at one point, and the share of chi2 that a step must promise to be worth
 /// simulations of its own at its end.
-constexpr double nearby = 0.5, worth_a_step = 0.1;
-constexpr int most_steps = 1;
+constexpr double nearby = 0.5, step_gain = 0.1;
 
 double root_mean_square(const std::vector<RunComparison>& runs, double RunComparison::*what) {
   double squares = 0;
@@ -42,39 +41,62 @@ void judge_at(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z,
 /// The emulator promised much more than its solution keeps.
 bool misled(const Refit& result) { return result.scatter > 1.3 * result.promised_scatter + 0.3; }
 
-/// Simulations at the solution judge it, and move it: about the mean of real simulations the regression's slopes tell where the minimum is, which
-/// the regression itself, led by what it cannot follow, may miss.
+/// The knobs about z, where a line is enough.
+std::vector<Knob> centred_at(const Eigen::VectorXd& z, std::vector<Knob> knobs) {
+  for (std::size_t k = 0; k < knobs.size(); ++k) {
+    knobs[k].centre = knobs[k].at(z[static_cast<Eigen::Index>(k)]);
+    knobs[k].curved = knobs[k].cubic = false;
+  }
+  return knobs;
+}
+
+std::vector<Emulator> simulated(std::vector<Knob> knobs, int count, int first_run, const std::vector<MeasuredFeatures>& measured, const Workshop& workshop) {
+  for (Knob& knob : knobs) knob.width = 0;
+  return emulate(measured, knobs, count, first_run, workshop);
+}
+
+/// Simulations at one point, and what the regression's slopes make of their mean: the regression itself, led by what it cannot follow, may miss the
+/// minimum near by.
+struct Confirmed {
+  std::vector<Knob> about;
+  FitRound round;
+  Eigen::VectorXd minimum;
+  double chi2_here, chi2_there;
+
+  Confirmed(const Eigen::VectorXd& z, int first_run, const FitRound& emulated, const std::vector<MeasuredFeatures>& measured, const Workshop& workshop,
+            const RefitOptions& options, const std::vector<Knob>& knobs)
+      : about(centred_at(z, knobs)),
+        round(measured, about, emulated.recentred(z, simulated(about, options.confirming, first_run, measured, workshop)), options, workshop.fault),
+        minimum(minimum_of(round.objective(), nearby, 1).z),
+        chi2_here(round.objective().chi2(Eigen::VectorXd::Zero(z.size()))),
+        chi2_there(round.objective().chi2(minimum)) {}
+  Confirmed(const Confirmed&) = delete;  // the round refers to `about`
+  Confirmed& operator=(const Confirmed&) = delete;
+
+  bool worth_a_step() const { return chi2_there < (1 - step_gain) * chi2_here; }
+  /// A minimum that promises much is not believed before simulations have seen it.
+  Eigen::VectorXd solution() const { return worth_a_step() ? Eigen::VectorXd::Zero(minimum.size()).eval() : minimum; }
+  double chi2() const { return worth_a_step() ? chi2_here : chi2_there; }
+};
+
+/// Simulations at the solution judge it, and move it (a step of Gauss and Newton).
 void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& measured, const Workshop& workshop, const RefitOptions& options,
-             Eigen::VectorXd z, Refit& result) {
+             const Eigen::VectorXd& z, Refit& result) {
   result.promised_scatter = result.scatter;
   result.promised_chi2 = result.judged_chi2;
-  for (int step = 0;; ++step) {
-    std::vector<Knob> about = result.knobs;
-    for (std::size_t k = 0; k < about.size(); ++k) {
-      about[k].centre = about[k].at(z[static_cast<Eigen::Index>(k)]);
-      about[k].curved = about[k].cubic = false;
-    }
-    std::vector<Knob> point = about;
-    for (Knob& knob : point) knob.width = 0;
-    const FitRound round(measured, about, emulated.recentred(z, emulate(measured, point, options.confirming, options.first_run + 9000 + 250 * step, workshop)),
-                         options, workshop.fault);
-    const Eigen::VectorXd here = Eigen::VectorXd::Zero(z.size());
-    Eigen::VectorXd there = minimum_of(round.objective(), nearby, 1).z;
-    if (round.objective().chi2(there) < (1 - worth_a_step) * round.objective().chi2(here)) {
-      if (step < most_steps) {
-        z += there;
-        continue;
-      }
-      there = here;  // promised once more, and not seen
-    }
-    judge_at(round, measured.size(), there, result);
-    for (std::size_t k = 0; k < about.size(); ++k) set_value(about[k], about[k].at(there[static_cast<Eigen::Index>(k)]), result.values[k]);
-    result.covariances = round.covariances();
-    const std::vector<Rule> rules = round.rules_of(options.judged_by);
-    result.judged_chi2 = 0;
-    for (std::size_t r = 0; r < measured.size(); ++r) result.judged_chi2 += round.judged_chi2(r, there, rules[r]);
-    return;
-  }
+  const int first_run = options.first_run + 9000;
+  const Confirmed first(z, first_run, emulated, measured, workshop, options, result.knobs);
+  std::optional<Confirmed> second;
+  if (first.worth_a_step()) second.emplace(z + first.minimum, first_run + 250, emulated, measured, workshop, options, result.knobs);
+  const Confirmed& best = second && second->chi2() < first.chi2() ? *second : first;  // what the slopes promised may not be there
+  const Eigen::VectorXd solution = best.solution();
+  judge_at(best.round, measured.size(), solution, result);
+  for (std::size_t k = 0; k < best.about.size(); ++k)
+    set_value(best.about[k], best.about[k].at(solution[static_cast<Eigen::Index>(k)]), result.values[k]);
+  result.covariances = best.round.covariances();
+  const std::vector<Rule> rules = best.round.rules_of(options.judged_by);
+  result.judged_chi2 = 0;
+  for (std::size_t r = 0; r < measured.size(); ++r) result.judged_chi2 += best.round.judged_chi2(r, solution, rules[r]);
 }
 
 Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const Minimum& minimum,
