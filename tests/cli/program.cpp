@@ -16,17 +16,11 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Captured {
-  fs::path path;
-  int descriptor;
-  Captured() {
-    std::string name = (fs::temp_directory_path() / "shakedown_cli_XXXXXX").string();
-    descriptor = ::mkstemp(name.data());
-    path = name;
-  }
-  ~Captured() {
-    ::close(descriptor);
-    fs::remove(path);
-  }
+  shakedown::ScratchFolder folder;
+  fs::path path = folder / "stream";
+  int descriptor = ::open(path.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+  Captured() = default;
+  ~Captured() { ::close(descriptor); }
   Captured(const Captured&) = delete;
   Captured& operator=(const Captured&) = delete;
 };
