@@ -68,13 +68,8 @@ class Suite {
 
   SignalLaws laws() const {
     const fs::path file = folder_ / "strengths.json";
-    SignalLaws table;
     const fs::path given = fs::exists(file) ? file : options_.strengths;
-    if (!given.empty()) {
-      const Json document = Json::parse(read_text_file(given));
-      for (const auto& [id, law] : document.at("signals").items())
-        table[id] = {law.at("strength").get<double>(), law.at("signal").get<double>(), law.at("power").get<double>(), law.at("by") == "balance"};
-    }
+    SignalLaws table = given.empty() ? SignalLaws{} : read_laws(given);
     const std::vector<std::string> needed = needed_ids();
     const std::string twins = strength_name("", BlindKind::twins);
     for (const std::string& id : needed) {
@@ -88,6 +83,20 @@ class Suite {
       save(file, table);
     }
     save(file, table);
+    return table;
+  }
+
+  static SignalLaws read_laws(const fs::path& file) {
+    SignalLaws table;
+    const std::string text = read_text_file(file);
+    try {
+      const Json document = Json::parse(text);
+      for (const auto& [id, law] : document.at("signals").items())
+        table[id] = {law.at("strength").get<double>(), law.at("signal").get<double>(), law.at("power").get<double>(), law.at("by") == "balance"};
+    } catch (const nlohmann::json::exception& problem) {
+      throw InputError({{{file.string()}, "", std::string("not a table of signals that this version writes (") + problem.what() + ")",
+                         "leave it out, and the table is measured anew; an earlier suite's folder has one as strengths.json"}});
+    }
     return table;
   }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How much of a signal a hidden strength leaves once everything that the user may refit has been refitted.
 #pragma once
+#include <algorithm>
 #include <limits>
-#include <map>
-#include <string>
 #include <vector>
 
 #include "hideable.hpp"

@@ -255,6 +255,23 @@ TEST(BlindScores, ASealedAnswerThatWasTouchedIsRefused) {
   EXPECT_THROW(scored(folder.path()), InputError);
 }
 
+TEST(BlindScores, ATableOfStrengthsThatIsNoneIsNamed) {
+  const ScratchFolder folder;
+  const auto hard = engine_named("hard");
+  const TrialTools tools{hard.get(), hard.get(), all_effects(), 100, 1, nullptr};
+  BlindSuiteOptions options;
+  options.strengths = folder / "old.json";
+  for (const std::string text : {R"({"signals": {"camera_scale": 3}})", R"({"strengths": {}})", "no table"}) {
+    write(options.strengths, text);
+    try {
+      run_blind_suite(folder / "suite", {}, tools, options);
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.violations.front().place.file, options.strengths.string());
+    }
+  }
+}
+
 TEST(BlindScores, AFolderHoldsOneSuite) {
   const ScratchFolder folder;
   answered(folder.path(), {1, 0, 0, 0, 0, 0, 0}, [](const nlohmann::json&) { return answer_of("adequate", {}); });
