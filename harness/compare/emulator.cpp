@@ -6,10 +6,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <sstream>
 
 #include "errors.hpp"
 #include "in_order.hpp"
+#include "key_unit.hpp"
 #include "random.hpp"
 #include "setup_file.hpp"
 
@@ -41,8 +41,7 @@ Eigen::VectorXd regression_terms(const std::vector<Knob>& knobs, const Eigen::Ve
 }
 
 void set_knob(Setup& setup, const Knob& knob, std::span<const EffectRecord* const> known) {
-  std::stringstream keys(knob.key);
-  for (std::string key; std::getline(keys, key, '&');) set_number(setup, key, knob.at(0), known);
+  for (const std::string& key : joined_keys(knob.key)) set_number(setup, key, knob.at(0), known);
 }
 
 Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::VectorXd& z, std::span<const EffectRecord* const> known) {

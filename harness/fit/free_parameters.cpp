@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "key_unit.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
 
@@ -34,7 +35,7 @@ Knob knob_of_setup_key(const SetupKey& key, double start) {
 }
 
 Knob knob_of(const std::string& keys, const Setup& setup, std::span<const EffectRecord* const> known) {
-  const std::string first = keys.substr(0, keys.find('&'));
+  const std::string first = joined_keys(keys).front();
   const double start = get_number(setup, first, known);
   if (const SetupKey* key = find_setup_key(first)) {
     if (key->path == "grains.count" || key->section() == "run")
@@ -65,8 +66,7 @@ std::vector<Knob> free_parameters(std::string_view text, const Setup& setup, std
   std::vector<Violation> found;
   for (const std::string& keys : split(text)) {
     try {
-      std::stringstream together(keys);
-      for (std::string key; std::getline(together, key, '&');) (void)get_number(setup, key, known);
+      for (const std::string& key : joined_keys(keys)) (void)get_number(setup, key, known);
       for (const Knob& other : knobs)
         if (other.key == keys) throw InputError({{{"--free", 0, 0}, keys, "is named twice", "name it once"}});
       knobs.push_back(knob_of(keys, setup, known));

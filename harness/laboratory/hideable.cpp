@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hideable.hpp"
 
+#include "key_unit.hpp"
 #include "quantity.hpp"
 #include "setup_keys.hpp"
 #include "toml_document.hpp"
@@ -97,11 +98,7 @@ std::vector<Override> at_strength(const Hideable& hideable, double strength, dou
     return {{"user_force.force", toml_string(hideable.formula), origin}, {"user_force.constants", "{c = " + value + more + "}", origin}};
   }
   std::vector<Override> overrides;
-  for (std::size_t at = 0; at < hideable.key.size();) {
-    const std::size_t end = std::min(hideable.key.find('&', at), hideable.key.size());
-    overrides.push_back({std::string(hideable.key.substr(at, end - at)), value, origin});
-    at = end + 1;
-  }
+  for (const std::string& key : joined_keys(hideable.key)) overrides.push_back({key, value, origin});
   if (hideable.effect == "oscillating_acceleration") {
     overrides.push_back({"oscillating_acceleration.frequency", toml_of(frequency, "Hz"), origin});
     overrides.push_back({"oscillating_acceleration.phase", toml_of(phase, "rad"), origin});

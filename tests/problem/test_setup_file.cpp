@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "initial_state.hpp"
+#include "key_unit.hpp"
 #include "random.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
@@ -354,6 +355,12 @@ TEST(SetupNumber, SetsAndGetsInSi) {
   EXPECT_THROW(set_number(setup, "box.mas", 1, known), InputError);
   EXPECT_THROW(set_number(setup, "grains.count", 1.5, known), InputError);
   EXPECT_THROW(set_number(setup, "release.packing", 1, known), InputError);
+}
+
+TEST(SetupKeys, JoinedOnesComeApart) {
+  EXPECT_EQ(joined_keys("grain_friction.grain_grain&grain_friction.grain_wall"),
+            (std::vector<std::string>{"grain_friction.grain_grain", "grain_friction.grain_wall"}));
+  EXPECT_EQ(joined_keys("box.mass"), std::vector<std::string>{"box.mass"});
 }
 
 TEST(SetupKeys, TableIsSound) {
