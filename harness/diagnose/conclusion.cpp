@@ -27,12 +27,13 @@ void Pipeline::advise_experiments() {
     }
   if (result_.verdict != Verdict::missing || !runner_up_ || chosen_.empty()) return;
   stage_ = "which experiment would decide";
-  const std::vector<Knob> found(chosen_.end() - 1, chosen_.end());
+  std::vector<Knob> found = chosen_;
+  std::erase_if(found, [&](const Knob& knob) { return effect_of(knob.key) != effect_of(chosen_.back().key); });
   const RunAudit& camera = audit_.runs.front();
   std::vector<Design> designs = possible_designs(result_.amended);
   const std::string effect = effect_of(found.front().key);
   for (Design& design : designs) std::erase_if(design.setup.effects, [&](const EffectChoice& choice) { return choice.record->name == runner_up_->effect; });
-  for (const Advice& advice : advise(designs, theta_, found, *runner_up_, camera.box.standard_deviation, camera.com.standard_deviation, workshop_, 96, 100000 * ++batch_))
+  for (const Advice& advice : advise(designs, theta_, found, *runner_up_, camera.box.standard_deviation, camera.com.standard_deviation, workshop_, dear_ ? 48 : 96, 100000 * ++batch_))
     if (list.size() < 4 && advice.sigmas > 1)
       list.push_back(advice.words + ": tells " + effect + " from " + runner_up_->effect + " at " + write_number(std::round(advice.sigmas * 10) / 10) + " sigma a run");
 }
@@ -79,13 +80,9 @@ void Pipeline::finish() {
   for (const FittedValue& fitted : final_.values) {
     if (!refitted_) break;  // as given, within what codes differ by: nothing to change
     const FittedValue value = allowing_for_engines(fitted);
-    std::string keys = value.key;
-    for (std::size_t at = 0; at < keys.size();) {
-      const std::size_t end = std::min(keys.find('&', at), keys.size());
-      const std::string key = keys.substr(at, end - at);
+    for (const std::string& key : joined_keys(value.key)) {
       result_.parameters.push_back({key, value.value, value.low, value.high, unit_of_key(key, options_.known), ""});
       set_number(result_.amended, key, value.value, options_.known);
-      at = end + 1;
     }
   }
   result_.sentence = "";

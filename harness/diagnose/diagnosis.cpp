@@ -64,6 +64,7 @@ void Pipeline::choose_packing() {
 
 Refit Pipeline::fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by, double look_again_below) {
   stage_ = step;
+  if (dear_) effort.count = std::min(effort.count, most_when_dear), effort.confirming = std::min(effort.confirming, most_when_dear);
   RefitOptions options;
   options.rounds = effort.rounds;
   options.count = effort.count;
@@ -180,7 +181,7 @@ void Pipeline::judge() {
     }
     prune(best);
     if (result_.missing.empty() || concluded_) break;
-    best = fit("refitting with what was found", together(theta_, chosen_), to_conclude);
+    best = conclude("refitting with what was found", best);
     concluded_ = true;
     keep(best);
     result_.ladder.back() = step_of(result_.ladder.back().step, best);

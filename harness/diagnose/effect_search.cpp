@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "key_unit.hpp"
 #include "pipeline.hpp"
 #include "setup_keys.hpp"
 
@@ -48,6 +49,19 @@ bool stands_out(const Refit& fit, const std::vector<Knob>& knobs) {
                     return value.key == knob.key && std::abs(value.value) > 2 * value.error;
                   });
          });
+}
+
+bool is_joint(const Knob& knob) { return joined_keys(knob.key).size() > 1; }
+
+/// What moves together, each by itself.
+std::vector<Knob> taken_apart(const std::vector<Knob>& knobs) {
+  std::vector<Knob> parts;
+  for (const Knob& knob : knobs)
+    for (const std::string& key : joined_keys(knob.key)) {
+      parts.push_back(knob);
+      parts.back().key = key;
+    }
+  return parts;
 }
 
 }  // namespace
@@ -117,18 +131,41 @@ bool Pipeline::pays(const Rival& rival, const Refit& best) const {
   return rival.gain >= least * std::max(1.0, rival.fit.scatter) + rival.doubt && rival.gain >= share * best.judged_chi2;
 }
 
+/// What was added, fitted with full effort. Strengths that were looked for as one (friction of grains and of walls) are fitted by themselves: each may
+/// be anything that the data allow.
+Refit Pipeline::conclude(const std::string& step, const Refit& so_far) {
+  if (std::none_of(chosen_.begin(), chosen_.end(), is_joint)) return fit(step, together(theta_, chosen_), to_conclude);
+  std::vector<Knob> parts = taken_apart(chosen_);
+  const std::vector<Knob> boxes = taken_apart(first_boxes_);
+  for (Knob& part : parts) {
+    const auto same = [&](const Knob& knob) { return knob.key == part.key; };
+    const auto box = std::find_if(boxes.begin(), boxes.end(), same);
+    if (box == boxes.end() || std::any_of(chosen_.begin(), chosen_.end(), same)) continue;
+    part.width = 0.6 * box->width;
+    part.centre = std::max(part.centre, part.low + part.width);  // one may be far from what both were together
+  }
+  const Refit apart = fit(step, together(theta_, parts), to_tell_apart);
+  if ((apart.scatter - so_far.scatter) * apart.degrees > too_close) return fit(step, together(theta_, chosen_), to_conclude);  // too many to follow
+  chosen_ = parts;
+  first_boxes_ = boxes;
+  return apart;
+}
+
 /// Adds an effect and fits it with full effort. False, and all as before: it neither explains nor differs from nothing, so that its gain was the
 /// emulators' noise.
 bool Pipeline::take(const Rival& winner, Refit& best) {
-  const auto before = std::tuple(base_, theta_, chosen_, first_boxes_, final_, result_.missing);
+  const auto before = std::tuple(base_, theta_, chosen_, first_boxes_, final_, result_.missing, dear_);
   base_ = winner.setup;
   for (std::vector<Knob>* list : {&chosen_, &first_boxes_}) list->insert(list->end(), winner.knobs.begin(), winner.knobs.end());
   result_.missing.push_back(winner.effect);
+  dear_ = dear_ || winner.dear;
   keep(winner.fit);
   for (const Knob& knob : chosen_) set_knob(base_, knob, options_.known);  // present from now on, so that it is no candidate again
-  const Refit closer = winner.decided ? winner.fit : fit("refitting with " + winner.effect, together(theta_, chosen_), to_conclude);
-  if (closer.p_value <= doubtful && !stands_out(closer, winner.knobs)) {
-    std::tie(base_, theta_, chosen_, first_boxes_, final_, result_.missing) = before;
+  const Refit closer = winner.decided ? winner.fit : conclude("refitting with " + winner.effect, winner.fit);
+  // Of two strengths that were one neither may stand out where the one did.
+  const bool one = std::none_of(winner.knobs.begin(), winner.knobs.end(), is_joint);
+  if (closer.p_value <= doubtful && !stands_out(one ? closer : winner.fit, winner.knobs)) {
+    std::tie(base_, theta_, chosen_, first_boxes_, final_, result_.missing, dear_) = before;
     return false;
   }
   best = closer;
@@ -170,9 +207,9 @@ Pipeline::Rival Pipeline::try_candidate(const ScreenedEffect& effect, const Cand
       knob.width = std::max(knob.width, 0.5 * std::abs(effect.value));
     }
   }
-  const Effort effort = candidate.dear && !candidate.always ? to_try_dear : to_try;
+  const bool dear = candidate.dear && !candidate.always;
   const std::vector<Knob> knobs = together(covering_the_users_values(fitted), added);
-  Rival rival{candidate.effect, candidate.doubt, base_, added, fit("trying " + candidate.effect, knobs, effort, &best, lowest), 0, 0, false};
+  Rival rival{candidate.effect, candidate.doubt, base_, added, fit("trying " + candidate.effect, knobs, dear ? to_try_dear : to_try, &best, lowest), 0, 0, false, dear};
   // The restitutions are known well only together, and friction with them: along that valley there may be two minima (friction of .1, and of
   // .35 with other restitutions).
   const bool hopeless = lowest < best.judged_chi2 - 2 * least_gain && rival.fit.judged_chi2 > lowest + hopelessly_behind;

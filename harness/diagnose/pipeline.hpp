@@ -34,7 +34,9 @@ struct Effort {
   bool beside = false;
 };
 constexpr Effort only_look{1, 128, 0}, to_refit{2, 160, 128, true}, to_try{2, 128, 96}, to_try_dear{1, 96, 64}, to_look_again{2, 112, 96}, to_decide{1, 128, 128}, to_prune{2, 128, 96, true},
-    to_conclude{1, 192, 160};
+    to_conclude{1, 192, 160}, to_tell_apart{2, 160, 128};
+/// Simulations of each different setup at most, where an effect makes them cost several times more.
+constexpr int most_when_dear = 96;
 
 class Pipeline {
  public:
@@ -69,11 +71,13 @@ class Pipeline {
     Refit fit;
     double gain, held_out_gain;
     bool decided;
+    bool dear = false;  ///< its runs cost several times a plain one
     double score() const { return gain + 0.5 * (std::isfinite(held_out_gain) ? std::clamp(held_out_gain, -gain, gain) : 0.0) - doubt; }
   };
   std::vector<Candidate> open_candidates() const;
   std::vector<Rival> rivals_among(const std::vector<Candidate>& candidates, const Refit& best);
   bool pays(const Rival& rival, const Refit& best) const;
+  Refit conclude(const std::string& step, const Refit& so_far);
   bool take(const Rival& winner, Refit& best);
   bool add_best_candidate(Refit& best);
   Rival try_candidate(const ScreenedEffect& effect, const Candidate& candidate, const Setup& before, const std::vector<Knob>& fitted, const Refit& best,
@@ -106,6 +110,7 @@ class Pipeline {
   bool concluded_ = false;  // the latest fit was made with full effort
   std::optional<Candidate> runner_up_;  // to the effect added last
   std::vector<std::pair<std::string, std::string>> twins_;  // named, and what explains the data as well
+  bool dear_ = false;  // an effect was added whose runs cost several times a plain one
   int batch_ = 0;
 };
 

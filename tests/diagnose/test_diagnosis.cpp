@@ -37,12 +37,14 @@ Experiment measured(const Hidden& hidden) {
   return make_measurements(parse_setup("", "truth", all_effects(), overrides), runs_of_lengths(hidden.lengths), hidden.recording, laboratory);
 }
 
-Diagnosis diagnosis_of(const Hidden& hidden, const std::vector<std::string>& effects = {}, int threads = 2) {
+Diagnosis diagnosis_of(const Hidden& hidden, const std::vector<std::string>& effects = {}, int threads = 2,
+                       const std::vector<std::string>& fixed = {}) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   DiagnoseOptions options;
   options.effects = effects;
   options.known = all_effects();
   options.threads = threads;
+  options.fixed = fixed;
   return diagnose(believed(), measured(hidden), *engine, options);
 }
 
@@ -104,6 +106,21 @@ TEST(SlowDiagnosis, FindsAForceOnTheBoxAndTheErrorFalls) {
   // The amended setup is a setup, with the effect at a strength that covers the truth.
   const shakedown::Setup amended = parse_setup(write_setup(d.amended), "amended", all_effects());
   EXPECT_NEAR(get_number(amended, "blade_viscous_damping.damping", all_effects()), 0.08, 0.008);
+}
+
+TEST(SlowDiagnosis, FrictionOfGrainsAndOfWallsEachGetsItsOwnInterval) {
+  const Diagnosis d = diagnosis_of({{"grain_friction=grain_grain:0.4,grain_wall:0.1"}, {}, {}, {0.040, 0.065, 0.104}}, {"grain_friction"}, 2,
+                                   {"restitution.grain_grain", "restitution.grain_wall"});
+  EXPECT_EQ(d.missing, std::vector<std::string>{"grain_friction"}) << d.sentence;
+  int found = 0;
+  for (const DiagnosedParameter& p : d.parameters) {
+    if (p.name != "grain_friction.grain_grain" && p.name != "grain_friction.grain_wall") continue;
+    const double truth = p.name == "grain_friction.grain_grain" ? 0.4 : 0.1;
+    EXPECT_LE(p.low, truth) << p.name;
+    EXPECT_GE(p.high, truth) << p.name;
+    ++found;
+  }
+  EXPECT_EQ(found, 2);
 }
 
 TEST(SlowDiagnosis, TheAnswerDoesNotDependOnTheThreads) {
