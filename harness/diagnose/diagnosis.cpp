@@ -175,7 +175,8 @@ void Pipeline::judge() {
   keep(best);
   if (result_.missing.empty()) note_failures(best);  // else those of the model as given stay
   for (bool searched = false;;) {
-    while (best.p_value <= doubtful && static_cast<int>(result_.missing.size()) < most_effects) {
+    // Beside what makes every run dear only a model that is rejected is searched on.
+    while (best.p_value <= (dear_ ? rejected : doubtful) && static_cast<int>(result_.missing.size()) < most_effects) {
       searched = true;
       if (!add_best_candidate(best)) break;
     }

@@ -84,7 +84,7 @@ std::vector<Candidate> Pipeline::open_candidates() const {
 std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>& candidates, const Refit& best) {
   stage_ = "ranking the effects";
   const std::vector<Knob> fitted = together(theta_, chosen_);
-  std::vector<ScreenedEffect> screened = screen(features(), fitted, candidates, workshop_, dear_ ? 160 : 320, 100000 * ++batch_);
+  std::vector<ScreenedEffect> screened = screen(features(), fitted, candidates, workshop_, dear_ ? ranked_when_dear : 320, 100000 * ++batch_);
   for (const ScreenedEffect& effect : screened) result_.ranking.push_back({effect.effect, effect.gain, std::nan(""), std::nan(""), effect.value, effect.look_alikes});
   const auto promise = [&](const ScreenedEffect& effect) { return effect.gain - candidates[effect.candidate].doubt; };
   const auto always = [&](const ScreenedEffect& effect) { return candidates[effect.candidate].always; };
