@@ -14,7 +14,7 @@ namespace shakedown {
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "shakedown_test_XXXXXX").string();  // mkdtemp's template
+    std::string name = (std::filesystem::temp_directory_path() / ("shakedown_test_" + std::string(6, 'X'))).string();  // as mkdtemp wants it
     if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
     path_ = name;
   }

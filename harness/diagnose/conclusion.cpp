@@ -33,7 +33,9 @@ void Pipeline::advise_experiments() {
   std::vector<Design> designs = possible_designs(result_.amended);
   const std::string effect = effect_of(found.front().key);
   for (Design& design : designs) std::erase_if(design.setup.effects, [&](const EffectChoice& choice) { return choice.record->name == runner_up_->effect; });
-  for (const Advice& advice : advise(designs, theta_, found, *runner_up_, camera.box.standard_deviation, camera.com.standard_deviation, workshop_, dear_ ? 48 : 96, 100000 * ++batch_))
+  const int count = dear_ ? 48 : 96;
+  for (const Advice& advice : advise(designs, theta_, found, *runner_up_, camera.box.standard_deviation, camera.com.standard_deviation, workshop_, count,
+                                     100000 * ++batch_))
     if (list.size() < 4 && advice.sigmas > 1)
       list.push_back(advice.words + ": tells " + effect + " from " + runner_up_->effect + " at " + write_number(std::round(advice.sigmas * 10) / 10) + " sigma a run");
 }
@@ -68,8 +70,10 @@ FittedValue Pipeline::allowing_for_engines(FittedValue value) {
   const double more = 1.96 * relative * std::abs(value.value - absent);
   value.low = std::max(here->low, value.value - std::hypot(value.value - value.low, more));
   value.high = std::min(here->high, value.value + std::hypot(value.high - value.value, more));
-  result_.notes.push_back("the interval of " + effect + " allows for " + write_number(std::round(100 * relative)) +
-                          " % by which hard impulses and soft contacts differ in it (shakedown effects " + effect + ")");
+  const std::string note = "the interval of " + effect + " allows for " + write_number(std::round(100 * relative)) +
+                           " % by which hard impulses and soft contacts differ in it (shakedown effects " + effect + ")";
+  // Once for all the strengths of an effect.
+  if (std::find(result_.notes.begin(), result_.notes.end(), note) == result_.notes.end()) result_.notes.push_back(note);
   return value;
 }
 
