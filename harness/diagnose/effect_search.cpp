@@ -14,6 +14,10 @@ namespace {
 
 /// A rival has explained so much more (chi2) that another start of this one will not catch up; the two minima of friction differ by less.
 constexpr double hopelessly_behind = 60;
+/// Share of the misfit that a linear estimate must promise to be tried before what is tried in any case.
+constexpr double goes_first = 0.25;
+/// Gain (chi2) of an accepted model beside which what is tried in any case need not be.
+constexpr double explains_much = 300;
 
 /// Without the effect the restitutions were led astray: the box reaches from there to what the user gave.
 std::vector<Knob> covering_the_users_values(std::vector<Knob> knobs) {
@@ -69,11 +73,12 @@ std::vector<Knob> taken_apart(const std::vector<Knob>& knobs) {
 std::vector<Candidate> Pipeline::open_candidates() const {
   std::vector<Candidate> candidates = candidates_for(base_, options_.effects, options_.known);
   const auto judged_already = [&](const Candidate& candidate) {
-    // What the momentum balance sees better it has judged; what showed nothing before is not looked for again.
+    // What the momentum balance sees better it has judged; what showed nothing before is not looked for again, where a linear estimate can show it.
     if (result_.momentum.possible && candidate.seen_by_momentum) return true;
     bool seen = false, promising = false;
     for (const RankedEffect& ranked : result_.ranking)
-      if (ranked.effect == candidate.effect) seen = true, promising = promising || ranked.gain > least_gain / 3;
+      if (ranked.effect == candidate.effect && (!candidate.always || std::isfinite(ranked.held_out_gain)))
+        seen = true, promising = promising || ranked.gain > least_gain / 3;
     return seen && !promising;
   };
   std::erase_if(candidates, judged_already);
@@ -92,19 +97,25 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   std::stable_partition(screened.begin(), screened.end(), always);
   const auto others = std::find_if_not(screened.begin(), screened.end(), always);
   const double most_promised = others == screened.end() ? 0 : promise(*others);
-  // What promises much goes first: it may make closer looks at the others needless.
-  if (most_promised > 2 * least_gain) std::rotate(screened.begin(), others, others + 1);
+  // What promises to explain a good part of the misfit goes first: it may make closer looks at the others needless.
+  if (most_promised > std::max(2 * least_gain, goes_first * (best.judged_chi2 - best.degrees))) std::rotate(screened.begin(), others, others + 1);
   const Setup before = base_;
   std::vector<Rival> rivals;
   double best_score = 0, lowest = best.judged_chi2;
+  bool explained = false;
   for (const ScreenedEffect& effect : screened) {
     if (rivals.size() >= most_tried || result_.runs_simulated > options_.budget) break;
+    if (always(effect) && explained) {  // nothing that acts otherwise takes up so much and leaves noise alone
+      std::erase_if(result_.ranking, [&](const RankedEffect& ranked) { return ranked.effect == effect.effect && ranked.gain == 0; });
+      continue;
+    }
     // Linear gains rank well enough to leave out what promises half of what another has already brought.
     if (!always(effect) && (effect.gain < least_gain / 2 || promise(effect) < std::max(0.25 * most_promised, 0.5 * best_score))) continue;
     try {
       rivals.push_back(try_candidate(effect, candidates[effect.candidate], before, fitted, best, lowest));
       lowest = std::min(lowest, rivals.back().fit.judged_chi2);
       best_score = std::max(best_score, rivals.back().score());
+      explained = explained || (!always(effect) && rivals.back().fit.p_value > doubtful && rivals.back().score() > explains_much);
     } catch (const PhysicsError& error) {
       result_.notes.push_back(effect.effect + " could not be tried: " + error.what());
     }

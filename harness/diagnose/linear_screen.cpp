@@ -98,14 +98,14 @@ std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured
   int batch = 0;
   const auto next = [&] { return first_run + 5000 * batch++; };
   const double without = screen_together(measured, fitted, candidates, cheap, workshop, count, next(), screening);
-  const int few = std::max(40, count / 8);
+  const int few = std::max(40, count / 8), fewest = std::max(24, few / 2);  // what is dear has a strong signature
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (candidates[c].dear && candidates[c].always) {
       screening.list.push_back({c, candidates[c].effect, 0, candidates[c].knobs.front().centre, {}});
       screening.signatures.emplace_back();
       continue;
     }
-    if (candidates[c].dear) screen_together(measured, fitted, candidates, {c}, workshop, few, next(), screening);
+    if (candidates[c].dear) screen_together(measured, fitted, candidates, {c}, workshop, fewest, next(), screening);
     if (!candidates[c].knobs.empty()) continue;
     screen_switch(measured, fitted, candidates, c, workshop, few, next(), without, screening);
   }
