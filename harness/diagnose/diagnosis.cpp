@@ -146,19 +146,25 @@ void Pipeline::add_momentum_terms() {
   }
 }
 
+/// What was looked for beyond that stays in the ranking alone.
+void Pipeline::accept_as_given(const Refit& given) {
+  result_.verdict = base_.release.packing != user_.release.packing ? Verdict::refit : Verdict::adequate;
+  result_.ladder.resize(1);
+  refitted_ = false;
+  final_ = given;
+  note_failures(given);
+}
+
 void Pipeline::judge() {
   choose_packing();
-  const bool packing_changed = base_.release.packing != user_.release.packing;
   workshop_.ensembles = options_.ensembles;  // every diagnosis of this setup begins with the same simulations
   const Refit given = fit("the model as given", as_given(base_), only_look);
   workshop_.ensembles = nullptr;
   result_.ladder.push_back(step_of("as given", given));
   final_ = given;
   note_failures(given);
-  if (given.p_value > 0.03 && momentum_clean()) {
-    result_.verdict = packing_changed ? Verdict::refit : Verdict::adequate;
-    return;
-  }
+  const bool adequate = given.p_value > holds && momentum_clean();
+  if (adequate && given.p_value > holds_well) return accept_as_given(given);
   // A force that no list has: the balance names it, and no ensemble can.
   if (result_.momentum.unexplained || result_.momentum.unlisted) return conclude_unknown();
   const double frequency = result_.momentum.possible ? result_.momentum.frequency : user_.spring.frequency;
@@ -175,8 +181,9 @@ void Pipeline::judge() {
   keep(best);
   if (result_.missing.empty()) note_failures(best);  // else those of the model as given stay
   for (bool searched = false;;) {
-    // Beside what makes every run dear only a model that is rejected is searched on.
-    while (best.p_value <= (dear_ ? rejected : doubtful) && static_cast<int>(result_.missing.size()) < most_effects) {
+    // An accepted model is searched once: chi2 of hundreds of features does not see what a single effect would take away. Beside what makes every
+    // run dear only a model that is rejected is searched on.
+    while ((!searched || best.p_value <= (dear_ ? rejected : doubtful)) && static_cast<int>(result_.missing.size()) < most_effects) {
       searched = true;
       if (!add_best_candidate(best)) break;
     }
@@ -188,6 +195,7 @@ void Pipeline::judge() {
     result_.ladder.back() = step_of(result_.ladder.back().step, best);
     if (searched) break;  // else this fit may show what the quick one did not
   }
+  if (result_.missing.empty() && adequate) return accept_as_given(given);
   if (result_.missing.empty()) {
     result_.verdict = best.p_value > rejected || best.scatter < codes_differ ? Verdict::refit : Verdict::unknown;
     if (result_.verdict == Verdict::refit && best.p_value <= rejected)

@@ -16,6 +16,8 @@ namespace {
 constexpr double hopelessly_behind = 60;
 /// Share of the misfit that a linear estimate must promise to be tried before what is tried in any case.
 constexpr double goes_first = 0.25;
+/// Gain (chi2) that no emulator's noise makes; strengths along curved valleys may have errors as large as themselves all the same.
+constexpr double beyond_noise = 100;
 /// Gain (chi2) of an accepted model beside which what is tried in any case need not be.
 constexpr double explains_much = 300;
 
@@ -55,6 +57,13 @@ bool stands_out(const Refit& fit, const std::vector<Knob>& knobs) {
          });
 }
 
+/// A parameter had to go far from what the user believes: effects inside the contacts hide in the restitutions.
+bool has_strayed(const Refit& fit) {
+  for (std::size_t k = 0; k < fit.values.size(); ++k)
+    if (fit.knobs[k].believed_error > 0 && std::abs(fit.values[k].value - fit.knobs[k].believed) > 1.5 * fit.knobs[k].believed_error) return true;
+  return false;
+}
+
 bool is_joint(const Knob& knob) { return joined_keys(knob.key).size() > 1; }
 
 /// What moves together, each by itself.
@@ -89,7 +98,9 @@ std::vector<Candidate> Pipeline::open_candidates() const {
 std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>& candidates, const Refit& best) {
   stage_ = "ranking the effects";
   const std::vector<Knob> fitted = together(theta_, chosen_);
-  std::vector<ScreenedEffect> screened = screen(features(), fitted, candidates, workshop_, dear_ ? ranked_when_dear : 320, 100000 * ++batch_);
+  const bool accepted = best.p_value > doubtful, strayed = has_strayed(best);
+  std::vector<ScreenedEffect> screened =
+      screen(features(), fitted, candidates, workshop_, dear_ ? ranked_when_dear : (accepted ? ranked_when_accepted : 320), 100000 * ++batch_);
   for (const ScreenedEffect& effect : screened) result_.ranking.push_back({effect.effect, effect.gain, std::nan(""), std::nan(""), effect.value, effect.look_alikes});
   const auto promise = [&](const ScreenedEffect& effect) { return effect.gain - candidates[effect.candidate].doubt; };
   const auto always = [&](const ScreenedEffect& effect) { return candidates[effect.candidate].always; };
@@ -102,20 +113,24 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   const Setup before = base_;
   std::vector<Rival> rivals;
   double best_score = 0, lowest = best.judged_chi2;
-  bool explained = false;
+  bool mended = false, explained = false;
   for (const ScreenedEffect& effect : screened) {
     if (rivals.size() >= most_tried || result_.runs_simulated > options_.budget) break;
     if (always(effect) && explained) {  // nothing that acts otherwise takes up so much and leaves noise alone
       std::erase_if(result_.ranking, [&](const RankedEffect& ranked) { return ranked.effect == effect.effect && ranked.gain == 0; });
       continue;
     }
-    // Linear gains rank well enough to leave out what promises half of what another has already brought.
-    if (!always(effect) && (effect.gain < least_gain / 2 || promise(effect) < std::max(0.25 * most_promised, 0.5 * best_score))) continue;
+    if (accepted && promise(effect) < speaks_up && !(always(effect) && strayed)) continue;
+    // Linear gains rank well enough to leave out what promises half of what another has already brought, less where none explains.
+    const double bar = std::max(0.25 * most_promised, (mended ? 0.5 : 0.25) * best_score);
+    if (!always(effect) && (effect.gain < least_gain / 2 || promise(effect) < bar)) continue;
     try {
       rivals.push_back(try_candidate(effect, candidates[effect.candidate], before, fitted, best, lowest));
       lowest = std::min(lowest, rivals.back().fit.judged_chi2);
       best_score = std::max(best_score, rivals.back().score());
-      explained = explained || (!always(effect) && rivals.back().fit.p_value > doubtful && rivals.back().score() > explains_much);
+      const bool noise_left = rivals.back().fit.p_value > doubtful;
+      mended = mended || noise_left;
+      explained = explained || (!always(effect) && noise_left && rivals.back().score() > explains_much);
     } catch (const PhysicsError& error) {
       result_.notes.push_back(effect.effect + " could not be tried: " + error.what());
     }
@@ -131,15 +146,20 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   return rivals;
 }
 
-/// A model that is rejected must be mended; one that is merely doubtful needs a better reason, or lengths left out that say the same.
-/// Beside friction, whose two models leave a difference, too.
+/// A model that is rejected must be mended; one that is merely doubtful needs a better reason, or lengths left out that say the same; an accepted one
+/// a reason that lengths left out do not deny. Beside friction, whose two models leave a difference, a better one too.
 bool Pipeline::pays(const Rival& rival, const Refit& best) const {
   const bool beside_friction = std::find(result_.missing.begin(), result_.missing.end(), "grain_friction") != result_.missing.end();
   const bool confirmed = std::isfinite(rival.held_out_gain) && rival.held_out_gain > least_gain;
+  const bool denied = std::isfinite(rival.held_out_gain) && rival.held_out_gain < 0;
+  const double noisy = std::max(1.0, rival.fit.scatter);
+  if (best.p_value > doubtful) return rival.gain >= (denied || beside_friction ? 2 * least_gain : speaks_up) * noisy + std::max(0.0, rival.doubt);
+  // What leaves a model that is rejected, and is denied, may merely imitate a part of what is missing.
+  if (denied && rival.fit.p_value <= rejected && rival.gain < 0.5 * (best.judged_chi2 - best.degrees)) return false;
   const double least = beside_friction || (best.p_value > rejected && !confirmed) ? 2 * least_gain : least_gain;
   // Restitutions far from the user's imitate friction to within a few per cent of the misfit; lengths left out tell.
   const double share = confirmed ? 0 : least_share;
-  return rival.gain >= least * std::max(1.0, rival.fit.scatter) + rival.doubt && rival.gain >= share * best.judged_chi2;
+  return rival.gain >= least * noisy + rival.doubt && rival.gain >= share * best.judged_chi2;
 }
 
 /// What was added, fitted with full effort. Strengths that were looked for as one (friction of grains and of walls) are fitted by themselves: each may
@@ -175,7 +195,8 @@ bool Pipeline::take(const Rival& winner, Refit& best) {
   const Refit closer = winner.decided ? winner.fit : conclude("refitting with " + winner.effect, winner.fit);
   // Of two strengths that were one neither may stand out where the one did.
   const bool one = std::none_of(winner.knobs.begin(), winner.knobs.end(), is_joint);
-  if (closer.p_value <= doubtful && !stands_out(one ? closer : winner.fit, winner.knobs)) {
+  const bool in_question = winner.gain < beyond_noise && (closer.p_value <= doubtful || best.p_value > doubtful);
+  if (in_question && !stands_out(one ? closer : winner.fit, winner.knobs)) {
     std::tie(base_, theta_, chosen_, first_boxes_, final_, result_.missing, dear_) = before;
     return false;
   }
@@ -190,7 +211,9 @@ bool Pipeline::take(const Rival& winner, Refit& best) {
 
 /// Takes the effect that brings most, when it pays. False: none does.
 bool Pipeline::add_best_candidate(Refit& best) {
-  const std::vector<Candidate> candidates = open_candidates();
+  std::vector<Candidate> candidates = open_candidates();
+  // Beside a model that is accepted, dear ones would cost more than all else.
+  if (best.p_value > doubtful) std::erase_if(candidates, [](const Candidate& candidate) { return candidate.dear && !candidate.always; });
   const std::vector<Rival> rivals = rivals_among(candidates, best);
   if (rivals.empty() || !pays(rivals.front(), best) || !take(rivals.front(), best)) return false;
   const Rival& winner = rivals.front();
@@ -210,8 +233,10 @@ Pipeline::Rival Pipeline::try_candidate(const ScreenedEffect& effect, const Cand
   base_ = prepared(before, candidate, options_.known);
   std::vector<Knob> added = candidate.knobs.empty() ? candidate.when_tried : candidate.knobs;
   for (Knob& knob : added) {
-    if (candidate.knobs.empty()) break;  // nothing is known of it yet
-    if (candidate.always) {              // its whole usual range
+    if (candidate.knobs.empty()) {  // a length, known by what it does
+      knob.width *= std::clamp(effect.value, knob.low, knob.high) / knob.centre;
+      knob.centre = std::clamp(effect.value, knob.low, knob.high);
+    } else if (candidate.always) {  // its whole usual range
       knob.centre += knob.width;
     } else {  // where the linear estimate points
       knob.centre = std::clamp(effect.value, knob.low, knob.high);

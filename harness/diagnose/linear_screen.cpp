@@ -51,9 +51,14 @@ struct Screening {
   std::vector<Eigen::VectorXd> signatures;  ///< of each in the list, whitened, with the fitted parameters projected out; empty: on or off
 };
 
+/// What the fitted parameters alone leave.
+struct Left {
+  Outside outside;
+  Eigen::VectorXd residual;
+};
+
 /// Candidates with knobs, scattered together in `count` runs.
-/// Returns what the fitted parameters alone leave of the residual's square.
-double screen_together(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
+Left screen_together(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
                      const std::vector<std::size_t>& members, const Workshop& workshop, int count, int first_run, Screening& screening) {
   const auto [knobs, candidate_of, with] = beside_fitted(measured, fitted, candidates, members, workshop.known);
   const auto n_fitted = static_cast<Eigen::Index>(fitted.size());
@@ -72,19 +77,22 @@ double screen_together(const std::vector<MeasuredFeatures>& measured, const std:
     screening.list.push_back({candidate_of[k], candidates[candidate_of[k]].effect, allowed ? by * by * square : 0, knob.at(z), {}});
     screening.signatures.push_back(signature);
   }
-  return residual.squaredNorm() - own_error(emulators);
+  return {outside, residual};
 }
 
-/// On or off: the model with it, beside the model without.
+/// On or off: the model with it, beside the model without. The difference is its signature at the strength that it is prepared with; what is fixed of
+/// it is a length, and its strength goes with the curvature.
 void screen_switch(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
-                   std::size_t c, const Workshop& workshop, int count, int first_run, double without, Screening& screening) {
+                   std::size_t c, const Workshop& workshop, int count, int first_run, const Left& without, Screening& screening) {
   std::vector<MeasuredFeatures> with = measured;
   for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidates[c], workshop.known);
   const std::vector<Emulator> emulators = emulate(with, straight(fitted, 0.5), count, first_run, workshop);
-  const LinearModel linear = whitened(with, emulators, fitted.size(), screening.roots);
-  const double left = Outside(linear.columns)(linear.residual).squaredNorm() - own_error(emulators);
-  screening.list.push_back({c, candidates[c].effect, without - left, 0, {}});
-  screening.signatures.emplace_back();
+  const Eigen::VectorXd signature = without.residual - without.outside(whitened(with, emulators, fitted.size(), screening.roots).residual);
+  const double square = std::max(0.0, signature.squaredNorm() - own_error(emulators)), along = signature.dot(without.residual);
+  const bool seen = square > 0 && along > 0;
+  screening.list.push_back({c, candidates[c].effect, seen ? along * along / signature.squaredNorm() : 0,
+                            candidates[c].fixed.front().second * (seen ? square / along : 1), {}});
+  screening.signatures.push_back(signature);
 }
 
 }  // namespace
@@ -97,7 +105,7 @@ std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured
     if (!candidates[c].dear && !candidates[c].knobs.empty()) cheap.push_back(c);
   int batch = 0;
   const auto next = [&] { return first_run + 5000 * batch++; };
-  const double without = screen_together(measured, fitted, candidates, cheap, workshop, count, next(), screening);
+  const Left without = screen_together(measured, fitted, candidates, cheap, workshop, count, next(), screening);
   const int few = std::max(40, count / 8), fewest = std::max(24, few / 2);  // what is dear has a strong signature
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (candidates[c].dear && candidates[c].always) {

@@ -12,12 +12,16 @@ namespace shakedown {
 
 /// Below this a model is rejected.
 constexpr double rejected = 0.01;
+/// Above this the model as given holds, and above the other nobody looks for what a single effect would take away.
+constexpr double holds = 0.03, holds_well = 0.3;
 /// Misfit (chi2 over that of the model's own runs) that two codes of the same physics may have: hard and soft friction differ by 1.3.
 constexpr double codes_differ = 1.2;
 /// Below this an effect with a signature of its own is looked for.
 constexpr double doubtful = 0.05;
 /// A step up the ladder must bring chi2 down by this much and this share: a free parameter and the choice among some twenty effects.
 constexpr double least_gain = 14, least_share = 0.06;
+/// What an effect must promise, and then bring (chi2), beside a model that is accepted. Where nothing is hidden the best of some twelve promises 3 to 8.
+constexpr double speaks_up = 17;
 constexpr int most_effects = 3;
 constexpr std::size_t most_cells = 12;
 constexpr std::size_t most_tried = 4;
@@ -37,6 +41,7 @@ constexpr Effort only_look{1, 128, 0}, to_refit{2, 160, 128, true}, to_try{2, 12
     to_conclude{1, 192, 160}, to_tell_apart{2, 160, 128};
 /// Where an effect makes runs cost several times more: simulations of each different setup at most in a fit, and in a ranking.
 constexpr int most_when_dear = 80, ranked_when_dear = 128;
+constexpr int ranked_when_accepted = 192;
 
 class Pipeline {
  public:
@@ -53,6 +58,7 @@ class Pipeline {
 
   void choose_packing();
   void judge();
+  void accept_as_given(const Refit& given);
   Refit fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by = nullptr,
             double look_again_below = std::numeric_limits<double>::infinity());
   void add_momentum_terms();
