@@ -220,7 +220,9 @@ bool Pipeline::add_best_candidate(Refit& best) {
   runner_up_.reset();
   if (rivals.size() == 1) return true;
   const Rival& second = rivals[1];
-  if (second.decided && winner.score() - second.score() < too_close && second.gain > 0.8 * winner.gain) call_twins(winner.effect, second.effect);
+  // Lengths left out may rank what the fits do not, but their gains are too noisy to say that one of two alike is not the truth.
+  const bool alike = winner.gain - second.gain < too_close || (second.decided && winner.score() - second.score() < too_close);
+  if (alike && second.gain > 0.8 * winner.gain) call_twins(winner.effect, second.effect);
   if (second.score() > 0)
     for (const Candidate& candidate : candidates)
       if (candidate.effect == second.effect && !candidate.knobs.empty()) runner_up_ = candidate;

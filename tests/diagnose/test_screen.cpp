@@ -43,7 +43,7 @@ TEST(SlowScreen, AnArcIsRankedAtItsOwnLength) {
   EXPECT_NEAR(weak.value, 1.2, 2);      // seen: 1.97, for what it does grows faster than its curvature
 }
 
-TEST(Screen, AReleaseWithVelocityIsRankedAtItsStrength) {
+TEST(SlowScreen, AReleaseWithVelocityIsRankedAtItsStrength) {
   const ScreenedEffect found = screened("initial_box_velocity=velocity:10 mm/s", "initial_box_velocity");
   EXPECT_GT(found.gain, 300);  // seen: 1104
   EXPECT_NEAR(found.value, 0.01, 0.003);  // seen: 0.0003
