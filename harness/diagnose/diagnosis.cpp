@@ -180,11 +180,13 @@ void Pipeline::judge() {
   result_.ladder.push_back(step_of(step, best));
   keep(best);
   if (result_.missing.empty()) note_failures(best);  // else those of the model as given stay
-  for (bool searched = false;;) {
+  for (bool looked = false, searched = false;;) {
     // An accepted model is searched once: chi2 of hundreds of features does not see what a single effect would take away. Beside what makes every
     // run dear only a model that is rejected is searched on.
-    while ((!searched || best.p_value <= (dear_ ? rejected : doubtful)) && static_cast<int>(result_.missing.size()) < most_effects) {
-      searched = true;
+    const auto lacking = [&] { return best.p_value <= (dear_ ? rejected : doubtful); };
+    while ((!looked || lacking()) && static_cast<int>(result_.missing.size()) < most_effects) {
+      looked = true;
+      searched = searched || lacking();
       if (!add_best_candidate(best)) break;
     }
     prune(best);

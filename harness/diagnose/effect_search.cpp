@@ -116,11 +116,12 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   bool mended = false, explained = false;
   for (const ScreenedEffect& effect : screened) {
     if (rivals.size() >= most_tried || result_.runs_simulated > options_.budget) break;
-    if (always(effect) && explained) {  // nothing that acts otherwise takes up so much and leaves noise alone
-      std::erase_if(result_.ranking, [&](const RankedEffect& ranked) { return ranked.effect == effect.effect && ranked.gain == 0; });
+    const bool silent = accepted && promise(effect) < speaks_up && !(always(effect) && strayed);
+    if (silent || (always(effect) && explained)) {  // nothing that acts otherwise takes up so much and leaves noise alone
+      // Friction has no linear estimate: untried, nothing is known of it.
+      std::erase_if(result_.ranking, [&](const RankedEffect& ranked) { return always(effect) && ranked.effect == effect.effect && ranked.gain == 0; });
       continue;
     }
-    if (accepted && promise(effect) < speaks_up && !(always(effect) && strayed)) continue;
     // Linear gains rank well enough to leave out what promises half of what another has already brought, less where none explains.
     const double bar = std::max(0.25 * most_promised, (mended ? 0.5 : 0.25) * best_score);
     if (!always(effect) && (effect.gain < least_gain / 2 || promise(effect) < bar)) continue;
