@@ -10,10 +10,7 @@ EndWalls::EndWalls(std::vector<double> room, bool always_watch_all, double range
   grain_.assign(size, -1);
   side_.assign(size, 0);
   meeting_.assign(size, Meeting::none);
-  if (range_ > 0) {
-    inside_.assign(2 * room_.size(), 0);
-    for (AlignedVector<double>& of_slots : inside_of_slot_) of_slots.assign(size, 0.0);
-  }
+  if (range_ > 0) inside_.assign(2 * room_.size(), 0);
 }
 
 void EndWalls::start_window(const Now& now) {
@@ -71,13 +68,11 @@ void EndWalls::watch(int i, const Flight& flight) {
   room_of_slot_[slot] = room_[static_cast<std::size_t>(i)];
   grain_[slot] = i;
   meeting_[slot] = Meeting::none;
-  if (range_ > 0)
-    for (const int side : {-1, 1}) inside_of_slot_[side > 0][slot] = is_inside(i, side) ? 1 : 0;
 }
 
 void EndWalls::bound_all(const Now& now) {
   std::fill(meeting_.begin(), meeting_.begin() + static_cast<std::ptrdiff_t>(count_), Meeting::none);
-  if (now.top_acceleration <= 0) {  // walls at rest: grain by grain
+  if (now.top_acceleration <= 0 || range_ > 0) {  // walls at rest, or wells at the walls: grain by grain
     for (std::size_t k = 0; k < count_; ++k)
       bound_.set(k, bound_of(grain_[k], {x_[k], v_[k], time_[k]}, room_of_slot_[k], now));
     bound_.rebuild(count_);
@@ -91,21 +86,11 @@ void EndWalls::bound_all(const Now& now) {
     // With a closing rate the sum cancels; what is lost only makes the bound a little early, so clamp it at zero.
     return simd::max(rate + root, zero) * inverse_top;
   };
-  // Attraction reaches to `range`: from outside a grain comes to the well's edge first, from inside to the wall or back to the edge.
-  const Lanes range(range_);
-  const auto first_meeting = [&](const Lanes& gap, const Lanes& rate, const Lanes& inside) {
-    Lanes bound = first_touch(gap - range, rate);
-    if (const auto within = inside > zero; simd::any_of(within))
-      simd::where(within, bound) = simd::min(first_touch(gap, rate), first_touch(range - gap, -rate));
-    return bound;
-  };
   for (std::size_t k = 0; k < count_; k += lane_count, slot += static_cast<double>(lane_count)) {
     const Lanes room = load(room_of_slot_, k), v = load(v_, k);
     const Lanes apart = Lanes(now.point.x) - (load(x_, k) + v * (Lanes(now.time) - load(time_, k))), rate = Lanes(now.point.v) - v;
     const Lanes upper = room + apart, lower = room - apart;
-    Lanes bound = Lanes(now.time);
-    if (range_ > 0) bound += simd::min(first_meeting(upper, rate, load(inside_of_slot_[1], k)), first_meeting(lower, -rate, load(inside_of_slot_[0], k)));
-    else bound += simd::min(first_touch(upper, rate - budget), first_touch(lower, -rate - budget));
+    Lanes bound = Lanes(now.time) + simd::min(first_touch(upper, rate - budget), first_touch(lower, -rate - budget));
     const auto empty = slot >= Lanes(static_cast<double>(count_));
     simd::where(empty, bound) = never;
     bound_.set_lanes(k, bound);
@@ -160,7 +145,6 @@ void EndWalls::put_off(int i, double until) {
 
 void EndWalls::set_inside(int i, int side, bool inside) {
   inside_[static_cast<std::size_t>(2 * i + (side > 0))] = inside ? 1 : 0;
-  if (const std::int32_t slot = slot_[static_cast<std::size_t>(i)]; slot >= 0) inside_of_slot_[side > 0][static_cast<std::size_t>(slot)] = inside ? 1 : 0;
 }
 
 void EndWalls::kicked(const Now& now, double jump) {

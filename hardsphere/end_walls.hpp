@@ -13,7 +13,6 @@
 // cost as much as the refinements that its caution adds.
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -112,7 +111,6 @@ class EndWalls {
   // The watched grains, dense.
   std::size_t count_ = 0;
   AlignedVector<double> x_, v_, time_, room_of_slot_;
-  std::array<AlignedVector<double>, 2> inside_of_slot_;  // 1 in the well of the lower, of the upper wall; empty without attraction
   SmallestTree bound_;
   std::vector<std::int32_t> grain_;
   std::vector<std::int8_t> side_;

@@ -136,14 +136,14 @@ void DrivenBox::begin_closed(double friction_force) {
     const double phase = r.frequency * time_ + r.phase, s = std::sin(phase), c = std::cos(phase);
     x -= r.p * s + r.q * c;
     v -= r.frequency * (r.p * c - r.q * s);
-    const double size = std::sqrt(r.p * r.p + r.q * r.q) * r.frequency * r.frequency;
+    const double size = std::hypot(r.p, r.q) * r.frequency * r.frequency;
     response_acceleration += size;
     response_jerk += size * r.frequency;
   }
   a_ = x;
   b_ = (v + decay_ * x) / damped_frequency_;
   // Each derivative of exp((-g + i w_d) s) multiplies by a number of modulus w.
-  const double amplitude = std::sqrt(a_ * a_ + b_ * b_);
+  const double amplitude = std::hypot(a_, b_);
   top_acceleration_ = w * w * amplitude + response_acceleration;
   valid_until_ = forces_.dry_friction > 0 ? first_standstill(w * w * w * amplitude + response_jerk) : infinity;
 }

@@ -5,7 +5,6 @@
 // Gauss-Legendre collocation (8 nodes, a polynomial of degree 9 in time) on pieces short enough that the last term of the
 // acceleration's expansion moves the box by less than 1e-14 m.
 #pragma once
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -31,7 +30,7 @@ class DrivenBox {
   /// Bound of |x''| until valid_until(), m/s^2.
   double top_acceleration() const { return top_acceleration_; }
   /// Speed that the box would reach on its spring alone, m/s: the scale of the elastic limit at the walls.
-  double top_speed() const { return std::sqrt(x_ * x_ * angular_frequency_ * angular_frequency_ + v_ * v_); }
+  double top_speed() const { return std::hypot(x_ * angular_frequency_, v_); }
   double angular_frequency() const { return angular_frequency_; }
   double mass() const { return mass_; }
   double stiffness() const { return stiffness_; }
