@@ -20,7 +20,7 @@ constexpr double codes_differ = 1.2;
 constexpr double doubtful = 0.05;
 /// A step up the ladder must bring chi2 down by this much and this share: a free parameter and the choice among some twenty effects.
 constexpr double least_gain = 14, least_share = 0.06;
-/// What an effect must promise, and then bring (chi2), beside a model that is accepted. Where nothing is hidden the best of some twelve promises 3 to 8.
+/// What an effect must promise, and then bring (chi2), beside a model that is accepted. Where nothing is hidden the best of some twelve promises 3 to 9.
 constexpr double speaks_up = 17;
 constexpr int most_effects = 3;
 constexpr std::size_t most_cells = 12;
@@ -37,8 +37,8 @@ struct Effort {
   int rounds, count, confirming;
   bool beside = false;
 };
-constexpr Effort only_look{1, 128, 0}, to_refit{2, 160, 128, true}, to_try{2, 128, 96}, to_try_dear{1, 72, 48}, to_look_again{2, 112, 96}, to_decide{1, 128, 128}, to_prune{2, 128, 96, true},
-    to_conclude{1, 192, 160}, to_tell_apart{2, 160, 128};
+constexpr Effort only_look{1, 128, 0}, to_refit{2, 160, 128, true}, to_try{2, 128, 96}, to_try_dear{1, 72, 48}, to_look_again{2, 112, 96},
+    to_decide{1, 128, 128}, to_prune{2, 128, 96, true}, to_conclude{1, 192, 160}, to_tell_apart{2, 160, 128};
 /// Where an effect makes runs cost several times more: simulations of each different setup at most in a fit, and in a ranking.
 constexpr int most_when_dear = 80, ranked_when_dear = 128;
 constexpr int ranked_when_accepted = 192;

@@ -9,7 +9,7 @@
 #include "effects.hpp"
 #include "engines.hpp"
 #include "experiment_file.hpp"
-#include "hidden_case.hpp"
+#include "hidden_measurements.hpp"
 #include "next_experiment.hpp"
 #include "packing_choice.hpp"
 #include "parameter_knobs.hpp"
@@ -17,28 +17,6 @@
 using namespace shakedown;
 
 namespace {
-
-struct Hidden {
-  std::vector<std::string> effects;
-  std::vector<Override> parameters{};
-  RecordingSettings recording{};
-  std::vector<double> lengths{0.065, 0.104};
-  std::uint64_t seed = 5;
-  std::string duration = "5 s";  // long enough for the decay of these lengths
-};
-
-/// What the user believes.
-shakedown::Setup believed(const std::string& duration = "5 s") { return parse_setup("[run]\nduration = \"" + duration + "\"\n", "believed", all_effects()); }
-
-Experiment measured(const Hidden& hidden) {
-  std::vector<Override> overrides = hidden.parameters;
-  for (const std::string& effect : hidden.effects)
-    for (const Override& override : overrides_of_effect(effect)) overrides.push_back(override);
-  overrides.push_back({"run.duration", hidden.duration});
-  const std::unique_ptr<Engine> engine = engine_named("soft");
-  const Laboratory laboratory{engine.get(), all_effects(), hidden.seed, 2, nullptr};
-  return make_measurements(parse_setup("", "truth", all_effects(), overrides), runs_of_lengths(hidden.lengths), hidden.recording, laboratory);
-}
 
 Diagnosis diagnosis_of(const Hidden& hidden, const std::vector<std::string>& effects = {}, int threads = 2,
                        const std::vector<std::string>& fixed = {}) {
