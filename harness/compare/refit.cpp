@@ -17,6 +17,8 @@ constexpr int most_looks = 2;
 /// How far (in boxes) the regression's slopes are trusted about simulations at one point, and the share of chi2 that a step must promise to be worth
 /// simulations of its own at its end.
 constexpr double nearby = 0.5, step_gain = 0.1;
+/// Scatter that no other place along a valley mends.
+constexpr double beyond_a_valley = 2;
 
 double root_mean_square(const std::vector<RunComparison>& runs, double RunComparison::*what) {
   double squares = 0;
@@ -143,7 +145,8 @@ std::vector<Knob> next_box(std::vector<Knob> knobs, const Minimum& minimum, cons
 /// then to the other. Empty: no need.
 std::vector<Knob> next_look(const Refit& latest, const Refit& best, const std::vector<Knob>& last, const RefitOptions& options, int looks) {
   const bool nearer = misled(latest) && latest.promised_chi2 < options.look_again_below;
-  if (options.confirming == 0 || last.empty() || looks >= most_looks || (!nearer && best.p_value > options.look_beside_below)) return {};
+  const bool beside_it = best.p_value <= options.look_beside_below && best.scatter < beyond_a_valley;
+  if (options.confirming == 0 || last.empty() || looks >= most_looks || !(nearer || beside_it)) return {};
   std::vector<Knob> knobs = last;
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     const double beside = nearer ? 0 : (looks % 2 == 0 ? 1.5 : -1.5) * best.least_known[static_cast<Eigen::Index>(k)];

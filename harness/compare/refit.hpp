@@ -66,7 +66,8 @@ struct RefitOptions {
   /// Where it promised much more than the simulations at the solution confirm, it looks again in a narrower box, if what it promised is below
   /// this judged_chi2.
   double look_again_below = std::numeric_limits<double>::infinity();
-  /// Below this p-value it looks again on both sides along the direction that is known least, and keeps the best: a valley's emulator is noisy.
+  /// Below this p-value, where the misfit is not gross, it looks again on both sides along the direction that is known least, and keeps the best: a
+  /// valley's emulator is noisy.
   double look_beside_below = 0;
 };
 

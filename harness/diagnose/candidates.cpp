@@ -43,6 +43,7 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
   for (const char* axis : {".y", ".z"}) {
     // Across the axis both signs do the same: nothing is linear about zero, so it is looked for about a strength.
     add("constant_acceleration", "acceleration", false, axis);
+    list.back().slow = true;
     Knob& knob = list.back().knobs[0];
     knob.centre = knob.width = 0.15;
     knob.low = 0;

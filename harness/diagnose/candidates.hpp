@@ -14,10 +14,13 @@ struct Candidate {
   std::vector<std::pair<std::string, double>> fixed;  ///< setup paths and values (SI) that its presence needs besides, e.g. the length of the blade
   bool seen_by_momentum = false;  ///< a force from outside or a camera error that the momentum balance judges better
   double doubt = 0;               ///< chi2 that it must bring beyond a rival: how unlikely it is in such an experiment
-  bool dear = false;              ///< costs several times a plain run: screened by itself, with fewer runs
+  bool dear = false;              ///< a run costs some ten times a plain one: screened by itself, with few runs
   /// Tried whatever the linear estimate says: inside the contacts a refit hides most of what is linear, and at full strength it is not.
   bool always = false;
-  std::vector<Knob> when_tried{};  ///< of one that is on or off to the linear estimate: what its fit may vary
+  bool slow = false;  ///< a run costs some three times a plain one: screened with the others of this kind, with fewer runs
+  std::vector<Knob> when_tried{};  ///< of one screened as on or off: what its fit may vary
+
+  const std::vector<Knob>& fitted_knobs() const { return knobs.empty() ? when_tried : knobs; }
 };
 
 /// The knob's value at which the effect is absent: zero for strengths, the centre for what replaces a parameter.

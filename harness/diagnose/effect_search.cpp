@@ -14,10 +14,12 @@ namespace {
 
 /// A rival has explained so much more (chi2) that another start of this one will not catch up; the two minima of friction differ by less.
 constexpr double hopelessly_behind = 60;
-/// Share of the misfit that a linear estimate must promise to be tried before what is tried in any case.
-constexpr double goes_first = 0.25;
+/// Share of the misfit that a linear estimate must promise to be tried before what is tried in any case; of what costs ten times as much.
+constexpr double goes_first = 0.25, goes_first_when_dear = 0.5;
 /// Gain (chi2) that no emulator's noise makes; strengths along curved valleys may have errors as large as themselves all the same.
 constexpr double beyond_noise = 100;
+/// Share of the best one's gain that makes a rival one from which an experiment should tell it.
+constexpr double contends = 0.5;
 /// Gain (chi2) of an accepted model beside which what is tried in any case need not be.
 constexpr double explains_much = 300;
 
@@ -100,7 +102,7 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   const std::vector<Knob> fitted = together(theta_, chosen_);
   const bool accepted = best.p_value > doubtful, strayed = has_strayed(best);
   std::vector<ScreenedEffect> screened =
-      screen(features(), fitted, candidates, workshop_, dear_ ? ranked_when_dear : (accepted ? ranked_when_accepted : 320), 100000 * ++batch_);
+      screen(features(), fitted, candidates, workshop_, dear_ ? ranked_when_dear : to_rank, 100000 * ++batch_);
   for (const ScreenedEffect& effect : screened) result_.ranking.push_back({effect.effect, effect.gain, std::nan(""), std::nan(""), effect.value, effect.look_alikes});
   const auto promise = [&](const ScreenedEffect& effect) { return effect.gain - candidates[effect.candidate].doubt; };
   const auto always = [&](const ScreenedEffect& effect) { return candidates[effect.candidate].always; };
@@ -109,7 +111,8 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   const auto others = std::find_if_not(screened.begin(), screened.end(), always);
   const double most_promised = others == screened.end() ? 0 : promise(*others);
   // What promises to explain a good part of the misfit goes first: it may make closer looks at the others needless.
-  if (most_promised > std::max(2 * least_gain, goes_first * (best.judged_chi2 - best.degrees))) std::rotate(screened.begin(), others, others + 1);
+  const double share = others != screened.end() && candidates[others->candidate].dear ? goes_first_when_dear : goes_first;
+  if (most_promised > std::max(2 * least_gain, share * (best.judged_chi2 - best.degrees))) std::rotate(screened.begin(), others, others + 1);
   const Setup before = base_;
   std::vector<Rival> rivals;
   double best_score = 0, lowest = best.judged_chi2;
@@ -224,9 +227,9 @@ bool Pipeline::add_best_candidate(Refit& best) {
   // Lengths left out may rank what the fits do not, but their gains are too noisy to say that one of two alike is not the truth.
   const bool alike = winner.gain - second.gain < too_close || (second.decided && winner.score() - second.score() < too_close);
   if (alike && second.gain > 0.8 * winner.gain) call_twins(winner.effect, second.effect);
-  if (second.score() > 0)
+  if (second.score() > 0 && second.gain > contends * winner.gain)
     for (const Candidate& candidate : candidates)
-      if (candidate.effect == second.effect && !candidate.knobs.empty()) runner_up_ = candidate;
+      if (candidate.effect == second.effect && !candidate.fitted_knobs().empty()) runner_up_ = candidate;
   return true;
 }
 
@@ -234,7 +237,7 @@ bool Pipeline::add_best_candidate(Refit& best) {
 Pipeline::Rival Pipeline::try_candidate(const ScreenedEffect& effect, const Candidate& candidate, const Setup& before, const std::vector<Knob>& fitted,
                                         const Refit& best, double lowest) {
   base_ = prepared(before, candidate, options_.known);
-  std::vector<Knob> added = candidate.knobs.empty() ? candidate.when_tried : candidate.knobs;
+  std::vector<Knob> added = candidate.fitted_knobs();
   for (Knob& knob : added) {
     if (candidate.knobs.empty()) {  // a length, known by what it does
       knob.width *= std::clamp(effect.value, knob.low, knob.high) / knob.centre;

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "feature_covariance.hpp"
 #include "linear_model.hpp"
@@ -57,17 +58,22 @@ struct Left {
   Eigen::VectorXd residual;
 };
 
-/// Candidates with knobs, scattered together in `count` runs.
+/// Candidates with knobs, scattered together in `count` runs, judged by what the fitted parameters leave without them: of these runs, or, where they
+/// are few and what is scattered is far from linear, of others.
 Left screen_together(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
-                     const std::vector<std::size_t>& members, const Workshop& workshop, int count, int first_run, Screening& screening) {
+                     const std::vector<std::size_t>& members, const Workshop& workshop, int count, int first_run, Screening& screening,
+                     const Left* without = nullptr) {
   const auto [knobs, candidate_of, with] = beside_fitted(measured, fitted, candidates, members, workshop.known);
   const auto n_fitted = static_cast<Eigen::Index>(fitted.size());
   const std::vector<Emulator> emulators = emulate(with, knobs, count, first_run, workshop);
   if (screening.roots.empty()) screening.roots = roots_of(with, emulators);
   const LinearModel linear = whitened(with, emulators, knobs.size(), screening.roots);
-  const Outside outside(linear.columns.leftCols(n_fitted));
-  const Eigen::VectorXd without = residual_without(linear, knobs, fitted.size());  // of the model with all candidates absent
-  const Eigen::VectorXd residual = outside(without);
+  std::optional<Left> own;
+  if (without == nullptr) {
+    const Outside outside(linear.columns.leftCols(n_fitted));
+    without = &own.emplace(Left{outside, outside(residual_without(linear, knobs, fitted.size()))});
+  }
+  const auto& [outside, residual] = *without;
   for (std::size_t k = 0; k < candidate_of.size(); ++k) {
     const Knob& knob = knobs[fitted.size() + k];
     const Eigen::VectorXd signature = outside(linear.columns.col(n_fitted + static_cast<Eigen::Index>(k)));
@@ -77,7 +83,7 @@ Left screen_together(const std::vector<MeasuredFeatures>& measured, const std::v
     screening.list.push_back({candidate_of[k], candidates[candidate_of[k]].effect, allowed ? by * by * square : 0, knob.at(z), {}});
     screening.signatures.push_back(signature);
   }
-  return {outside, residual};
+  return *without;
 }
 
 /// On or off: the model with it, beside the model without. The difference is its signature at the strength that it is prepared with; what is fixed of
@@ -100,12 +106,13 @@ void screen_switch(const std::vector<MeasuredFeatures>& measured, const std::vec
 std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
                                    const std::vector<Candidate>& candidates, const Workshop& workshop, int count, int first_run) {
   Screening screening;
-  std::vector<std::size_t> cheap;
+  std::vector<std::size_t> cheap, slow;
   for (std::size_t c = 0; c < candidates.size(); ++c)
-    if (!candidates[c].dear && !candidates[c].knobs.empty()) cheap.push_back(c);
+    if (!candidates[c].dear && !candidates[c].knobs.empty()) (candidates[c].slow ? slow : cheap).push_back(c);
   int batch = 0;
   const auto next = [&] { return first_run + 5000 * batch++; };
   const Left without = screen_together(measured, fitted, candidates, cheap, workshop, count, next(), screening);
+  if (!slow.empty()) screen_together(measured, fitted, candidates, slow, workshop, std::max(64, count / 4), next(), screening, &without);
   const int few = std::max(40, count / 8), fewest = std::max(24, few / 2);  // what is dear has a strong signature
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (candidates[c].dear && candidates[c].always) {
@@ -113,7 +120,7 @@ std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured
       screening.signatures.emplace_back();
       continue;
     }
-    if (candidates[c].dear) screen_together(measured, fitted, candidates, {c}, workshop, fewest, next(), screening);
+    if (candidates[c].dear) screen_together(measured, fitted, candidates, {c}, workshop, fewest, next(), screening, &without);
     if (!candidates[c].knobs.empty()) continue;
     screen_switch(measured, fitted, candidates, c, workshop, few, next(), without, screening);
   }

@@ -77,7 +77,7 @@ std::vector<Advice> advise(const std::vector<Design>& designs, const std::vector
                            const Candidate& rival, double noise_box, double noise_centre, const Workshop& workshop, int count, int first_run) {
   std::vector<Knob> knobs = parameters;
   for (Knob& knob : knobs) knob.width = std::min(knob.width, 0.05);
-  knobs.insert(knobs.end(), rival.knobs.begin(), rival.knobs.end());
+  knobs.insert(knobs.end(), rival.fitted_knobs().begin(), rival.fitted_knobs().end());
   const auto others = static_cast<Eigen::Index>(knobs.size());
   Eigen::VectorXd strengths(static_cast<Eigen::Index>(found.size()));
   for (std::size_t k = 0; k < found.size(); ++k) {

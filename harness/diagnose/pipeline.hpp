@@ -39,9 +39,8 @@ struct Effort {
 };
 constexpr Effort only_look{1, 128, 0}, to_refit{2, 160, 128, true}, to_try{2, 128, 96}, to_try_dear{1, 72, 48}, to_look_again{2, 112, 96},
     to_decide{1, 128, 128}, to_prune{2, 128, 96, true}, to_conclude{1, 192, 160}, to_tell_apart{2, 160, 128};
-/// Where an effect makes runs cost several times more: simulations of each different setup at most in a fit, and in a ranking.
-constexpr int most_when_dear = 80, ranked_when_dear = 128;
-constexpr int ranked_when_accepted = 192;
+/// Simulations of each different setup in a ranking; where an effect makes runs cost several times more, and at most in a fit with it.
+constexpr int to_rank = 192, ranked_when_dear = 128, most_when_dear = 80;
 
 class Pipeline {
  public:

@@ -38,6 +38,15 @@ TEST(SlowScreen, AnArcIsRankedAtItsOwnLength) {
   EXPECT_NEAR(weak.value, 1.2, 1.1);    // seen: 1.97, for what it does grows faster than its curvature
 }
 
+TEST(SlowScreen, GravityAcrossIsRankedAtItsStrength) {
+  const ScreenedEffect strong = screened("constant_acceleration=acceleration.y:0.4 m/s^2", "constant_acceleration"),
+                       weak = screened("constant_acceleration=acceleration.y:0.15 m/s^2", "constant_acceleration"), none = screened("", "constant_acceleration");
+  EXPECT_GT(strong.gain, 1.5 * weak.gain);  // seen: 52, 20, 2
+  EXPECT_GT(weak.gain, 3 * none.gain);
+  EXPECT_NEAR(strong.value, 0.4, 0.15);  // seen: 0.45
+  EXPECT_NEAR(weak.value, 0.15, 0.12);   // seen: 0.22
+}
+
 TEST(SlowScreen, AReleaseWithVelocityIsRankedAtItsStrength) {
   const ScreenedEffect found = screened("initial_box_velocity=velocity:10 mm/s", "initial_box_velocity");
   EXPECT_GT(found.gain, 300);  // seen: 1104
