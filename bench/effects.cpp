@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The price of each effect in the event-driven engine: 10 s of the paper's damper with the effect at its typical strength, in CPU time of
-// the same run without it ("times_plain"). Both are measured in turn, so that a busy machine slows both. "times_plain_per_impact": the
-// same for an impact, as effects change their number too.
+// The price of each effect in the event-driven engine: 10 s of the paper's damper with the effect at its
+// typical strength, in CPU time of the same run without it ("times_plain"). Both are measured in turn, so
+// that a busy machine slows both. "times_plain_per_impact": the same for an impact, as effects change their
+// number too.
 #include <benchmark/benchmark.h>
 
 #include <ctime>
@@ -54,7 +55,8 @@ int main(int count, char** arguments) {
   benchmark::RegisterBenchmark("plain", price, std::string())->Unit(benchmark::kMillisecond);
   for (const EffectRecord* effect : all_effects())
     if (effect->acts_on != ActsOn::camera)
-      benchmark::RegisterBenchmark(std::string(effect->name).c_str(), price, example_of(*effect))->Unit(benchmark::kMillisecond);
+      benchmark::RegisterBenchmark(std::string(effect->name).c_str(), price, example_of(*effect))
+          ->Unit(benchmark::kMillisecond);
   benchmark::Initialize(&count, arguments);
   if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;
   benchmark::RunSpecifiedBenchmarks();

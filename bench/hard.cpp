@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Impacts per CPU second of the event-driven engine: the paper's damper, larger ones, elastic fluids; memory per grain; the price of a
-// wall root. Only impacts count: neither predictions that went stale nor renewals of lists.
+// Impacts per CPU second of the event-driven engine: the paper's damper, larger ones, elastic fluids; memory
+// per grain; the price of a wall root. Only impacts count: neither predictions that went stale nor renewals
+// of lists.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -26,7 +27,8 @@ std::int64_t all_impacts(const std::array<std::int64_t, contact_classes>& collis
 void count(benchmark::State& state, std::int64_t impacts, std::int64_t events) {
   const double n = static_cast<double>(impacts);
   state.counters["impacts/s"] = benchmark::Counter(n, benchmark::Counter::kIsRate);
-  state.counters["s/impact"] = benchmark::Counter(n, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["s/impact"] =
+      benchmark::Counter(n, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["events/impact"] = static_cast<double>(events) / n;
 }
 
@@ -46,7 +48,8 @@ void paper_damper(benchmark::State& state) {
   count(state, impacts, events);
 }
 
-/// The first milliseconds of the paper's damper scaled to N grains: the layer is hit by the wall, the costliest part of a period.
+/// The first milliseconds of the paper's damper scaled to N grains: the layer is hit by the wall, the
+/// costliest part of a period.
 void large_damper(benchmark::State& state) {
   Setup setup;
   setup.grains.count = static_cast<int>(state.range(0));
@@ -66,7 +69,8 @@ void large_damper(benchmark::State& state) {
   count(state, impacts, events);
 }
 
-/// Molten and ready. Kept between the calls that the benchmark library makes to find its number of iterations; one at a time.
+/// Molten and ready. Kept between the calls that the benchmark library makes to find its number of
+/// iterations; one at a time.
 HardSphereSystem& molten_fluid(int grains, int percent) {
   static std::unique_ptr<HardSphereSystem> kept;
   static std::pair<int, int> which;
@@ -93,7 +97,8 @@ std::vector<HarmonicGap> gaps_of_a_damper() {
   Random random(1, 0, Stream::other);
   std::vector<HarmonicGap> gaps;
   for (int n = 0; n < 4096; ++n) {
-    const double w = 2 * std::numbers::pi * 1.23, amplitude = 0.1075 * random.uniform(), phase = 2 * std::numbers::pi * random.uniform();
+    const double w = 2 * std::numbers::pi * 1.23, amplitude = 0.1075 * random.uniform(),
+                 phase = 2 * std::numbers::pi * random.uniform();
     const double a = amplitude * std::cos(phase);
     gaps.push_back({a, amplitude * std::sin(phase), w, 0.1 * random.uniform() - a, 0.8 * random.normal()});
   }
@@ -111,14 +116,21 @@ void wall_bound(benchmark::State& state) {
   std::size_t n = 0;
   for (auto _ : state) {
     const HarmonicGap& gap = gaps[n++ % gaps.size()];
-    benchmark::DoNotOptimize(earliest_possible_root(gap.a + gap.c, gap.angular_frequency * gap.b - gap.u, 6.4));
+    benchmark::DoNotOptimize(
+        earliest_possible_root(gap.a + gap.c, gap.angular_frequency * gap.b - gap.u, 6.4));
   }
 }
 
 BENCHMARK(paper_damper)->ArgName("L_mm")->Arg(40)->Arg(311)->Unit(benchmark::kMillisecond);
-BENCHMARK(large_damper)->ArgNames({"N", "ms"})->Args({1000, 20})->Args({10'000, 20})->Args({100'000, 20})
+BENCHMARK(large_damper)
+    ->ArgNames({"N", "ms"})
+    ->Args({1000, 20})
+    ->Args({10'000, 20})
+    ->Args({100'000, 20})
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(periodic_fluid)->ArgNames({"N", "percent"})->ArgsProduct({{1372, 10'976, 97'556, 1'000'188}, {10, 30, 50}})
+BENCHMARK(periodic_fluid)
+    ->ArgNames({"N", "percent"})
+    ->ArgsProduct({{1372, 10'976, 97'556, 1'000'188}, {10, 30, 50}})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(wall_root);
 BENCHMARK(wall_bound);

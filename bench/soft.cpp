@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Steps per second of the engines on Bullet, and one run of the paper's damper over 30 s. CPU time is the number to read.
+// Steps per second of the engines on Bullet, and one run of the paper's damper over 30 s. CPU time is the
+// number to read.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -30,7 +31,8 @@ void run(benchmark::State& state, const Engine& engine, const Setup& setup) {
     state.counters["ledger_error"] = result.health.ledger_error;
   }
   state.counters["steps/s"] = benchmark::Counter(steps, benchmark::Counter::kIsRate);
-  state.counters["s/step"] = benchmark::Counter(steps, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["s/step"] =
+      benchmark::Counter(steps, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 /// The dense phase, in which the layer is carried by the wall: the dearest second of a run.

@@ -4,8 +4,12 @@
 namespace shakedown {
 
 AllPairs::AllPairs(const State& state, std::array<double, 2> half_width, double attraction_range)
-    : size_(state.size()), padded_size_(std::max(padded(state.size()), lane_count)), half_width_(half_width), range_(attraction_range) {
-  for (AlignedVector<double>* array : {&x_, &y_, &z_, &vx_, &vy_, &vz_, &time_, &radius_, &mass_}) array->assign(padded_size_, 0.0);
+    : size_(state.size()),
+      padded_size_(std::max(padded(state.size()), lane_count)),
+      half_width_(half_width),
+      range_(attraction_range) {
+  for (AlignedVector<double>* array : {&x_, &y_, &z_, &vx_, &vy_, &vz_, &time_, &radius_, &mass_})
+    array->assign(padded_size_, 0.0);
   event_time_.assign(padded_size_, never);
   partner_.assign(padded_size_, no_partner);
   partner_count_.assign(padded_size_, 0);
@@ -71,7 +75,8 @@ struct AllPairs::Selves {
   std::array<Lanes, K> x, y, z, vx, vy, vz, radius;
   Lanes now;
 
-  Selves(const AllPairs& all, const std::array<int, K>& who) : now(all.time_[static_cast<std::size_t>(who[0])]) {
+  Selves(const AllPairs& all, const std::array<int, K>& who)
+      : now(all.time_[static_cast<std::size_t>(who[0])]) {
     for (std::size_t g = 0; g < K; ++g) {
       const std::size_t k = static_cast<std::size_t>(who[g]);
       x[g] = all.x_[k], y[g] = all.y_[k], z[g] = all.z_[k];
@@ -95,7 +100,8 @@ struct AllPairs::Selves {
   Approach approach(std::size_t g, const Others& others) const {
     const Lanes rx = others.x - x[g], ry = others.y - y[g], rz = others.z - z[g];
     const Lanes wx = others.vx - vx[g], wy = others.vy - vy[g], wz = others.vz - vz[g];
-    const Lanes reach = others.radius + radius[g], b = rx * wx + ry * wy + rz * wz, apart_squared = rx * rx + ry * ry + rz * rz;
+    const Lanes reach = others.radius + radius[g], b = rx * wx + ry * wy + rz * wz,
+                apart_squared = rx * rx + ry * ry + rz * rz;
     const Lanes c = apart_squared - reach * reach, a = wx * wx + wy * wy + wz * wz;
     return {a, b, reach, apart_squared, c, b * b - a * c};
   }
@@ -105,7 +111,8 @@ template <int K, bool Well>
 std::array<AllPairs::Touch, K> AllPairs::first_touches(const std::array<int, K>& who) {
   const Selves<K> selves(*this, who);
   std::array<Lanes, K> self, best, best_index;
-  for (std::size_t g = 0; g < K; ++g) self[g] = static_cast<double>(who[g]), best[g] = never, best_index[g] = -1.0;
+  for (std::size_t g = 0; g < K; ++g)
+    self[g] = static_cast<double>(who[g]), best[g] = never, best_index[g] = -1.0;
   Lanes index = lane_index(), smallest_room(smallest_room_);
   const Lanes zero(0.0);
   for (std::size_t j = 0; j < padded_size_; j += lane_count, index += static_cast<double>(lane_count)) {
@@ -121,8 +128,10 @@ std::array<AllPairs::Touch, K> AllPairs::first_touches(const std::array<int, K>&
       if constexpr (!Well) meets = meets && may_be_first;
       Lanes touch;
       if constexpr (Well) {
-        // Outside the well its edge is met first; inside, a grain that does not touch comes to the edge from within.
-        const Lanes edge = reach + Lanes(range_), c_edge = apart_squared - edge * edge, d_edge = b * b - a * c_edge;
+        // Outside the well its edge is met first; inside, a grain that does not touch comes to the edge from
+        // within.
+        const Lanes edge = reach + Lanes(range_), c_edge = apart_squared - edge * edge,
+                    d_edge = b * b - a * c_edge;
         const auto inside = load(bond_, static_cast<std::size_t>(who[g]) * padded_size_ + j) > Lanes(0.5);
         const Lanes root_edge = simd::sqrt(simd::max(d_edge, zero));
         Lanes inner = (root_edge - b) / a;
@@ -160,13 +169,15 @@ double AllPairs::wait_for_touch(int i, int j) const {
   other.advance(self.time);
   const double rx = other.x[0] - self.x[0], ry = other.x[1] - self.x[1], rz = other.x[2] - self.x[2];
   const double wx = other.v[0] - self.v[0], wy = other.v[1] - self.v[1], wz = other.v[2] - self.v[2];
-  const double reach = radius(j) + radius(i), b = rx * wx + ry * wy + rz * wz, c = rx * rx + ry * ry + rz * rz - reach * reach;
+  const double reach = radius(j) + radius(i), b = rx * wx + ry * wy + rz * wz,
+               c = rx * rx + ry * ry + rz * rz - reach * reach;
   return std::max(c, 0.0) / (std::sqrt(b * b - (wx * wx + wy * wy + wz * wz) * c) - b);
 }
 
-/// Which grain is first is told by estimates, and the root taken of that one alone. Where they cannot tell (touches within 2^-11 of each
-/// other), or spheres overlap deeper than any before, everything is done in full; so the answer is the same to the last bit. No branches:
-/// whether any of eight grains may come first is as good as random.
+/// Which grain is first is told by estimates, and the root taken of that one alone. Where they cannot tell
+/// (touches within 2^-11 of each other), or spheres overlap deeper than any before, everything is done in
+/// full; so the answer is the same to the last bit. No branches: whether any of eight grains may come first
+/// is as good as random.
 template <int K>
 std::array<AllPairs::Touch, K> AllPairs::estimated_touches(const std::array<int, K>& who) {
   constexpr double above = 1 + 0x1p-11, below = 1 - 0x1p-11, tiny = 1e-300;
@@ -184,20 +195,24 @@ std::array<AllPairs::Touch, K> AllPairs::estimated_touches(const std::array<int,
       const Lanes root = discriminant * inverse_root_estimate(simd::max(discriminant, Lanes(tiny)));
       const Lanes touch = simd::max(c, zero) * inverse_estimate(root - b);
       const auto meets = b < zero && discriminant >= zero;
-      doubt = doubt || (meets && (c < smallest_room || (touch > Lanes(below) * best[g] && touch < Lanes(above) * best[g])));
+      doubt = doubt || (meets && (c < smallest_room ||
+                                  (touch > Lanes(below) * best[g] && touch < Lanes(above) * best[g])));
       const auto sooner = meets && touch < best[g];
       simd::where(sooner, best[g]) = touch;
       simd::where(sooner, best_index[g]) = index;
     }
   }
-  if (simd::any_of(doubt)) [[unlikely]] return first_touches<K, false>(who);
+  if (simd::any_of(doubt)) [[unlikely]]
+    return first_touches<K, false>(who);
   std::array<Touch, K> touches;
   for (std::size_t g = 0; g < K; ++g) {
     const double earliest = simd::hmin(best[g]);
     if (!(earliest < never)) continue;
     const auto first = best[g] <= Lanes(above * earliest);
-    if (simd::popcount(first) != 1) [[unlikely]] return first_touches<K, false>(who);
-    const int partner = static_cast<int>(static_cast<double>(best_index[g][static_cast<std::size_t>(simd::find_first_set(first))]));
+    if (simd::popcount(first) != 1) [[unlikely]]
+      return first_touches<K, false>(who);
+    const int partner = static_cast<int>(
+        static_cast<double>(best_index[g][static_cast<std::size_t>(simd::find_first_set(first))]));
     touches[g] = {wait_for_touch(who[g], partner), partner};
   }
   return touches;
@@ -207,8 +222,10 @@ template <int K, bool Well>
 void AllPairs::predict_grains(const std::array<int, K>& who) {
   const double now = time_[static_cast<std::size_t>(who[0])];
   std::array<Touch, K> touches;
-  if constexpr (Well || !has_estimates) touches = first_touches<K, Well>(who);
-  else touches = estimated_touches<K>(who);
+  if constexpr (Well || !has_estimates)
+    touches = first_touches<K, Well>(who);
+  else
+    touches = estimated_touches<K>(who);
   next_.grain = -1;
   for (std::size_t g = 0; g < K; ++g) {
     const std::size_t k = static_cast<std::size_t>(who[g]);
@@ -217,7 +234,8 @@ void AllPairs::predict_grains(const std::array<int, K>& who) {
     const bool is_pair = touches[g].partner >= 0 && touch <= next.time;
     next.time = is_pair ? touch : next.time;
     next.partner = is_pair ? touches[g].partner : next.partner;
-    next.partner_count = count_[static_cast<std::size_t>(std::max(touches[g].partner, 0))];  // unused where there is none
+    // unused where there is none
+    next.partner_count = count_[static_cast<std::size_t>(std::max(touches[g].partner, 0))];
     if constexpr (Well)
       if (is_pair) next.meeting = meeting_of(who[g], next.partner);
     event_time_[k] = next.time;
@@ -229,7 +247,8 @@ void AllPairs::predict_grains(const std::array<int, K>& who) {
 
 /// What two grains in or out of each other's well meet next.
 Meeting AllPairs::meeting_of(int i, int j) const {
-  if (bond_[static_cast<std::size_t>(i) * padded_size_ + static_cast<std::size_t>(j)] == 0) return Meeting::capture;
+  if (bond_[static_cast<std::size_t>(i) * padded_size_ + static_cast<std::size_t>(j)] == 0)
+    return Meeting::capture;
   const Flight3 self = flight(i);
   Flight3 other = flight(j);
   other.advance(self.time);
@@ -244,12 +263,16 @@ Meeting AllPairs::meeting_of(int i, int j) const {
 }
 
 void AllPairs::predict(int i) {
-  if (range_ > 0) predict_grains<1, true>({i});
-  else predict_grains<1, false>({i});
+  if (range_ > 0)
+    predict_grains<1, true>({i});
+  else
+    predict_grains<1, false>({i});
 }
 void AllPairs::predict(int i, int j) {
-  if (range_ > 0) predict_grains<2, true>({i, j});
-  else predict_grains<2, false>({i, j});
+  if (range_ > 0)
+    predict_grains<2, true>({i, j});
+  else
+    predict_grains<2, false>({i, j});
 }
 
 void AllPairs::predict_all() {
@@ -272,7 +295,10 @@ GrainSums AllPairs::sums(double t) {
     py += m * vy;
     pz += m * vz;
   }
-  sums_ = {simd::reduce(mass), simd::reduce(kinetic) / 2, simd::reduce(moment), {simd::reduce(px), simd::reduce(py), simd::reduce(pz)}};
+  sums_ = {simd::reduce(mass),
+           simd::reduce(kinetic) / 2,
+           simd::reduce(moment),
+           {simd::reduce(px), simd::reduce(py), simd::reduce(pz)}};
   sums_time_ = t;
   return sums_;
 }

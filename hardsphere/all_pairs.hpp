@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Grains of a small system (the paper's 37): structure of arrays, every pair tested in vector lanes, the next event found by a vector
-// scan. No lists, no queue: at this size both cost more than they save.
+// Grains of a small system (the paper's 37): structure of arrays, every pair tested in vector lanes, the next
+// event found by a vector scan. No lists, no queue: at this size both cost more than they save.
 #pragma once
 #include <vector>
 
@@ -34,7 +34,9 @@ class AllPairs {
   /// Whether two grains are in each other's well, and how many pairs are.
   void set_bond(int i, int j, bool bond);
   int bonds() const;
-  std::array<double, 2> side_room(int i) const { return {half_width_[0] - radius(i), half_width_[1] - radius(i)}; }
+  std::array<double, 2> side_room(int i) const {
+    return {half_width_[0] - radius(i), half_width_[1] - radius(i)};
+  }
 
   /// Asked twice an event: once for its time, once to execute it.
   const Next& next() {
@@ -70,7 +72,7 @@ class AllPairs {
   Meeting meeting_of(int i, int j) const;
   /// Of a grain with any other, from the time of its flight.
   struct Touch {
-    double wait = never;   ///< s
+    double wait = never;  ///< s
     std::int32_t partner = no_partner;
   };
   /// Grains as vectors of equal numbers.
@@ -92,8 +94,8 @@ class AllPairs {
   std::vector<Meeting> meeting_;
   double range_ = 0;
   AlignedVector<double> bond_;  // 1 or 0 for each pair, a padded row a grain; empty without attraction
-  Next next_{never, -1};      // grain -1: not known
-  double smallest_room_ = 0;  // of r^2 - reach^2, m^2
+  Next next_{never, -1};        // grain -1: not known
+  double smallest_room_ = 0;    // of r^2 - reach^2, m^2
   GrainSums sums_;
   double sums_time_ = never;  // never: not known
 };

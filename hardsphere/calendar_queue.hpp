@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Event queue whose cost does not grow with the number of grains: a calendar (Brown 1988; for event-driven dynamics Paul 2007,
-// J. Comput. Phys. 221, 615). Each grain has one date. A year is cut into days, a day holds a third of a date, unsorted; dates beyond the
-// year wait in one list that is looked through once a year. The length of a day follows the density of events.
+// Event queue whose cost does not grow with the number of grains: a calendar (Brown 1988; for event-driven
+// dynamics Paul 2007, J. Comput. Phys. 221, 615). Each grain has one date. A year is cut into days, a day
+// holds a third of a date, unsorted; dates beyond the year wait in one list that is looked through once a
+// year. The length of a day follows the density of events.
 //
-// Which days are empty and where a date stands in its list is as good as random, and a branch taken wrong costs more than the rest of the
-// work. So the next day with a date is found in words of bits, one a day, and dates enter and leave lists without a branch: a list ends at
-// a record that belongs to no grain, and the first date of a day has the day in place of a predecessor.
+// Which days are empty and where a date stands in its list is as good as random, and a branch taken wrong
+// costs more than the rest of the work. So the next day with a date is found in words of bits, one a day, and
+// dates enter and leave lists without a branch: a list ends at a record that belongs to no grain, and the
+// first date of a day has the day in place of a predecessor.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -43,8 +45,8 @@ class CalendarQueue {
     if (cached_ != none && time < this->time(cached_)) cached_ = i;
   }
 
-  /// The earliest date; grain -1 when there is none. `tell(i, days)` is told of grains whose dates come up in each of these numbers of
-  /// days, a third as many events: time to bring what they need near.
+  /// The earliest date; grain -1 when there is none. `tell(i, days)` is told of grains whose dates come up in
+  /// each of these numbers of days, a third as many events: time to bring what they need near.
   template <std::size_t Looks, class Ahead>
   Next next(const std::array<int, Looks>& days_ahead, Ahead&& tell) {
     if (cached_ == none) find(days_ahead, tell);
@@ -65,7 +67,8 @@ class CalendarQueue {
 
   double time(int i) const { return dates_[static_cast<std::size_t>(i)].time; }
   std::size_t bytes() const {
-    return dates_.size() * sizeof(Date) + first_.size() * sizeof(std::int32_t) + dated_.size() * sizeof(std::uint64_t);
+    return dates_.size() * sizeof(Date) + first_.size() * sizeof(std::int32_t) +
+           dated_.size() * sizeof(std::uint64_t);
   }
 
  private:
@@ -98,7 +101,8 @@ class CalendarQueue {
   void remove(std::size_t k) {
     const Date& date = dates_[k];
     const bool is_first = date.previous < 0;
-    const std::size_t day = static_cast<std::size_t>(~date.previous & (date.previous >> 31)), before = static_cast<std::size_t>(date.previous);
+    const std::size_t day = static_cast<std::size_t>(~date.previous & (date.previous >> 31)),
+                      before = static_cast<std::size_t>(date.previous);
     std::int32_t* const of_day = &first_[day];
     std::int32_t* const of_date = &dates_[is_first ? 0 : before].next;
     *(is_first ? of_day : of_date) = date.next;
@@ -124,7 +128,8 @@ class CalendarQueue {
       ++looks_;
       for (std::int32_t i = first_[today_]; i != end_; i = dates_[static_cast<std::size_t>(i)].next) {
         ++looks_;
-        if (cached_ == none || time(i) < time(cached_) || (time(i) == time(cached_) && i < cached_)) cached_ = i;
+        if (cached_ == none || time(i) < time(cached_) || (time(i) == time(cached_) && i < cached_))
+          cached_ = i;
       }
       if (cached_ != none) {
         ++found_;
@@ -138,7 +143,8 @@ class CalendarQueue {
   template <class Ahead>
   void tell_of(int days_ahead, std::size_t day, Ahead&& tell) const {
     const std::size_t in_sight = std::min(day + static_cast<std::size_t>(days_ahead), days() - 1);
-    for (std::size_t d = next_dated(today_ + static_cast<std::size_t>(days_ahead) + 1); d <= in_sight; d = next_dated(d + 1))
+    for (std::size_t d = next_dated(today_ + static_cast<std::size_t>(days_ahead) + 1); d <= in_sight;
+         d = next_dated(d + 1))
       tell(first_[d], days_ahead);
   }
 
@@ -151,7 +157,9 @@ class CalendarQueue {
     // Few dates a day keep it short; too few, and more of them lie beyond the year.
     const double events_per_day = static_cast<double>(found_) / static_cast<double>(days());
     const bool tune = events_per_day > 2 * dates_a_day || events_per_day < dates_a_day / 2;
-    rebuild(earliest, tune ? day_length_ * std::clamp(dates_a_day / std::max(events_per_day, 1e-3), 0.01, 100.0) : day_length_);
+    rebuild(earliest,
+            tune ? day_length_ * std::clamp(dates_a_day / std::max(events_per_day, 1e-3), 0.01, 100.0)
+                 : day_length_);
     return true;
   }
 
@@ -172,9 +180,9 @@ class CalendarQueue {
       if (dates_[k].time < never) insert(k);
   }
 
-  AlignedVector<Date> dates_;           // the last one is the end of every list
+  AlignedVector<Date> dates_;  // the last one is the end of every list
   std::int32_t end_;
-  AlignedVector<std::int32_t> first_;  // of each day; the last entry is the list of dates beyond the year
+  AlignedVector<std::int32_t> first_;   // of each day; the last entry is the list of dates beyond the year
   AlignedVector<std::uint64_t> dated_;  // a bit a day: whether it has dates
   double day_length_ = 1, per_second_ = 1, year_start_ = 0;
   std::size_t today_ = 0;

@@ -30,7 +30,8 @@ bool CellCrossings::can_hold(const State& state, const std::array<double, 3>& ex
   if (state.size() == 0) return false;
   for (std::size_t i = 0; i < state.size(); ++i)
     if (state.radius[i] != state.radius[0]) return false;
-  return std::all_of(extent.begin(), extent.end(), [&](double e) { return cells_across(e, 2 * state.radius[0] * least_edge) >= 3; });
+  return std::all_of(extent.begin(), extent.end(),
+                     [&](double e) { return cells_across(e, 2 * state.radius[0] * least_edge) >= 3; });
 }
 
 CellCrossings::CellCrossings(const State& state, const std::array<double, 3>& extent, double edge)
@@ -38,10 +39,12 @@ CellCrossings::CellCrossings(const State& state, const std::array<double, 3>& ex
   EXPECT(can_hold(state, extent));
   std::size_t all = 1;
   for (std::size_t axis : {2, 1, 0}) {
-    cells_[axis] = std::max(3, cells_across(extent[axis], lines_.largest_reach() * std::max(edge, least_edge)));
+    cells_[axis] =
+        std::max(3, cells_across(extent[axis], lines_.largest_reach() * std::max(edge, least_edge)));
     edge_[axis] = extent[axis] / cells_[axis];
     const auto n = static_cast<std::size_t>(cells_[axis]);
-    for (std::size_t cell = 0; cell < n + 3; ++cell) offset_[axis].push_back(static_cast<std::uint32_t>((cell + n - 1) % n * all));
+    for (std::size_t cell = 0; cell < n + 3; ++cell)
+      offset_[axis].push_back(static_cast<std::uint32_t>((cell + n - 1) % n * all));
     all *= n;
   }
   EXPECT(all < std::size_t{1} << 31);
@@ -50,7 +53,8 @@ CellCrossings::CellCrossings(const State& state, const std::array<double, 3>& ex
     std::array<double*, 3> x{&lines_[i].x, &lines_[i].y, &lines_[i].z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       *x[axis] -= extent[axis] * std::floor(*x[axis] / extent[axis]);
-      place_[i].cell[axis] = static_cast<std::uint16_t>(std::min(cells_[axis] - 1, static_cast<int>(*x[axis] / edge_[axis])));
+      place_[i].cell[axis] =
+          static_cast<std::uint16_t>(std::min(cells_[axis] - 1, static_cast<int>(*x[axis] / edge_[axis])));
     }
     put_in_cell(i);
   }
@@ -58,7 +62,8 @@ CellCrossings::CellCrossings(const State& state, const std::array<double, 3>& ex
 
 std::array<double, 3> CellCrossings::separation(const Flight3& a, const Flight3& b) const {
   const Period& period = lines_.period();
-  return {period.nearest(b.x[0] - a.x[0], 0), period.nearest(b.x[1] - a.x[1], 1), period.nearest(b.x[2] - a.x[2], 2)};
+  return {period.nearest(b.x[0] - a.x[0], 0), period.nearest(b.x[1] - a.x[1], 1),
+          period.nearest(b.x[2] - a.x[2], 2)};
 }
 
 void CellCrossings::put_in_cell(std::size_t i) {
@@ -77,23 +82,28 @@ void CellCrossings::take_from_cell(std::size_t i) {
   if (*link < 0 && link_before != nullptr) *link_before &= ~has_next;
 }
 
-/// Takes the grains of cells: first the cells that are not empty, without a branch (most are, unpredictably), then the rare second grains,
-/// of which the link to the first tells, so that nobody's line is looked at too early. With AVX-512 sixteen cells at a time, which saves a
-/// sixth of all instructions at packing fraction 0.1.
+/// Takes the grains of cells: first the cells that are not empty, without a branch (most are, unpredictably),
+/// then the rare second grains, of which the link to the first tells, so that nobody's line is looked at too
+/// early. With AVX-512 sixteen cells at a time, which saves a sixth of all instructions at packing fraction
+/// 0.1.
 class CellCrossings::Collector {
  public:
-  Collector(const CellCrossings& cells, Others& others) : first_(cells.cell_first_.data()), lines_(cells.lines_), others_(others) {}
+  Collector(const CellCrossings& cells, Others& others)
+      : first_(cells.cell_first_.data()), lines_(cells.lines_), others_(others) {}
 
 #ifdef __AVX512F__
   /// Offsets of three cells along each axis: their 27 sums.
   void block(const std::uint32_t* x, const std::uint32_t* y, const std::uint32_t* z) {
     const __m512i three_x = three(x), three_y = three(y), three_z = three(z);
     for (std::size_t n = 0; n < 27; n += 16)
-      take(sum(pick(three_x, &of_x[n]), pick(three_y, &of_y[n]), pick(three_z, &of_z[n])), n == 0 ? 0xffff : 0x7ff);
+      take(sum(pick(three_x, &of_x[n]), pick(three_y, &of_y[n]), pick(three_z, &of_z[n])),
+           n == 0 ? 0xffff : 0x7ff);
   }
   /// The same for one cell along the first axis: nine sums.
   void layer(std::uint32_t x, const std::uint32_t* y, const std::uint32_t* z) {
-    take(sum(_mm512_set1_epi32(static_cast<int>(x)), pick(three(y), of_y.data()), pick(three(z), of_z.data())), 0x1ff);
+    take(
+        sum(_mm512_set1_epi32(static_cast<int>(x)), pick(three(y), of_y.data()), pick(three(z), of_z.data())),
+        0x1ff);
   }
 #else
   void block(const std::uint32_t* x, const std::uint32_t* y, const std::uint32_t* z) {
@@ -239,14 +249,16 @@ void CellCrossings::schedule(std::size_t i, const Flight3& anchor, double now) {
   }
   const double wait = std::min({until[0], until[1], until[2]});
   place.axis = static_cast<std::uint8_t>((wait != until[0]) + ((wait != until[0]) & (wait != until[1])));
-  const double crossing = std::max(now, anchor.time + wait);  // rounding may have put it a little beyond its edge
+  // rounding may have put it a little beyond its edge
+  const double crossing = std::max(now, anchor.time + wait);
   place.crosses = crossing < place.pair_time;
   queue_.schedule(static_cast<int>(i), std::min(crossing, place.pair_time));
 }
 
 double CellCrossings::bytes_per_grain() const {
   return GrainLines::bytes_per_grain() + sizeof(Place) +
-         static_cast<double>(cell_first_.size() * sizeof(std::int32_t) + queue_.bytes()) / static_cast<double>(lines_.size());
+         static_cast<double>(cell_first_.size() * sizeof(std::int32_t) + queue_.bytes()) /
+             static_cast<double>(lines_.size());
 }
 
 }  // namespace shakedown

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Grains of a periodic fluid of moderate density: cells little wider than a grain, no lists. A grain is tested against those in the 27
-// cells around it after an impact, and against those in the nine new ones when it crosses into the next cell. Its earliest impact is kept
-// beyond the crossing, so that a crossing costs few tests. Beside CellLists at packing fraction 0.1: 2.7 crossings an impact of two tests
-// each instead of 2.8 renewed lists, 14 pair tests an impact in all.
+// Grains of a periodic fluid of moderate density: cells little wider than a grain, no lists. A grain is
+// tested against those in the 27 cells around it after an impact, and against those in the nine new ones when
+// it crosses into the next cell. Its earliest impact is kept beyond the crossing, so that a crossing costs
+// few tests. Beside CellLists at packing fraction 0.1: 2.7 crossings an impact of two tests each instead
+// of 2.8 renewed lists, 14 pair tests an impact in all.
 #pragma once
 #include <vector>
 
@@ -59,7 +60,9 @@ class CellCrossings : public ScheduledGrains {
     return offset_[0][cell[0] + 1u] + offset_[1][cell[1] + 1u] + offset_[2][cell[2] + 1u];
   }
   /// Offsets along an axis of the cells before, at and after a grain's own.
-  const std::uint32_t* around(std::size_t i, std::size_t axis) const { return &offset_[axis][place_[i].cell[axis]]; }
+  const std::uint32_t* around(std::size_t i, std::size_t axis) const {
+    return &offset_[axis][place_[i].cell[axis]];
+  }
   void prefetch(int i, int days) const;
   void put_in_cell(std::size_t i);
   void take_from_cell(std::size_t i);
@@ -74,7 +77,8 @@ class CellCrossings : public ScheduledGrains {
   AlignedVector<std::int32_t> cell_first_;
   std::array<int, 3> cells_{};
   std::array<double, 3> edge_{};
-  std::array<std::vector<std::uint32_t>, 3> offset_;  // of a cell's index, per axis; one step beyond both ends wraps around, one more fills a vector
+  // of a cell's index, per axis; one step beyond both ends wraps around, one more fills a vector
+  std::array<std::vector<std::uint32_t>, 3> offset_;
 };
 
 }  // namespace shakedown

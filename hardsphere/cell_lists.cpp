@@ -9,10 +9,9 @@ namespace shakedown {
 
 namespace {
 
-/// Diameters: wide shells save renewals where grains fly far between impacts, narrow ones save pair tests where they do not.
-double shell_for(double packing_fraction) {
-  return std::clamp(2.45 - 1.75 * packing_fraction, 1.45, 2.6);
-}
+/// Diameters: wide shells save renewals where grains fly far between impacts, narrow ones save pair tests
+/// where they do not.
+double shell_for(double packing_fraction) { return std::clamp(2.45 - 1.75 * packing_fraction, 1.45, 2.6); }
 
 double shell_of(const CellListsPlan& plan, double largest_reach) {
   double shell = largest_reach * (plan.shell > 0 ? plan.shell : shell_for(plan.packing_fraction));
@@ -59,9 +58,9 @@ std::array<double, 3> CellLists<Periodic>::separation(const Flight3& a, const Fl
   return {nearest(b.x[0] - a.x[0], 0), nearest(b.x[1] - a.x[1], 1), nearest(b.x[2] - a.x[2], 2)};
 }
 
-/// When a grain is `leeway` away from the centre of its list, if that is within `wait`; or `wait`. Mostly it is not, and a look at the
-/// place where it would be then spares the root (9 % at packing fraction 0.5). Coordinates change by a period only together with the
-/// centre.
+/// When a grain is `leeway` away from the centre of its list, if that is within `wait`; or `wait`. Mostly it
+/// is not, and a look at the place where it would be then spares the root (9 % at packing fraction 0.5).
+/// Coordinates change by a period only together with the centre.
 template <bool Periodic>
 double CellLists<Periodic>::time_to_leave(std::size_t i, const Flight3& flight, double wait) const {
   double a = 0, b = 0, c = -leeway_ * leeway_, later = 0;
@@ -100,8 +99,8 @@ void CellLists<Periodic>::remember(int i, const GrainEvent& next) {
   queue_.schedule(i, next.time);
 }
 
-/// Far ahead the grain's own lines, which say where to look later: at its neighbours and its partner, and at last at the partner's
-/// neighbours.
+/// Far ahead the grain's own lines, which say where to look later: at its neighbours and its partner, and at
+/// last at the partner's neighbours.
 template <bool Periodic>
 void CellLists<Periodic>::prefetch(int i, int days) const {
   const std::size_t k = static_cast<std::size_t>(i);
@@ -118,7 +117,8 @@ void CellLists<Periodic>::prefetch(int i, int days) const {
 
 template <bool Periodic>
 void CellLists<Periodic>::prefetch_neighbours(std::size_t i) const {
-  for (std::size_t n = 0; n < own_[i].list_size; ++n) lines_.prefetch(static_cast<std::size_t>(list_[i * list_room_ + n]));
+  for (std::size_t n = 0; n < own_[i].list_size; ++n)
+    lines_.prefetch(static_cast<std::size_t>(list_[i * list_room_ + n]));
 }
 
 template <bool Periodic>
@@ -130,12 +130,13 @@ void CellLists<Periodic>::add_neighbour(std::size_t i, std::int32_t neighbour) {
 /// Lists are compared a chunk at a time, so that the compiler does it in vector lanes.
 constexpr std::size_t chunk = 8;
 
-/// How many of a list, which goes on with something else up to a whole number of chunks, are j, weighted by one more than their place: the
-/// place of the only one, or 0 when there is none.
+/// How many of a list, which goes on with something else up to a whole number of chunks, are j, weighted by
+/// one more than their place: the place of the only one, or 0 when there is none.
 inline std::size_t one_beyond(const std::int32_t* list, std::size_t size, std::int32_t j) {
   std::int32_t found = 0;
   for (std::size_t first = 0; first < size; first += chunk)
-    for (std::size_t n = first; n < first + chunk; ++n) found += list[n] == j ? static_cast<std::int32_t>(n) + 1 : 0;
+    for (std::size_t n = first; n < first + chunk; ++n)
+      found += list[n] == j ? static_cast<std::int32_t>(n) + 1 : 0;
   return static_cast<std::size_t>(found);
 }
 
@@ -181,9 +182,11 @@ void CellLists<Periodic>::leave_neighbourhood(int i, double now) {
   std::fill_n(&near_[near], chunk, no_partner);
   // Most neighbours stay: only the lists of those that come or go are touched.
   for (std::size_t n = 0; n < own_[k].list_size; ++n)
-    if (const std::int32_t j = list(k)[n]; one_beyond(near_.data(), near, j) == 0) remove_neighbour(static_cast<std::size_t>(j), i);
+    if (const std::int32_t j = list(k)[n]; one_beyond(near_.data(), near, j) == 0)
+      remove_neighbour(static_cast<std::size_t>(j), i);
   for (std::size_t n = 0; n < near; ++n)
-    if (one_beyond(list(k), own_[k].list_size, near_[n]) == 0) add_neighbour(static_cast<std::size_t>(near_[n]), i);
+    if (one_beyond(list(k), own_[k].list_size, near_[n]) == 0)
+      add_neighbour(static_cast<std::size_t>(near_[n]), i);
   while (list_room_ < near) widen_lists();
   std::fill_n(std::copy_n(near_.data(), near, list(k)), list_room_ - near, i);
   own_[k].list_size = static_cast<std::uint32_t>(near);
@@ -194,7 +197,8 @@ template <bool Periodic>
 double CellLists<Periodic>::bytes_per_grain() const {
   if (lines_.size() == 0) return 0;
   const double n = static_cast<double>(lines_.size());
-  return GrainLines::bytes_per_grain() + sizeof(Own) + static_cast<double>(list_room_) * sizeof(std::int32_t) +
+  return GrainLines::bytes_per_grain() + sizeof(Own) +
+         static_cast<double>(list_room_) * sizeof(std::int32_t) +
          static_cast<double>(centres_.bytes() + queue_.bytes()) / n;
 }
 

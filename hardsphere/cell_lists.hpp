@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Grains of a large system: one cache line a grain, neighbour lists found through cells, a calendar of one event a grain. The cost of an
-// impact does not depend on the number of grains.
+// Grains of a large system: one cache line a grain, neighbour lists found through cells, a calendar of one
+// event a grain. The cost of an impact does not depend on the number of grains.
 //
-// A list holds the grains whose list centres lie within `shell` of one's own; a grain renews its list when it has moved `leeway` from its
-// centre, an event like any other. Spheres touch at `reach` at most, so with shell = reach + 2 leeway no partner can be missed.
+// A list holds the grains whose list centres lie within `shell` of one's own; a grain renews its list when it
+// has moved `leeway` from its centre, an event like any other. Spheres touch at `reach` at most, so with
+// shell = reach + 2 leeway no partner can be missed.
 #pragma once
 #include <vector>
 
@@ -13,11 +14,12 @@
 namespace shakedown {
 
 struct CellListsPlan {
-  std::array<double, 3> cell{};    ///< m, extent of the domain along each axis; grains may leave it, cells wrap around
+  std::array<double, 3>
+      cell{};  ///< m, extent of the domain along each axis; grains may leave it, cells wrap around
   bool periodic = false;
   std::array<double, 2> half_width{never, never};  ///< side walls, m
-  double packing_fraction = 0.5;   ///< local; sets the shell
-  double shell = 0;                ///< in units of the largest diameter; 0: chosen by packing fraction
+  double packing_fraction = 0.5;                   ///< local; sets the shell
+  double shell = 0;  ///< in units of the largest diameter; 0: chosen by packing fraction
 };
 
 template <bool Periodic>
@@ -31,7 +33,8 @@ class CellLists : public ScheduledGrains {
   }
   GrainEvent event(int i) const;
   void predict(int i) { remember(i, next_of(i)); }
-  /// Both are found before either is remembered: each is a long chain of dependent operations, and the two overlap.
+  /// Both are found before either is remembered: each is a long chain of dependent operations, and the two
+  /// overlap.
   void predict(int i, int j) {
     const GrainEvent of_i = next_of(i), of_j = next_of(j);
     remember(i, of_i);

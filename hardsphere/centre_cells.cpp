@@ -13,8 +13,10 @@ CentreCells::CentreCells(std::size_t grains, const std::array<double, 3>& extent
   double all = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double across = extent[axis] / reach;
-    // Open axes get two spare cells, so that the two ends of the grains' room never share one through the wrap.
-    cells_[axis] = periodic ? std::max(3, static_cast<int>(across)) : std::max(3, static_cast<int>(std::ceil(across)) + 2);
+    // Open axes get two spare cells, so that the two ends of the grains' room never share one through the
+    // wrap.
+    cells_[axis] = periodic ? std::max(3, static_cast<int>(across))
+                            : std::max(3, static_cast<int>(std::ceil(across)) + 2);
     edge_[axis] = periodic ? extent[axis] / cells_[axis] : reach;
     per_edge_[axis] = 1 / edge_[axis];
     all *= cells_[axis];
@@ -28,7 +30,8 @@ CentreCells::Place CentreCells::place(const std::array<double, 3>& centre) const
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double home = std::floor(centre[axis] * per_edge_[axis]);
     double cell = home < 0 ? home + cells_[axis] : home;
-    if (!(cell >= 0 && cell < cells_[axis])) [[unlikely]] cell -= cells_[axis] * std::floor(cell / cells_[axis]);
+    if (!(cell >= 0 && cell < cells_[axis])) [[unlikely]]
+      cell -= cells_[axis] * std::floor(cell / cells_[axis]);
     place.cell[axis] = std::min(static_cast<int>(cell), cells_[axis] - 1);
     place.from_corner[axis] = static_cast<float>(centre[axis] - home * edge_[axis]);
   }
@@ -83,11 +86,13 @@ void CentreCells::put(std::int32_t grain, const Place& place) {
   to.y[lane] = place.from_corner[1];
   to.z[lane] = place.from_corner[2];
   to.grain[lane] = grain;
-  slot_[static_cast<std::size_t>(grain)] = block * static_cast<std::int32_t>(block_size) + static_cast<std::int32_t>(lane);
+  slot_[static_cast<std::size_t>(grain)] =
+      block * static_cast<std::int32_t>(block_size) + static_cast<std::int32_t>(lane);
 }
 
 void CentreCells::take(std::int32_t grain) {
-  const std::size_t slot = static_cast<std::size_t>(slot_[static_cast<std::size_t>(grain)]), lane = slot % block_size;
+  const std::size_t slot = static_cast<std::size_t>(slot_[static_cast<std::size_t>(grain)]),
+                    lane = slot % block_size;
   Block& from = block_[slot / block_size];
   from.x[lane] = far_away;
   from.grain[lane] = none;
@@ -97,7 +102,8 @@ void CentreCells::take(std::int32_t grain) {
 
 std::size_t CentreCells::find(const Place& place, std::vector<std::int32_t>& near) const {
   std::array<std::array<int, 3>, 3> cell;
-  std::array<std::array<float, 3>, 3> from;  // the place, counted from the corner of the cell before, at and after
+  // the place, counted from the corner of the cell before, at and after
+  std::array<std::array<float, 3>, 3> from;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const int home = place.cell[axis], n = cells_[axis];
     const float here = place.from_corner[axis], edge = static_cast<float>(edge_[axis]);
@@ -108,11 +114,13 @@ std::size_t CentreCells::find(const Place& place, std::vector<std::int32_t>& nea
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t b = 0; b < 3; ++b)
       for (std::size_t c = 0; c < 3; ++c)
-        for (std::int32_t n = first_[index_of(cell[0][a], cell[1][b], cell[2][c])]; n != none; n = next_[static_cast<std::size_t>(n)]) {
+        for (std::int32_t n = first_[index_of(cell[0][a], cell[1][b], cell[2][c])]; n != none;
+             n = next_[static_cast<std::size_t>(n)]) {
           const Block& block = block_[static_cast<std::size_t>(n)];
           std::array<float, block_size> apart_squared;
           for (std::size_t lane = 0; lane < block_size; ++lane) {
-            const float x = block.x[lane] - from[0][a], y = block.y[lane] - from[1][b], z = block.z[lane] - from[2][c];
+            const float x = block.x[lane] - from[0][a], y = block.y[lane] - from[1][b],
+                        z = block.z[lane] - from[2][c];
             apart_squared[lane] = x * x + y * y + z * z;
           }
           if (size + block_size > near.size()) near.resize(2 * (size + block_size));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Which list centres lie near a place: cells as wide as the search reaches, each a block or more of eight centres in single precision,
-// counted from the cell's corner. A block is tested in vector lanes, and periods need no thought: the step from cell to cell is known.
-// Rounding is allowed for by a wider reach, so that none is missed; a neighbour too many costs a pair test and changes nothing.
-// Beside lists linked from grain to grain: a third of the time of a renewal.
+// Which list centres lie near a place: cells as wide as the search reaches, each a block or more of eight
+// centres in single precision, counted from the cell's corner. A block is tested in vector lanes, and periods
+// need no thought: the step from cell to cell is known. Rounding is allowed for by a wider reach, so that
+// none is missed; a neighbour too many costs a pair test and changes nothing. Beside lists linked from grain
+// to grain: a third of the time of a renewal.
 #pragma once
 #include <array>
 #include <vector>
@@ -25,12 +26,13 @@ class CentreCells {
 
   void put(std::int32_t grain, const Place& place);
   void take(std::int32_t grain);
-  /// Writes the grains whose centres lie within reach of a place, and perhaps some a hundred thousandth beyond, to `near`, which grows as
-  /// needed; returns how many.
+  /// Writes the grains whose centres lie within reach of a place, and perhaps some a hundred thousandth
+  /// beyond, to `near`, which grows as needed; returns how many.
   std::size_t find(const Place& place, std::vector<std::int32_t>& near) const;
 
   std::size_t bytes() const {
-    return first_.size() * sizeof(std::int32_t) + block_.size() * (sizeof(Block) + 2 * sizeof(std::int32_t)) + slot_.size() * sizeof(std::int32_t);
+    return first_.size() * sizeof(std::int32_t) + block_.size() * (sizeof(Block) + 2 * sizeof(std::int32_t)) +
+           slot_.size() * sizeof(std::int32_t);
   }
 
  private:
@@ -43,7 +45,8 @@ class CentreCells {
   };
 
   std::size_t index_of(int x, int y, int z) const {
-    return (static_cast<std::size_t>(x) * static_cast<std::size_t>(cells_[1]) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(cells_[2]) +
+    return (static_cast<std::size_t>(x) * static_cast<std::size_t>(cells_[1]) + static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(cells_[2]) +
            static_cast<std::size_t>(z);
   }
   std::int32_t new_block(std::size_t cell);
@@ -52,10 +55,11 @@ class CentreCells {
   std::array<int, 3> cells_{};
   std::array<double, 3> edge_{}, per_edge_{};
   float reach_squared_;
-  std::vector<std::int32_t> first_;         // block of each cell
+  std::vector<std::int32_t> first_;  // block of each cell
   AlignedVector<Block> block_;
-  std::vector<std::int32_t> next_, cell_;   // of each block: the next of its cell (or the next unused one), and its cell
-  std::vector<std::int32_t> slot_;          // of each grain, block_size to a block
+  std::vector<std::int32_t> next_;  // of each block: the next of its cell, or the next unused one
+  std::vector<std::int32_t> cell_;  // of each block
+  std::vector<std::int32_t> slot_;  // of each grain, block_size to a block
   std::int32_t unused_ = none;
 };
 

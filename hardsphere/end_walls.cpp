@@ -4,7 +4,11 @@
 namespace shakedown {
 
 EndWalls::EndWalls(std::vector<double> room, bool always_watch_all, double range)
-    : watch_all_(always_watch_all), range_(range), room_(std::move(room)), slot_(room_.size(), -1), bound_(room_.size()) {
+    : watch_all_(always_watch_all),
+      range_(range),
+      room_(std::move(room)),
+      slot_(room_.size(), -1),
+      bound_(room_.size()) {
   const std::size_t size = std::max(padded(room_.size()), lane_count);
   for (AlignedVector<double>* array : {&x_, &v_, &time_, &room_of_slot_}) array->assign(size, 0.0);
   grain_.assign(size, -1);
@@ -17,8 +21,10 @@ void EndWalls::start_window(const Now& now) {
   if (watch_all_) return;
   // A grain costs about 8 times as much in the sweep over all as in the vectorised sweep over the watched.
   const double all = 8 * static_cast<double>(room_.size());
-  if (planned_ == 0) planned_ = 1e-5;
-  else planned_ = std::clamp(planned_ * (swept_ > all ? 0.8 : 1.25), 1e-9, 1.0);
+  if (planned_ == 0)
+    planned_ = 1e-5;
+  else
+    planned_ = std::clamp(planned_ * (swept_ > all ? 0.8 : 1.25), 1e-9, 1.0);
   if (budget_ == 0 && range_ == 0) budget_ = 1e-4 * now.top_speed;
   if (now.time > window_start_) jump_rate_ = (jump_rate_ + jumps_ / (now.time - window_start_)) / 2;
   const double tiny = 1e-9 * now.top_speed;
@@ -32,7 +38,8 @@ void EndWalls::start_window(const Now& now) {
 void EndWalls::sweep(const Now& now) {
   if (!watch_all_) {
     // In units of a bound in the vectorised sweep a refinement costs a hundred.
-    const double watched = static_cast<double>(count_), extra = static_cast<double>(refined_ - 2 * kicks_) * 100;
+    const double watched = static_cast<double>(count_),
+                 extra = static_cast<double>(refined_ - 2 * kicks_) * 100;
     budget_ *= extra > watched ? 0.8 : 1.25;
     swept_ += watched;
     used_ = 0;
@@ -43,7 +50,8 @@ void EndWalls::sweep(const Now& now) {
 }
 
 double EndWalls::bound_of(int grain, const Flight& flight, double room, const Now& now) const {
-  const double apart = now.point.x - (flight.x + flight.v * (now.time - flight.time)), rate = now.point.v - flight.v;
+  const double apart = now.point.x - (flight.x + flight.v * (now.time - flight.time)),
+               rate = now.point.v - flight.v;
   const double top = now.top_acceleration;
   if (range_ == 0)
     return now.time + std::min(earliest_possible_root(room + apart, rate - budget_, top),
@@ -52,7 +60,8 @@ double EndWalls::bound_of(int grain, const Flight& flight, double room, const No
   for (const int side : {1, -1}) {
     const double gap = room + side * apart, opening = side * rate;
     if (is_inside(grain, side))
-      wait = std::min({wait, earliest_possible_root(gap, opening, top), earliest_possible_root(range_ - gap, -opening, top)});
+      wait = std::min({wait, earliest_possible_root(gap, opening, top),
+                       earliest_possible_root(range_ - gap, -opening, top)});
     else
       wait = std::min(wait, earliest_possible_root(gap - range_, opening, top));
   }
@@ -83,14 +92,17 @@ void EndWalls::bound_all(const Now& now) {
   Lanes smallest_gap(smallest_gap_), slot = lane_index();
   const auto first_touch = [&](const Lanes& gap, const Lanes& rate) {
     const Lanes root = roots_below(rate * rate + twice_top * simd::max(gap, zero));
-    // With a closing rate the sum cancels; what is lost only makes the bound a little early, so clamp it at zero.
+    // With a closing rate the sum cancels; what is lost only makes the bound a little early, so clamp it at
+    // zero.
     return simd::max(rate + root, zero) * inverse_top;
   };
   for (std::size_t k = 0; k < count_; k += lane_count, slot += static_cast<double>(lane_count)) {
     const Lanes room = load(room_of_slot_, k), v = load(v_, k);
-    const Lanes apart = Lanes(now.point.x) - (load(x_, k) + v * (Lanes(now.time) - load(time_, k))), rate = Lanes(now.point.v) - v;
+    const Lanes apart = Lanes(now.point.x) - (load(x_, k) + v * (Lanes(now.time) - load(time_, k))),
+                rate = Lanes(now.point.v) - v;
     const Lanes upper = room + apart, lower = room - apart;
-    Lanes bound = Lanes(now.time) + simd::min(first_touch(upper, rate - budget), first_touch(lower, -rate - budget));
+    Lanes bound =
+        Lanes(now.time) + simd::min(first_touch(upper, rate - budget), first_touch(lower, -rate - budget));
     const auto empty = slot >= Lanes(static_cast<double>(count_));
     simd::where(empty, bound) = never;
     bound_.set_lanes(k, bound);
@@ -132,8 +144,10 @@ void EndWalls::grain_changed(int i, const Flight& flight, const Now& now) {
   if (!watch_changed(i, flight, now)) return;
   const std::size_t k = static_cast<std::size_t>(slot_[static_cast<std::size_t>(i)]);
   bound_.set(k, bound_of(i, flight, room_[static_cast<std::size_t>(i)], now));
-  if (bound_[k] < next_.time) next_ = {bound_[k], i, 0, Meeting::none};
-  else if (next_.grain == i) find_next();
+  if (bound_[k] < next_.time)
+    next_ = {bound_[k], i, 0, Meeting::none};
+  else if (next_.grain == i)
+    find_next();
 }
 
 void EndWalls::put_off(int i, double until) {
@@ -164,22 +178,27 @@ void EndWalls::kicked(const Now& now, double jump) {
   find_next();
 }
 
-EndWalls::Root EndWalls::exact_root(const BoxMotion& box, const Now& now, int grain, const Flight& flight, double room,
-                                    double horizon) const {
+EndWalls::Root EndWalls::exact_root(const BoxMotion& box, const Now& now, int grain, const Flight& flight,
+                                    double room, double horizon) const {
   const double w = box.angular_frequency();
   if (w == 0) return exact_root<BoxMotion>(box, now, grain, flight, room, horizon);  // a box at rest
-  const double x = flight.x + flight.v * (now.time - flight.time), apart = now.point.x - x, rate = now.point.v - flight.v;
-  const auto bound = [&](int s) { return earliest_possible_root(room + s * apart, s * rate, now.top_acceleration); };
+  const double x = flight.x + flight.v * (now.time - flight.time), apart = now.point.x - x,
+               rate = now.point.v - flight.v;
+  const auto bound = [&](int s) {
+    return earliest_possible_root(room + s * apart, s * rate, now.top_acceleration);
+  };
   const auto root = [&](int s) {
     return first_wall_root({s * now.point.x, s * now.point.v / w, w, room - s * x, s * flight.v});
   };
-  // The nearer wall's root mostly comes before the other can be reached at all: 8 % of the time of the paper's damper.
+  // The nearer wall's root mostly comes before the other can be reached at all: 8 % of the time of the
+  // paper's damper.
   const double upper_bound = bound(1), lower_bound = bound(-1);
   const int first = upper_bound <= lower_bound ? 1 : -1;
   const double nearer = root(first);
   if (nearer < std::max(upper_bound, lower_bound)) return {now.time + nearer, first, Meeting::touch};
   const double other = root(-first);
-  return {now.time + std::min(nearer, other), nearer < other || (nearer == other && first > 0) ? first : -first, Meeting::touch};
+  return {now.time + std::min(nearer, other),
+          nearer < other || (nearer == other && first > 0) ? first : -first, Meeting::touch};
 }
 
 }  // namespace shakedown

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
-// When grains meet the two walls across one axis: the end walls of a swinging box, or side walls where something sets them in motion
-// as the grains see it. A kick on the box changes the wall time of every grain, so only lower bounds are kept: all of
-// them are renewed after a kick in one vectorised sweep, and an exact root is sought for the earliest grain alone.
+// When grains meet the two walls across one axis: the end walls of a swinging box, or side walls where
+// something sets them in motion as the grains see it. A kick on the box changes the wall time of every grain,
+// so only lower bounds are kept: all of them are renewed after a kick in one vectorised sweep, and an exact
+// root is sought for the earliest grain alone.
 //
-// In large dampers even that sweep would cost O(N) a kick. There a window is opened: with the box on its present arc, displaced by
-// at most `slack`, most grains cannot reach a wall before the window ends. They sleep; only the others are swept. Kicks move the box
-// off the arc by at most sum |dV| (end of window - now); when that exceeds the slack, or time runs out, a new window is opened.
-// Windows are as long as makes the sweeps over all grains and over the watched ones cost the same.
+// In large dampers even that sweep would cost O(N) a kick. There a window is opened: with the box on its
+// present arc, displaced by at most `slack`, most grains cannot reach a wall before the window ends. They
+// sleep; only the others are swept. Kicks move the box off the arc by at most sum |dV| (end of window - now);
+// when that exceeds the slack, or time runs out, a new window is opened. Windows are as long as makes the
+// sweeps over all grains and over the watched ones cost the same.
 //
-// Nor are the watched swept at every kick: their bounds allow for kicks that add up to a `budget` of velocity, (gap rate - budget) in place
-// of the gap's rate. A kick within it renews the bounds of those alone whose exact root was known; the budget is as large as makes sweeps
-// cost as much as the refinements that its caution adds.
+// Nor are the watched swept at every kick: their bounds allow for kicks that add up to a `budget` of
+// velocity, (gap rate - budget) in place of the gap's rate. A kick within it renews the bounds of those alone
+// whose exact root was known; the budget is as large as makes sweeps cost as much as the refinements that its
+// caution adds.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -36,7 +39,7 @@ class EndWalls {
   struct Next {
     double time = never;
     int grain = -1;
-    int side = 0;  ///< +1 or -1
+    int side = 0;                     ///< +1 or -1
     Meeting meeting = Meeting::none;  ///< none: `time` is a lower bound, to be refined
   };
 
@@ -52,7 +55,8 @@ class EndWalls {
     return {time, motion.at(time), motion.top_acceleration(), motion.top_speed()};
   }
 
-  /// `room` is half the inner length less each grain's radius, m; `range`: how far an attraction of the walls reaches, m (0: none).
+  /// `room` is half the inner length less each grain's radius, m; `range`: how far an attraction of the walls
+  /// reaches, m (0: none).
   EndWalls(std::vector<double> room, bool always_watch_all, double range = 0);
 
   /// Opens a window. `flight_of(i)` gives each grain's flight.
@@ -63,11 +67,14 @@ class EndWalls {
   void grain_flies(int i, const Flight& flight, const Now& now);
   /// Grain i flies anew from now on.
   void grain_changed(int i, const Flight& flight, const Now& now);
-  /// The walls were kicked now: their motion goes on from there with a velocity jump of `jump` (0: only their bounds changed).
+  /// The walls were kicked now: their motion goes on from there with a velocity jump of `jump` (0: only their
+  /// bounds changed).
   void kicked(const Now& now, double jump);
   /// Grain i has entered (or left) the well of the wall on this side.
   void set_inside(int i, int side, bool inside);
-  bool is_inside(int i, int side) const { return range_ > 0 && inside_[static_cast<std::size_t>(2 * i + (side > 0))] != 0; }
+  bool is_inside(int i, int side) const {
+    return range_ > 0 && inside_[static_cast<std::size_t>(2 * i + (side > 0))] != 0;
+  }
   /// A meeting of grain i turned out receding: look again a little later.
   void put_off(int i, double until);
   /// The time at which a new window must be opened.
@@ -75,13 +82,16 @@ class EndWalls {
 
   /// Earliest known meeting or bound.
   const Next& next() const { return next_; }
-  /// Replaces the bound of next().grain by a sharper one or by its exact root; `limit`: time of the next other event.
+  /// Replaces the bound of next().grain by a sharper one or by its exact root; `limit`: time of the next
+  /// other event.
   template <class Motion>
   void refine(const Motion& motion, double limit);
 
   double deepest_overlap() const { return -smallest_gap_; }
   std::size_t watched() const { return count_; }
-  double bytes_per_grain() const { return room_.empty() ? 0 : 6 * sizeof(double) + 2 * sizeof(std::int32_t) + 2; }
+  double bytes_per_grain() const {
+    return room_.empty() ? 0 : 6 * sizeof(double) + 2 * sizeof(std::int32_t) + 2;
+  }
 
  private:
   struct Root {
@@ -99,15 +109,18 @@ class EndWalls {
   /// Takes note of a new flight; false when the grain sleeps on.
   bool watch_changed(int i, const Flight& flight, const Now& now);
   void start_window(const Now& now);
-  Root exact_root(const BoxMotion& box, const Now& now, int grain, const Flight& flight, double room, double horizon) const;
+  Root exact_root(const BoxMotion& box, const Now& now, int grain, const Flight& flight, double room,
+                  double horizon) const;
   template <class Motion>
-  Root exact_root(const Motion& motion, const Now& now, int grain, const Flight& flight, double room, double horizon) const;
+  Root exact_root(const Motion& motion, const Now& now, int grain, const Flight& flight, double room,
+                  double horizon) const;
 
   bool watch_all_;
   double range_;
-  std::vector<double> room_;         // of every grain
-  std::vector<std::int32_t> slot_;   // of every grain: its place among the watched, -1 asleep
-  std::vector<std::int8_t> inside_;  // of every grain and side: in the well of that wall; empty without attraction
+  std::vector<double> room_;        // of every grain
+  std::vector<std::int32_t> slot_;  // of every grain: its place among the watched, -1 asleep
+  // of every grain and side: in the well of that wall; empty without attraction
+  std::vector<std::int8_t> inside_;
   // The watched grains, dense.
   std::size_t count_ = 0;
   AlignedVector<double> x_, v_, time_, room_of_slot_;
@@ -117,23 +130,25 @@ class EndWalls {
   std::vector<Meeting> meeting_;  // none: bound_ is a lower bound
   Next next_;
   double window_start_ = 0, window_end_ = never, slack_ = never;
-  double planned_ = 0;               // length of a window, s; adapted
-  double drift_ = 0, jumps_ = 0;     // of this window: bound of the box's displacement off its arc, sum of |dV|
-  double jump_rate_ = 0;             // sum of |dV| a second, of past windows
-  double budget_ = 0, used_ = 0;     // m/s, of kicks that the bounds allow for, and that came since
-  std::vector<std::int32_t> due_;    // slots whose bound a kick ends: exact roots, new flights
+  double planned_ = 0;             // length of a window, s; adapted
+  double drift_ = 0, jumps_ = 0;   // of this window: bound of the box's displacement off its arc, sum of |dV|
+  double jump_rate_ = 0;           // sum of |dV| a second, of past windows
+  double budget_ = 0, used_ = 0;   // m/s, of kicks that the bounds allow for, and that came since
+  std::vector<std::int32_t> due_;  // slots whose bound a kick ends: exact roots, new flights
   std::int64_t kicks_ = 0, refined_ = 0;  // since the last sweep
-  double swept_ = 0;                 // bounds renewed in this window
+  double swept_ = 0;                      // bounds renewed in this window
   double smallest_gap_ = 0;
 };
 
 inline bool EndWalls::can_sleep(const Flight& flight, double room, const Now& now) const {
   const double h = window_end_ - now.time;
-  const double apart = now.point.x - (flight.x + flight.v * (now.time - flight.time)), rate = now.point.v - flight.v;
+  const double apart = now.point.x - (flight.x + flight.v * (now.time - flight.time)),
+               rate = now.point.v - flight.v;
   const double curved = now.top_acceleration * h * h / 2, margin = slack_ + range_;
   // The bound is concave in time: it is lowest at one of the window's ends.
   const double upper = room + apart, lower = room - apart;
-  return std::min(upper, upper + rate * h - curved) > margin && std::min(lower, lower - rate * h - curved) > margin;
+  return std::min(upper, upper + rate * h - curved) > margin &&
+         std::min(lower, lower - rate * h - curved) > margin;
 }
 
 template <class FlightOf>
@@ -170,11 +185,12 @@ void EndWalls::refine(const Motion& motion, double limit) {
   find_next();
 }
 
-/// Any motion with a bound on its acceleration: steps that cannot overshoot, which near the root converge like Newton's. No root is
-/// missed, because every stretch stepped over is proved free of one; what lies beyond the horizon is left for later.
+/// Any motion with a bound on its acceleration: steps that cannot overshoot, which near the root converge
+/// like Newton's. No root is missed, because every stretch stepped over is proved free of one; what lies
+/// beyond the horizon is left for later.
 template <class Motion>
-EndWalls::Root EndWalls::exact_root(const Motion& motion, const Now& now, int grain, const Flight& flight, double room,
-                                    double horizon) const {
+EndWalls::Root EndWalls::exact_root(const Motion& motion, const Now& now, int grain, const Flight& flight,
+                                    double room, double horizon) const {
   const double top = now.top_acceleration, from = now.time;
   const double end = std::min({motion.valid_until(), std::max(horizon, from + 1e-9), from + 0.1});
   Root first{end, 0, Meeting::none};
@@ -184,7 +200,8 @@ EndWalls::Root EndWalls::exact_root(const Motion& motion, const Now& now, int gr
     for (int iteration = 0; iteration < 10000 && t < first.time; ++iteration) {
       const BoxMotion::Point wall = motion.at(t);
       const double x = flight.x + flight.v * (t - flight.time);
-      const double gap = direction * (room + side * (wall.x - x) - level), rate = direction * side * (wall.v - flight.v);
+      const double gap = direction * (room + side * (wall.x - x) - level),
+                   rate = direction * side * (wall.v - flight.v);
       const double noise = 0x1p-52 * (room + std::abs(wall.x) + std::abs(x));
       const double step = earliest_possible_root(gap, rate, top);
       if ((gap <= noise && rate < 0) || step <= 2e-16 * t) {
@@ -196,8 +213,10 @@ EndWalls::Root EndWalls::exact_root(const Motion& motion, const Now& now, int gr
   };
   for (const int side : {1, -1}) {
     const bool inside = is_inside(grain, side);
-    if (range_ > 0 && !inside) search(side, range_, 1, Meeting::capture);
-    else search(side, 0, 1, Meeting::touch);
+    if (range_ > 0 && !inside)
+      search(side, range_, 1, Meeting::capture);
+    else
+      search(side, 0, 1, Meeting::touch);
     if (inside) search(side, range_, -1, Meeting::escape);
   }
   return first;

@@ -11,17 +11,21 @@ namespace shakedown {
 namespace {
 
 // Partners after the N grains, in this order.
-constexpr int other_kinds = 3;                 // new_anchor, grain_kick, next_piece
-constexpr int faces = 6;                       // axis and side
-constexpr int walls_at = other_kinds;          // touch, capture, escape: `faces` each
-constexpr int wells_at = walls_at + 3 * faces; // pairs captured (N), pairs escaped (N)
+constexpr int other_kinds = 3;                  // new_anchor, grain_kick, next_piece
+constexpr int faces = 6;                        // axis and side
+constexpr int walls_at = other_kinds;           // touch, capture, escape: `faces` each
+constexpr int wells_at = walls_at + 3 * faces;  // pairs captured (N), pairs escaped (N)
 
 std::uint64_t code_of(const LoggedEvent& event, std::uint64_t n) {
-  const auto meeting = static_cast<std::uint64_t>(event.meeting) - 1, partner = static_cast<std::uint64_t>(event.partner);
+  const auto meeting = static_cast<std::uint64_t>(event.meeting) - 1,
+             partner = static_cast<std::uint64_t>(event.partner);
   std::uint64_t with = 0;
-  if (event.kind == EventKind::pair) with = event.meeting == Meeting::touch ? partner : n + wells_at + (meeting - 1) * n + partner;
-  else if (event.kind == EventKind::wall) with = n + walls_at + meeting * faces + 2 * partner + (event.side > 0 ? 1 : 0);
-  else with = n + static_cast<std::uint64_t>(event.kind) - static_cast<std::uint64_t>(EventKind::new_anchor);
+  if (event.kind == EventKind::pair)
+    with = event.meeting == Meeting::touch ? partner : n + wells_at + (meeting - 1) * n + partner;
+  else if (event.kind == EventKind::wall)
+    with = n + walls_at + meeting * faces + 2 * partner + (event.side > 0 ? 1 : 0);
+  else
+    with = n + static_cast<std::uint64_t>(event.kind) - static_cast<std::uint64_t>(EventKind::new_anchor);
   return static_cast<std::uint64_t>(event.grain) + std::max<std::uint64_t>(n, 1) * with;
 }
 
@@ -60,9 +64,13 @@ std::uint64_t unzigzag(std::uint64_t number) { return (number >> 1) ^ (0 - (numb
 
 }  // namespace
 
-std::int64_t digest_interval(std::size_t grains) { return std::max<std::int64_t>(4096, 16 * static_cast<std::int64_t>(grains)); }
+std::int64_t digest_interval(std::size_t grains) {
+  return std::max<std::int64_t>(4096, 16 * static_cast<std::int64_t>(grains));
+}
 
-EventWriter::EventWriter(State initial) : interval_(digest_interval(initial.size())), due_(interval_) { log_.initial = std::move(initial); }
+EventWriter::EventWriter(State initial) : interval_(digest_interval(initial.size())), due_(interval_) {
+  log_.initial = std::move(initial);
+}
 
 bool EventWriter::add(const LoggedEvent& event) {
   const auto bits = std::bit_cast<std::uint64_t>(event.time);
@@ -70,7 +78,8 @@ bool EventWriter::add(const LoggedEvent& event) {
   append(log_.events, code_of(event, log_.initial.size()));
   last_bits_ = bits;
   ++log_.entries;
-  if ((event.kind == EventKind::pair || event.kind == EventKind::wall) && event.meeting == Meeting::touch) ++log_.impacts;
+  if ((event.kind == EventKind::pair || event.kind == EventKind::wall) && event.meeting == Meeting::touch)
+    ++log_.impacts;
   if (--due_ > 0) return false;
   due_ = interval_;
   return true;

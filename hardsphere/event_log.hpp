@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Events of a run, packed. An entry is two numbers of 7-bit groups, low ones first:
-//   time     by how many units in its last place it lies after the time before (zigzag: rounding may set it back), so nothing is lost
-//   who      grain + N * partner; partners from N on are walls and other kinds, see code_of()
+//   time     by how many units in its last place it lies after the time before (zigzag: rounding may set it
+//   back), so nothing is lost who      grain + N * partner; partners from N on are walls and other kinds, see
+//   code_of()
 // About 8 bytes an entry for 37 grains.
 #pragma once
 #include <cstdint>
@@ -14,7 +15,8 @@ namespace shakedown {
 enum class EventKind : std::uint8_t {
   pair,        ///< partner: the other grain
   wall,        ///< partner: axis that the wall lies across; side: which end of it
-  new_anchor,  ///< a grain's flight is described from here on (a prediction went stale, a neighbour list was renewed)
+  new_anchor,  ///< a grain's flight is described from here on (a prediction went stale, a neighbour list was
+               ///< renewed)
   grain_kick,  ///< drag and formulas act on all grains
   next_piece   ///< the box goes on with another piece of its motion
 };

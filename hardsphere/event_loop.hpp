@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The event loop: takes the earliest of what the grains and the walls announce, executes it, and asks those concerned for news.
-// `Grains` finds pair and side-wall events (AllPairs for few grains, CellLists for many); EndWalls those with moving walls.
-// `Motion` is the box: BoxMotion on its spring alone (the paper's damper, kept free of everything else), or DrivenBox with effects. Then
-// grains are described in a frame that falls with them, and the side walls are EndWalls too where they move or attract.
+// The event loop: takes the earliest of what the grains and the walls announce, executes it, and asks those
+// concerned for news. `Grains` finds pair and side-wall events (AllPairs for few grains, CellLists for many);
+// EndWalls those with moving walls. `Motion` is the box: BoxMotion on its spring alone (the paper's damper,
+// kept free of everything else), or DrivenBox with effects. Then grains are described in a frame that falls
+// with them, and the side walls are EndWalls too where they move or attract.
 #pragma once
 #include <atomic>
 #include <cmath>
@@ -53,7 +54,8 @@ class EventLoop {
   const std::array<std::int64_t, contact_classes>& collisions() const { return collisions_; }
   std::int64_t events() const { return events_; }
   double initial_energy() const { return initial_energy_; }
-  /// Sum over pair impacts of impulse times distance, N s m: 3 N k T (Z - 1) times the time it was summed over.
+  /// Sum over pair impacts of impulse times distance, N s m: 3 N k T (Z - 1) times the time it was summed
+  /// over.
   double virial() const { return virial_; }
   double bytes_per_grain() const { return grains_.bytes_per_grain() + end_walls_.bytes_per_grain(); }
 
@@ -66,7 +68,8 @@ class EventLoop {
   void meet_wall(int axis, EndWalls& walls, const EndWalls::Next& next);
   void after(int i, bool kick_follows = false);
   void check_progress();
-  void write_down(EventKind kind, int grain = 0, int partner = 0, int side = 1, Meeting meeting = Meeting::touch) {
+  void write_down(EventKind kind, int grain = 0, int partner = 0, int side = 1,
+                  Meeting meeting = Meeting::touch) {
     if (writer_ != nullptr) [[unlikely]]
       if (writer_->add({now_, kind, grain, partner, side, meeting})) writer_->add_digest(digest());
   }
@@ -84,7 +87,8 @@ class EventLoop {
   void note_touch(std::uint64_t bond, double momentum, int i, int j = -1);
   void let_go();
   void kick_box(double jump);
-  /// Two grains that meet now: both there, from the first to the second the vector r, and how fast they part along it.
+  /// Two grains that meet now: both there, from the first to the second the vector r, and how fast they part
+  /// along it.
   struct Pair {
     Flight3 a, b;
     std::array<double, 3> r;
@@ -100,7 +104,9 @@ class EventLoop {
   void renew_walls(double jump);
   DrivenWalls walls_across(int axis) const;
   EndWalls::Now end_walls_now();
-  EndWalls& walls(int axis) { return axis == 0 ? end_walls_ : side_walls_[static_cast<std::size_t>(axis - 1)]; }
+  EndWalls& walls(int axis) {
+    return axis == 0 ? end_walls_ : side_walls_[static_cast<std::size_t>(axis - 1)];
+  }
   /// The box at now_ in the lab; several callers of one event share it.
   BoxMotion::Point box_now() {
     if (now_ != box_time_) {
@@ -127,7 +133,8 @@ class EventLoop {
   void lose(std::size_t contact_class, double energy) {
     double& sum = ledger_.contact_loss[contact_class];
     const double next = sum + energy;
-    ledger_rest_[contact_class] += std::abs(sum) >= std::abs(energy) ? (sum - next) + energy : (energy - next) + sum;
+    ledger_rest_[contact_class] +=
+        std::abs(sum) >= std::abs(energy) ? (sum - next) + energy : (energy - next) + sum;
     sum = next;
   }
   double total_loss() const;
@@ -142,8 +149,9 @@ class EventLoop {
   bool falling_, has_walls_, has_spring_;
   double arc_curvature_ = 0, release_x_ = 0;
   EndWalls end_walls_;
-  std::vector<EndWalls> side_walls_;  // across y and z, where they move or attract; empty: fixed, found by Grains
-  std::vector<Vec3> spin_;            // empty without friction
+  // across y and z, where they move or attract; empty: fixed, found by Grains
+  std::vector<EndWalls> side_walls_;
+  std::vector<Vec3> spin_;  // empty without friction
   HeldBonds held_;
   int attraction_effect_ = -1;  // its line in the ledger
 
@@ -156,7 +164,8 @@ class EventLoop {
   std::array<double, contact_classes> ledger_rest_{};
   std::array<std::int64_t, contact_classes> collisions_{};
   std::int64_t events_ = 0, refused_ = 0, elastic_walls_ = 0, elastic_pairs_ = 0, wells_ = 0, let_go_ = 0;
-  double initial_energy_ = 0, initial_momentum_ = 0, outer_impulse_ = 0, virial_ = 0, worst_ledger_ = 0, worst_momentum_ = 0;
+  double initial_energy_ = 0, initial_momentum_ = 0, outer_impulse_ = 0, virial_ = 0, worst_ledger_ = 0,
+         worst_momentum_ = 0;
   double grain_mass_ = 0, accounted_ = 0;
   Vec3 grain_momentum_ = Vec3::Zero();  // in the falling frame
   std::int64_t events_at_check_ = 0;

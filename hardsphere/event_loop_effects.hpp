@@ -14,7 +14,8 @@ void EventLoop<Grains, Motion>::go_on() {
   }
 }
 
-/// Drag and formulas on grains: small impulses, centred, so that the error is of second order in their interval.
+/// Drag and formulas on grains: small impulses, centred, so that the error is of second order in their
+/// interval.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::kick_grains() {
   const double h = kick_every_;
@@ -33,17 +34,22 @@ void EventLoop<Grains, Motion>::kick_grains() {
       const Vec3 wind = velocity - air;
       velocity = air + wind * air_speed_left(wind.norm(), m, h);
       box_impulse -= m * (velocity.x() - before.x());
-      ledger_.effect_loss[static_cast<std::size_t>(forces_.drag_effect)] += m / 2 * (before.squaredNorm() - velocity.squaredNorm());
+      ledger_.effect_loss[static_cast<std::size_t>(forces_.drag_effect)] +=
+          m / 2 * (before.squaredNorm() - velocity.squaredNorm());
     }
     for (const FreeForce& force : forces_.free) {
       const double impulse = h * force.newton(flight.x[0] + frame_x.x(), velocity.x(), now_);
-      if (!std::isfinite(impulse)) throw PhysicsError("the formula of user_force on a grain is not finite at t = " + std::to_string(now_) + " s");
-      ledger_.effect_loss[static_cast<std::size_t>(force.effect)] -= impulse * (velocity.x() + impulse / m / 2);
+      if (!std::isfinite(impulse))
+        throw PhysicsError(
+            "the formula of user_force on a grain is not finite at t = " + std::to_string(now_) + " s");
+      ledger_.effect_loss[static_cast<std::size_t>(force.effect)] -=
+          impulse * (velocity.x() + impulse / m / 2);
       outer_impulse_ += impulse;
       velocity.x() += impulse / m;
     }
     grain_momentum_ += m * (velocity - before);
-    for (std::size_t axis = 0; axis < 3; ++axis) flight.v[axis] = velocity[static_cast<int>(axis)] - frame_v[static_cast<int>(axis)];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      flight.v[axis] = velocity[static_cast<int>(axis)] - frame_v[static_cast<int>(axis)];
     grains_.set_flight(i, flight);
   }
   if (forces_.drag_effect >= 0) {
@@ -65,14 +71,17 @@ double EventLoop<Grains, Motion>::air_speed_left(double speed, double mass, doub
   return std::exp(-rate * h) / (1 + square * lost);
 }
 
-/// Adds up what the outer forces did to the grains since the last call: their momentum in the falling frame was constant.
+/// Adds up what the outer forces did to the grains since the last call: their momentum in the falling frame
+/// was constant.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::account(double t) {
   if constexpr (driven) {
     box_.account(t);
     if (!falling_ || t <= accounted_) return;
-    constexpr std::array<double, 4> node{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
-    constexpr std::array<double, 4> weight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
+    constexpr std::array<double, 4> node{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                         0.8611363115940526};
+    constexpr std::array<double, 4> weight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                           0.3478548451374538};
     const double longest = std::min(1.0, 0.2 / std::max(frame_.top_frequency(), 1e-3));
     while (accounted_ < t) {
       const double h = std::min(longest, t - accounted_);
@@ -80,7 +89,8 @@ void EventLoop<Grains, Motion>::account(double t) {
         const double time = accounted_ + h / 2 * (1 + node[k]);
         const Vec3 momentum = grain_momentum_ + grain_mass_ * frame_.velocity(time);
         frame_.each(time, [&](int effect, const Vec3& acceleration) {
-          ledger_.effect_loss[static_cast<std::size_t>(effect)] -= h / 2 * weight[k] * acceleration.dot(momentum);
+          ledger_.effect_loss[static_cast<std::size_t>(effect)] -=
+              h / 2 * weight[k] * acceleration.dot(momentum);
         });
       }
       accounted_ = h < t - accounted_ ? accounted_ + h : t;

@@ -12,14 +12,17 @@ inline void add(std::array<double, 3>& to, const Vec3& what) {
 }
 
 template <class Grains, class Motion>
-double EventLoop<Grains, Motion>::restitution(ContactClass contact, double closing, double elastic_below, std::int64_t& rescues) const {
-  const double law = contact_.restitution_at ? contact_.restitution_at(contact, closing) : contact_.restitution[static_cast<std::size_t>(contact)];
+double EventLoop<Grains, Motion>::restitution(ContactClass contact, double closing, double elastic_below,
+                                              std::int64_t& rescues) const {
+  const double law = contact_.restitution_at ? contact_.restitution_at(contact, closing)
+                                             : contact_.restitution[static_cast<std::size_t>(contact)];
   if (closing >= elastic_below || law >= 1) return law;
   ++rescues;
   return 1;
 }
 
-/// Below which closing speed an impact of grain i (and j) is elastic; in wells only where they touch in quick succession.
+/// Below which closing speed an impact of grain i (and j) is elastic; in wells only where they touch in quick
+/// succession.
 template <class Grains, class Motion>
 double EventLoop<Grains, Motion>::elastic_below(double limit, int i, int j) const {
   if constexpr (driven)
@@ -39,19 +42,21 @@ template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::let_go() {
   --wells_;
   ++let_go_;
-  ledger_.effect_loss[static_cast<std::size_t>(attraction_effect_)] -= contact_.attraction_force * contact_.attraction_range;
+  ledger_.effect_loss[static_cast<std::size_t>(attraction_effect_)] -=
+      contact_.attraction_force * contact_.attraction_range;
 }
 
 /// m; some thousand units in the last place of a position, a tenth of the overlap that is promised.
 constexpr double lowest_bounce = 1e-13;
 
-/// A bounce on an accelerated wall lower than positions resolve would never end, so every rebound goes at least `lowest_bounce` far. What
-/// that takes is booked (a loss below zero, 1e-14 of E0).
+/// A bounce on an accelerated wall lower than positions resolve would never end, so every rebound goes at
+/// least `lowest_bounce` far. What that takes is booked (a loss below zero, 1e-14 of E0).
 inline double resolved(double restitution, double closing, double wall_acceleration) {
   return std::max(restitution, std::sqrt(2 * wall_acceleration * lowest_bounce) / closing);
 }
 
-/// A predicted meeting turned out receding (rounding): look again a little later. 1 ns of a box's acceleration is 3e-18 m.
+/// A predicted meeting turned out receding (rounding): look again a little later. 1 ns of a box's
+/// acceleration is 3e-18 m.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::refuse(int i, Flight3 flight, EndWalls* walls) {
   ++refused_;
@@ -100,14 +105,16 @@ void EventLoop<Grains, Motion>::finish_wall(int i, const Flight3& flight, double
   if (jump != 0) renew_walls(jump);
 }
 
-/// Inelastic impact of two spheres: normal impulse mu (1 + eps) times the closing speed along the line of centres.
+/// Inelastic impact of two spheres: normal impulse mu (1 + eps) times the closing speed along the line of
+/// centres.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::pair_impact(int i, int j) {
   Pair pair = pair_now(i, j);
   auto& [a, b, r, distance, opening, opening_rate] = pair;
   const double closing = -opening;
   if (closing <= 0) return refuse(i, a, nullptr);
-  const double e = restitution(ContactClass::grain_grain, closing, elastic_below(limits_.pair_speed, i, j), elastic_pairs_);
+  const double e = restitution(ContactClass::grain_grain, closing, elastic_below(limits_.pair_speed, i, j),
+                               elastic_pairs_);
   const double ma = grains_.mass(i), mb = grains_.mass(j), reduced = ma * mb / (ma + mb);
   const double impulse = reduced * (1 + e) * closing;
   double loss = reduced / 2 * (1 - e * e) * closing * closing;
@@ -118,7 +125,8 @@ void EventLoop<Grains, Motion>::pair_impact(int i, int j) {
       Vec3 &spin_a = spin_[static_cast<std::size_t>(i)], &spin_b = spin_[static_cast<std::size_t>(j)];
       Vec3 slip = apart - (rb * spin_b + ra * spin_a).cross(normal);
       slip -= slip.dot(normal) * normal;
-      const Friction friction = friction_impulse(slip, Vec3::Constant(reduced / 3.5), contact_.friction[0], contact_.tangential_restitution, impulse);
+      const Friction friction = friction_impulse(slip, Vec3::Constant(reduced / 3.5), contact_.friction[0],
+                                                 contact_.tangential_restitution, impulse);
       add(a.v, -friction.impulse / ma);
       add(b.v, friction.impulse / mb);
       spin_a += spin_change(normal, ra, ma, -friction.impulse);
@@ -130,11 +138,12 @@ void EventLoop<Grains, Motion>::pair_impact(int i, int j) {
   if constexpr (driven)
     if (contact_.has_attraction()) note_touch(HeldBonds::of_pair(i, j), reduced * e * closing, i, j);
   virial_ += impulse * distance;
-  finish_pair(i, j, pair, -reduced * (1 + e) * opening_rate);  // impulse / distance, without waiting for the root
+  // impulse / distance, without waiting for the root
+  finish_pair(i, j, pair, -reduced * (1 + e) * opening_rate);
 }
 
-/// The edge of the square well around a grain: depth attraction force times range, gained on capture and paid back on escape; too slow to
-/// pay, the grain is thrown back.
+/// The edge of the square well around a grain: depth attraction force times range, gained on capture and paid
+/// back on escape; too slow to pay, the grain is thrown back.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::pair_well(int i, int j, Meeting meeting) {
   Pair pair = pair_now(i, j);
@@ -179,17 +188,20 @@ void EventLoop<Grains, Motion>::fixed_side_impact(int i, std::int32_t face) {
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::kick_box(double jump) {
   const BoxMotion::Point box = box_now();
-  if constexpr (driven) account(now_);
-  else outer_impulse_ += spring_impulse_;
+  if constexpr (driven)
+    account(now_);
+  else
+    outer_impulse_ += spring_impulse_;
   box_.restart(now_, box.x, box.v + jump);
   box_point_.v += jump;
   spring_impulse_ = 0;
 }
 
-/// Forced to swing wider than it was released, the box presses its layers with more than the setup's accelerations. At resonance (1 m/s^2
-/// at 1.05 Hz, L = 65 mm) pressed rows rattled 1.3 million times a second by the time the box swung eight times as wide. An eighth of the
-/// swing's excess acceleration sets limits that stop this (6 times fewer events at 15 s) and leave peaks within the spread of runs (811.0
-/// for 810.4 +- 0.5 mm); all of it would move them by 1 %.
+/// Forced to swing wider than it was released, the box presses its layers with more than the setup's
+/// accelerations. At resonance (1 m/s^2 at 1.05 Hz, L = 65 mm) pressed rows rattled 1.3 million times a
+/// second by the time the box swung eight times as wide. An eighth of the swing's excess acceleration sets
+/// limits that stop this (6 times fewer events at 15 s) and leave peaks within the spread of runs (811.0 for
+/// 810.4 +- 0.5 mm); all of it would move them by 1 %.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::press_by_the_swing() {
   if (limits_.pull < 0) return;
@@ -198,7 +210,8 @@ void EventLoop<Grains, Motion>::press_by_the_swing() {
   if (pull != limits_.pull) limits_ = pressed_by(pull, limits_at_release_, 2 * grains_.radius(0));
 }
 
-/// Impact on an end wall: the box takes the opposite impulse (paper, Sec. II B, with v_Box' = v_Box + dp / M).
+/// Impact on an end wall: the box takes the opposite impulse (paper, Sec. II B, with v_Box' = v_Box + dp /
+/// M).
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::end_impact(int i, int side) {
   Flight3 flight = grains_.flight(i);
@@ -207,7 +220,8 @@ void EventLoop<Grains, Motion>::end_impact(int i, int side) {
   const double closing = side * (flight.v[0] - wall);
   if (closing <= 0) return refuse(i, flight, &end_walls_);
   if constexpr (driven) press_by_the_swing();
-  const double limit = elastic_below(std::max(limits_.wall_fraction * box_.top_speed(), limits_.wall_speed), i);
+  const double limit =
+      elastic_below(std::max(limits_.wall_fraction * box_.top_speed(), limits_.wall_speed), i);
   const double e = resolved(restitution(ContactClass::end_wall, closing, limit, elastic_walls_), closing,
                             driven ? walls_across(0).top_acceleration() : box_.top_acceleration());
   const double m = grains_.mass(i), reduced = has_spring_ ? m * box_.mass() / (m + box_.mass()) : m;
@@ -221,14 +235,16 @@ void EventLoop<Grains, Motion>::end_impact(int i, int side) {
       Vec3 slip = vec(flight.v) + spin.cross(normal) * grains_.radius(i);
       slip -= Vec3(0, walls_across(1).at(now_).v, walls_across(2).at(now_).v);
       slip.x() = 0;
-      const Friction friction = friction_impulse(slip, Vec3::Constant(m / 3.5), contact_.friction[1], contact_.tangential_restitution, impulse);
+      const Friction friction = friction_impulse(slip, Vec3::Constant(m / 3.5), contact_.friction[1],
+                                                 contact_.tangential_restitution, impulse);
       add(flight.v, friction.impulse / m);
       spin += spin_change(normal, grains_.radius(i), m, friction.impulse);
       loss += friction.loss;
       on_grain += friction.impulse;
     }
     if (forces_.arc_effect >= 0)  // the side walls' motion along z does work on what rubs on the end walls
-      ledger_.effect_loss[static_cast<std::size_t>(forces_.arc_effect)] -= on_grain.z() * (walls_across(2).at(now_).v + frame_.velocity(now_).z());
+      ledger_.effect_loss[static_cast<std::size_t>(forces_.arc_effect)] -=
+          on_grain.z() * (walls_across(2).at(now_).v + frame_.velocity(now_).z());
     account(now_);
     grain_momentum_ += on_grain;
   }
@@ -240,18 +256,21 @@ void EventLoop<Grains, Motion>::end_impact(int i, int side) {
   finish_wall(i, flight, has_spring_ ? side * impulse / box_.mass() : 0);
 }
 
-/// Impact on a side wall that may move across (falling frame, arc) and along the axis (with the box, whom friction pulls).
+/// Impact on a side wall that may move across (falling frame, arc) and along the axis (with the box, whom
+/// friction pulls).
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::moving_side_impact(int i, int axis, int side) {
   if constexpr (driven) {
     Flight3 flight = grains_.flight(i);
     flight.advance(now_);
     const auto k = static_cast<std::size_t>(axis);
-    const std::array<double, 3> wall{walls_across(0).at(now_).v, walls_across(1).at(now_).v, walls_across(2).at(now_).v};
+    const std::array<double, 3> wall{walls_across(0).at(now_).v, walls_across(1).at(now_).v,
+                                     walls_across(2).at(now_).v};
     const double closing = side * (flight.v[k] - wall[k]);
     if (closing <= 0) return refuse(i, flight, side_walls_.empty() ? nullptr : &walls(axis));
-    const double e = resolved(restitution(ContactClass::side_wall, closing, elastic_below(limits_.wall_speed, i), elastic_walls_), closing,
-                              walls_across(axis).top_acceleration());
+    const double e = resolved(
+        restitution(ContactClass::side_wall, closing, elastic_below(limits_.wall_speed, i), elastic_walls_),
+        closing, walls_across(axis).top_acceleration());
     const double m = grains_.mass(i), impulse = m * (1 + e) * closing;
     double loss = m / 2 * (1 - e * e) * closing * closing, jump = 0;
     Vec3 on_grain = Vec3::Zero();
@@ -263,15 +282,18 @@ void EventLoop<Grains, Motion>::moving_side_impact(int i, int axis, int side) {
       slip[axis] = 0;
       Vec3 mass = Vec3::Constant(m / 3.5);
       if (has_spring_) mass.x() = 1 / (3.5 / m + 1 / box_.mass());
-      const Friction friction = friction_impulse(slip, mass, contact_.friction[2], contact_.tangential_restitution, impulse);
+      const Friction friction =
+          friction_impulse(slip, mass, contact_.friction[2], contact_.tangential_restitution, impulse);
       spin += spin_change(normal, grains_.radius(i), m, friction.impulse);
       loss += friction.loss;
       on_grain = friction.impulse;
       if (has_spring_) jump = -friction.impulse.x() / box_.mass();
     }
     on_grain[axis] -= side * impulse;
-    if (forces_.arc_effect >= 0)  // in the lab only the arc moves the side walls: what they do on grains is its work
-      ledger_.effect_loss[static_cast<std::size_t>(forces_.arc_effect)] -= on_grain.z() * (wall[2] + frame_.velocity(now_).z());
+    // in the lab only the arc moves the side walls: what they do on grains is its work
+    if (forces_.arc_effect >= 0)
+      ledger_.effect_loss[static_cast<std::size_t>(forces_.arc_effect)] -=
+          on_grain.z() * (wall[2] + frame_.velocity(now_).z());
     account(now_);
     grain_momentum_ += on_grain;
     add(flight.v, on_grain / m);
@@ -291,7 +313,8 @@ void EventLoop<Grains, Motion>::wall_well(int i, int axis, int side, Meeting mee
     const auto k = static_cast<std::size_t>(axis);
     const double opening = side * (walls_across(axis).at(now_).v - flight.v[k]);
     if (meeting == Meeting::capture ? opening >= 0 : opening <= 0) return refuse(i, flight, &walls);
-    const double m = grains_.mass(i), M = box_.mass(), reduced = axis == 0 && has_spring_ ? m * M / (m + M) : m;
+    const double m = grains_.mass(i), M = box_.mass(),
+                 reduced = axis == 0 && has_spring_ ? m * M / (m + M) : m;
     const double depth = contact_.attraction_force * contact_.attraction_range;
     double next = -opening;
     if (meeting == Meeting::capture) {
@@ -311,7 +334,8 @@ void EventLoop<Grains, Motion>::wall_well(int i, int axis, int side, Meeting mee
     account(now_);
     grain_momentum_[axis] -= side * impulse;
     if (axis == 2 && forces_.arc_effect >= 0)
-      ledger_.effect_loss[static_cast<std::size_t>(forces_.arc_effect)] += side * impulse * (walls_across(2).at(now_).v + frame_.velocity(now_).z());
+      ledger_.effect_loss[static_cast<std::size_t>(forces_.arc_effect)] +=
+          side * impulse * (walls_across(2).at(now_).v + frame_.velocity(now_).z());
     flight.v[k] -= side * impulse / m;
     finish_wall(i, flight, axis == 0 && has_spring_ ? side * impulse / M : 0);
   }

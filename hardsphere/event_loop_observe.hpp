@@ -14,7 +14,8 @@ Observation EventLoop<Grains, Motion>::observe() {
   if constexpr (driven) {
     account(t);
     const Vec3 s = frame_.displacement(t), v = frame_.velocity(t);
-    grains.kinetic += Vec3(grains.momentum[0], grains.momentum[1], grains.momentum[2]).dot(v) + grains.mass * v.squaredNorm() / 2;
+    grains.kinetic += Vec3(grains.momentum[0], grains.momentum[1], grains.momentum[2]).dot(v) +
+                      grains.mass * v.squaredNorm() / 2;
     grains.moment += grains.mass * s.x();
     grains.momentum[0] += grains.mass * v.x();
     outer_impulse += box_.outer_impulse() + grains.mass * v.x();
@@ -28,11 +29,14 @@ Observation EventLoop<Grains, Motion>::observe() {
   }
   energy += grains.kinetic;
   if (has_spring_) energy += box_.spring_energy(box.x) + box_.mass() * box.v * box.v / 2;
-  const Observation seen{t, box.x, box.v, grains_.size() > 0 ? grains.moment / grains.mass : std::nan(""), energy};
+  const Observation seen{t, box.x, box.v, grains_.size() > 0 ? grains.moment / grains.mass : std::nan(""),
+                         energy};
   if (initial_energy_ > 0)
-    worst_ledger_ = std::max(worst_ledger_, std::abs(energy + total_loss() - initial_energy_) / initial_energy_);
+    worst_ledger_ =
+        std::max(worst_ledger_, std::abs(energy + total_loss() - initial_energy_) / initial_energy_);
   if (has_spring_)
-    worst_momentum_ = std::max(worst_momentum_, std::abs(grains.momentum[0] + box_.mass() * box.v - initial_momentum_ - outer_impulse));
+    worst_momentum_ = std::max(worst_momentum_, std::abs(grains.momentum[0] + box_.mass() * box.v -
+                                                         initial_momentum_ - outer_impulse));
   return seen;
 }
 
@@ -49,7 +53,8 @@ Ledger EventLoop<Grains, Motion>::ledger() const {
   Ledger ledger = ledger_;
   for (std::size_t c = 0; c < contact_classes; ++c) ledger.contact_loss[c] += ledger_rest_[c];
   if constexpr (driven)
-    for (std::size_t e = 0; e < box_.effect_work().size(); ++e) ledger.effect_loss[e] -= box_.effect_work()[e];
+    for (std::size_t e = 0; e < box_.effect_work().size(); ++e)
+      ledger.effect_loss[e] -= box_.effect_work()[e];
   return ledger;
 }
 
@@ -80,15 +85,18 @@ template <class Grains, class Motion>
 Health EventLoop<Grains, Motion>::health() const {
   Health health;
   health.deepest_overlap = std::max({0.0, grains_.deepest_overlap(), end_walls_.deepest_overlap()});
-  for (const EndWalls& walls : side_walls_) health.deepest_overlap = std::max(health.deepest_overlap, walls.deepest_overlap());
+  for (const EndWalls& walls : side_walls_)
+    health.deepest_overlap = std::max(health.deepest_overlap, walls.deepest_overlap());
   health.ledger_error = worst_ledger_;
   health.momentum_error = worst_momentum_;
   health.elastic_rescues = elastic_walls_ + elastic_pairs_;
   health.elastic_pair_rescues = elastic_pairs_;
   health.refused_events = refused_;
   if (let_go_ > 0)
-    health.notes.push_back("bonds of grain_cohesion hung at the edge of their well until they were pulled off with more than its force; the energy "
-                           "that this leaves unpaid is booked as its work");
+    health.notes.push_back(
+        "bonds of grain_cohesion hung at the edge of their well until they were pulled off with more than "
+        "its force; the energy "
+        "that this leaves unpaid is booked as its work");
   return health;
 }
 

@@ -7,7 +7,8 @@
 
 namespace shakedown {
 
-/// Executes the impact with the same code that executed it at first; only that it happens, and when, is taken from the log.
+/// Executes the impact with the same code that executed it at first; only that it happens, and when, is taken
+/// from the log.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::execute(const LoggedEvent& event) {
   static_assert(scripted);
@@ -18,8 +19,10 @@ void EventLoop<Grains, Motion>::execute(const LoggedEvent& event) {
       if (event.meeting != Meeting::touch) return pair_well(event.grain, event.partner, event.meeting);
       return pair_impact(event.grain, event.partner);
     case EventKind::wall:
-      if (event.partner > 0 && side_walls_.empty()) return fixed_side_impact(event.grain, side_wall(event.partner, event.side));
-      return meet_wall(event.partner, walls(event.partner), {event.time, event.grain, event.side, event.meeting});
+      if (event.partner > 0 && side_walls_.empty())
+        return fixed_side_impact(event.grain, side_wall(event.partner, event.side));
+      return meet_wall(event.partner, walls(event.partner),
+                       {event.time, event.grain, event.side, event.meeting});
     case EventKind::new_anchor: {
       Flight3 flight = grains_.flight(event.grain);
       flight.advance(now_);
@@ -34,7 +37,9 @@ void EventLoop<Grains, Motion>::execute(const LoggedEvent& event) {
 template <class Grains, class Motion>
 std::uint64_t EventLoop<Grains, Motion>::digest() const {
   std::uint64_t hash = 0xcbf29ce484222325u;
-  const auto mix = [&hash](double value) { hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3u; };
+  const auto mix = [&hash](double value) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3u;
+  };
   for (int i = 0; i < grains_.size(); ++i) {
     const Flight3 flight = grains_.flight(i);
     for (std::size_t axis = 0; axis < 3; ++axis) mix(flight.x[axis]), mix(flight.v[axis]);

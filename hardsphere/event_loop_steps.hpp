@@ -74,8 +74,10 @@ void EventLoop<Grains, Motion>::step(double limit) {
     const EndWalls::Next wall = walls(axis).next();
     if (wall.time < next.time) {
       if (wall.meeting == Meeting::none) {
-        if constexpr (driven) return walls(axis).refine(walls_across(axis), std::min(next.time, limit));
-        else return end_walls_.refine(box_, std::min(next.time, limit));
+        if constexpr (driven)
+          return walls(axis).refine(walls_across(axis), std::min(next.time, limit));
+        else
+          return end_walls_.refine(box_, std::min(next.time, limit));
       }
       now_ = wall.time;
       return wall_event(axis, walls(axis), wall);
@@ -120,7 +122,8 @@ void EventLoop<Grains, Motion>::check_progress() {
     events_at_check_ = events_;
     time_at_check_ = now_;
   } else if (events_ - events_at_check_ > patience) {
-    throw PhysicsError("endless collisions at t = " + std::to_string(now_) + " s (" + std::to_string(patience) +
+    throw PhysicsError("endless collisions at t = " + std::to_string(now_) + " s (" +
+                       std::to_string(patience) +
                        " events in 10 us); raise [hard] pair_elastic_speed or wall_elastic_speed");
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Accelerations that all grains share, a(t) = constant + sum of amplitude sin(2 pi f t + phase), are taken out by describing the grains in
-// a frame that falls with them: lab = frame + S(t), S'' = a, S(0) = S'(0) = 0. There grains fly straight and pairs meet as if
-// nothing acted; only the walls move, by -S(t).
+// Accelerations that all grains share, a(t) = constant + sum of amplitude sin(2 pi f t + phase), are taken
+// out by describing the grains in a frame that falls with them: lab = frame + S(t), S'' = a, S(0) = S'(0) =
+// 0. There grains fly straight and pairs meet as if nothing acted; only the walls move, by -S(t).
 #pragma once
 #include <cmath>
 #include <numbers>
@@ -13,11 +13,14 @@ namespace shakedown {
 
 class FallingFrame {
  public:
-  explicit FallingFrame(const GrainForces& forces) : constant_(forces.constant), constant_effect_(forces.constant_effect) {
+  explicit FallingFrame(const GrainForces& forces)
+      : constant_(forces.constant), constant_effect_(forces.constant_effect) {
     for (const auto& h : forces.harmonics) {
       const double w = 2 * std::numbers::pi * h.frequency;
-      if (w > 0) harmonics_.push_back({h.amplitude, w, h.phase, h.effect});
-      else constant_ += h.amplitude * std::sin(h.phase);
+      if (w > 0)
+        harmonics_.push_back({h.amplitude, w, h.phase, h.effect});
+      else
+        constant_ += h.amplitude * std::sin(h.phase);
     }
   }
 
@@ -25,12 +28,14 @@ class FallingFrame {
   Vec3 displacement(double t) const {
     Vec3 s = constant_ * (t * t / 2);
     for (const Swing& h : harmonics_)
-      s += h.amplitude * ((std::sin(h.phase) - std::sin(h.w * t + h.phase)) / (h.w * h.w) + std::cos(h.phase) * t / h.w);
+      s += h.amplitude *
+           ((std::sin(h.phase) - std::sin(h.w * t + h.phase)) / (h.w * h.w) + std::cos(h.phase) * t / h.w);
     return s;
   }
   Vec3 velocity(double t) const {
     Vec3 v = constant_ * t;
-    for (const Swing& h : harmonics_) v += h.amplitude * ((std::cos(h.phase) - std::cos(h.w * t + h.phase)) / h.w);
+    for (const Swing& h : harmonics_)
+      v += h.amplitude * ((std::cos(h.phase) - std::cos(h.w * t + h.phase)) / h.w);
     return v;
   }
   /// Calls use(effect, acceleration) for each effect's own acceleration at time t.

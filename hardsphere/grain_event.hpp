@@ -35,18 +35,22 @@ constexpr std::int32_t side_wall_y_low = -3;  ///< then y high, z low, z high: -
 constexpr bool is_side_wall(std::int32_t partner) { return partner <= side_wall_y_low; }
 constexpr int side_wall_axis(std::int32_t partner) { return 1 + (side_wall_y_low - partner) / 2; }
 constexpr int side_wall_sign(std::int32_t partner) { return (side_wall_y_low - partner) % 2 == 0 ? -1 : 1; }
-constexpr std::int32_t side_wall(int axis, int sign) { return side_wall_y_low - 2 * (axis - 1) - (sign > 0 ? 1 : 0); }
+constexpr std::int32_t side_wall(int axis, int sign) {
+  return side_wall_y_low - 2 * (axis - 1) - (sign > 0 ? 1 : 0);
+}
 
 /// The earliest thing that will happen to a grain besides an end wall.
 struct GrainEvent {
   double time = never;
   std::int32_t partner = no_partner;
-  std::uint32_t partner_count = 0;  ///< impacts of the partner when this was predicted; it is stale once that has changed
+  std::uint32_t partner_count =
+      0;  ///< impacts of the partner when this was predicted; it is stale once that has changed
   Meeting meeting = Meeting::touch;
 };
 
-/// Time until two spheres touch: separation r, relative velocity w; b = r.w, c = r^2 - reach^2, a = w^2. Both forms of the quadratic's
-/// root that cancel are avoided; spheres that touch (or overlap by rounding) and approach collide at once, separating ones never.
+/// Time until two spheres touch: separation r, relative velocity w; b = r.w, c = r^2 - reach^2, a = w^2. Both
+/// forms of the quadratic's root that cancel are avoided; spheres that touch (or overlap by rounding) and
+/// approach collide at once, separating ones never.
 inline double time_to_touch(double a, double b, double c) {
   if (b >= 0) return never;
   if (c <= 0) return 0;
@@ -54,7 +58,8 @@ inline double time_to_touch(double a, double b, double c) {
   return discriminant < 0 ? never : c / (std::sqrt(discriminant) - b);
 }
 
-/// Earliest of the four fixed side walls at +-room about the axis. Which way a grain flies is as good as random: no branches on it.
+/// Earliest of the four fixed side walls at +-room about the axis. Which way a grain flies is as good as
+/// random: no branches on it.
 inline GrainEvent next_side_wall(const Flight3& flight, const std::array<double, 2>& room) {
   std::array<double, 2> time;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -63,7 +68,10 @@ inline GrainEvent next_side_wall(const Flight3& flight, const std::array<double,
   }
   const int axis = time[1] < time[0] ? 2 : 1;
   const double earliest = std::min(time[0], time[1]);
-  return {earliest, earliest < never ? side_wall(axis, flight.v[static_cast<std::size_t>(axis)] > 0 ? 1 : -1) : no_partner, 0, Meeting::touch};
+  return {
+      earliest,
+      earliest < never ? side_wall(axis, flight.v[static_cast<std::size_t>(axis)] > 0 ? 1 : -1) : no_partner,
+      0, Meeting::touch};
 }
 
 }  // namespace shakedown

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What others must know of a grain, one cache line each, and the earliest touch of one grain with some others in vector lanes.
+// What others must know of a grain, one cache line each, and the earliest touch of one grain with some others
+// in vector lanes.
 #pragma once
 #include <algorithm>
 #include <vector>
@@ -23,7 +24,8 @@ struct Period {
   std::array<double, 3> extent{}, inverse{};
   explicit Period(const std::array<double, 3>& e) : extent(e), inverse{1 / e[0], 1 / e[1], 1 / e[2]} {}
 
-  /// The shortest of r + n extent. A sum so large that it has no digits behind the point rounds to whole numbers.
+  /// The shortest of r + n extent. A sum so large that it has no digits behind the point rounds to whole
+  /// numbers.
   template <class Number>
   Number nearest(const Number& r, std::size_t axis) const {
     constexpr double whole = 0x1.8p52;
@@ -37,7 +39,10 @@ constexpr std::size_t fits_in_cache = 20'000;
 class GrainLines {
  public:
   GrainLines(const State& state, const std::array<double, 3>& extent)
-      : period_(extent), line_(state.size()), radius_(state.radius.begin(), state.radius.end()), mass_(state.mass.begin(), state.mass.end()) {
+      : period_(extent),
+        line_(state.size()),
+        radius_(state.radius.begin(), state.radius.end()),
+        mass_(state.mass.begin(), state.mass.end()) {
     double largest = 0, smallest = never;
     for (const double r : radius_) largest = std::max(largest, r), smallest = std::min(smallest, r);
     equal_ = largest == smallest;
@@ -59,7 +64,8 @@ class GrainLines {
   }
   void move_to(std::size_t i, const Flight3& flight) {
     GrainLine& line = line_[i];
-    line = {flight.x[0], flight.x[1], flight.x[2], flight.v[0], flight.v[1], flight.v[2], flight.time, line.count, line.next};
+    line = {flight.x[0], flight.x[1], flight.x[2], flight.v[0], flight.v[1],
+            flight.v[2], flight.time, line.count,  line.next};
   }
   // Equal grains are all like the first: one line less to bring near for each.
   double radius(std::size_t i) const { return radius_[equal_ ? 0 : i]; }
@@ -73,10 +79,11 @@ class GrainLines {
     double wait;           ///< s
     std::int32_t partner;  ///< -1: none before
   };
-  /// The earliest touch, before `wait`, of grain i flying as `self` with the grains `others`, an array that goes on with i itself up to
-  /// a whole number of vectors.
+  /// The earliest touch, before `wait`, of grain i flying as `self` with the grains `others`, an array that
+  /// goes on with i itself up to a whole number of vectors.
   template <bool Periodic>
-  Touch first_touch(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait) {
+  Touch first_touch(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size,
+                    double wait) {
     if (size == 0) return {wait, -1};
     // The few ahead of a crossing mostly are no partners at all, as the branches of the full search soon see.
     if (size <= few_count) return first_touch_in<FewLanes, Periodic>(i, self, others, size, wait);
@@ -88,7 +95,8 @@ class GrainLines {
   static constexpr double bytes_per_grain() { return sizeof(GrainLine) + 2 * sizeof(double); }
 
  private:
-  /// How a vector of others moves as grain i sees it: b = r.w, c = r^2 - reach^2, a = w^2, discriminant b^2 - a c.
+  /// How a vector of others moves as grain i sees it: b = r.w, c = r^2 - reach^2, a = w^2, discriminant b^2 -
+  /// a c.
   template <class L>
   struct Approach {
     L b, c, discriminant;
@@ -96,15 +104,23 @@ class GrainLines {
   template <class L>
   struct Self {
     explicit Self(const Flight3& flight)
-        : x(flight.x[0]), y(flight.x[1]), z(flight.x[2]), vx(flight.v[0]), vy(flight.v[1]), vz(flight.v[2]), time(flight.time) {}
+        : x(flight.x[0]),
+          y(flight.x[1]),
+          z(flight.x[2]),
+          vx(flight.v[0]),
+          vy(flight.v[1]),
+          vz(flight.v[2]),
+          time(flight.time) {}
     L x, y, z, vx, vy, vz, time;
   };
   template <class L, bool Periodic>
   Approach<L> approach(std::size_t i, const Self<L>& self, const std::int32_t* others) const;
   template <class L, bool Periodic>
-  Touch estimated_touch_in(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait);
+  Touch estimated_touch_in(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size,
+                           double wait);
   template <class L, bool Periodic>
-  Touch first_touch_in(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size, double wait);
+  Touch first_touch_in(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size,
+                       double wait);
 
   Period period_;
   AlignedVector<GrainLine> line_;
@@ -115,12 +131,14 @@ class GrainLines {
 };
 
 template <class L, bool Periodic>
-GrainLines::Approach<L> GrainLines::approach(std::size_t i, const Self<L>& self, const std::int32_t* others) const {
+GrainLines::Approach<L> GrainLines::approach(std::size_t i, const Self<L>& self,
+                                             const std::int32_t* others) const {
   static_assert(sizeof(GrainLine) == 8 * sizeof(double));
   const auto [x, y, z, ux, uy, uz, time] = columns<L>(&line_[0].x, others);
   const L flown = self.time - time;
   L rx = x + ux * flown - self.x, ry = y + uy * flown - self.y, rz = z + uz * flown - self.z;
-  if constexpr (Periodic) rx = period_.nearest(rx, 0), ry = period_.nearest(ry, 1), rz = period_.nearest(rz, 2);
+  if constexpr (Periodic)
+    rx = period_.nearest(rx, 0), ry = period_.nearest(ry, 1), rz = period_.nearest(rz, 2);
   const L wx = ux - self.vx, wy = uy - self.vy, wz = uz - self.vz;
   L reach_squared = largest_reach_ * largest_reach_;
   if (!equal_) {
@@ -131,20 +149,24 @@ GrainLines::Approach<L> GrainLines::approach(std::size_t i, const Self<L>& self,
   return {b, c, b * b - (wx * wx + wy * wy + wz * wz) * c};
 }
 
-/// Which grain is first is told by estimates, and the root taken of that one alone. Where they cannot tell (touches within 2^-11 of each
-/// other), or spheres overlap deeper than any before, everything is done in full; so the answer is the same to the last bit. No branches:
-/// whether any of eight grains may come first is as good as random. 5 % at packing fraction 0.5.
+/// Which grain is first is told by estimates, and the root taken of that one alone. Where they cannot tell
+/// (touches within 2^-11 of each other), or spheres overlap deeper than any before, everything is done in
+/// full; so the answer is the same to the last bit. No branches: whether any of eight grains may come first
+/// is as good as random. 5 % at packing fraction 0.5.
 template <class L, bool Periodic>
-GrainLines::Touch GrainLines::estimated_touch_in(std::size_t i, const Flight3& flight, const std::int32_t* others, std::size_t size, double wait) {
+GrainLines::Touch GrainLines::estimated_touch_in(std::size_t i, const Flight3& flight,
+                                                 const std::int32_t* others, std::size_t size, double wait) {
   if constexpr (!has_estimates) return first_touch_in<L, Periodic>(i, flight, others, size, wait);
   constexpr double above = 1 + 0x1p-11, below = 1 - 0x1p-11, tiny = 1e-300;
   const Self<L> self(flight);
   const L zero = 0.0, smallest_room = smallest_room_;
-  L best = wait, best_slot = -1.0, slot = lane_index<L>(), best_b = -1.0, best_c = zero, best_discriminant = zero;
+  L best = wait, best_slot = -1.0, slot = lane_index<L>(), best_b = -1.0, best_c = zero,
+    best_discriminant = zero;
   typename L::mask_type doubt(false);
   for (std::size_t n = 0; n < size; n += L::size(), slot += static_cast<double>(L::size())) {
     const auto [b, c, discriminant] = approach<L, Periodic>(i, self, others + n);
-    const L root = discriminant * inverse_root_estimate(simd::max(discriminant, L(tiny))), touch = simd::max(c, zero) * inverse_estimate(root - b);
+    const L root = discriminant * inverse_root_estimate(simd::max(discriminant, L(tiny))),
+            touch = simd::max(c, zero) * inverse_estimate(root - b);
     const auto meets = b < zero && discriminant >= zero;
     doubt = doubt || (meets && (c < smallest_room || (touch > L(below) * best && touch < L(above) * best)));
     const auto sooner = meets && touch < best;
@@ -156,16 +178,20 @@ GrainLines::Touch GrainLines::estimated_touch_in(std::size_t i, const Flight3& f
   }
   const double earliest = simd::hmin(best);
   const auto first = best <= L(above * earliest);
-  if (simd::any_of(doubt)) [[unlikely]] return first_touch_in<L, Periodic>(i, flight, others, size, wait);
+  if (simd::any_of(doubt)) [[unlikely]]
+    return first_touch_in<L, Periodic>(i, flight, others, size, wait);
   if (!(earliest < wait)) return {wait, -1};
-  if (simd::popcount(first) != 1) [[unlikely]] return first_touch_in<L, Periodic>(i, flight, others, size, wait);
+  if (simd::popcount(first) != 1) [[unlikely]]
+    return first_touch_in<L, Periodic>(i, flight, others, size, wait);
   const auto lane = static_cast<std::size_t>(simd::find_first_set(first));
   const double b = best_b[lane], c = best_c[lane], discriminant = best_discriminant[lane];
-  return {std::max(c, 0.0) / (std::sqrt(discriminant) - b), others[static_cast<std::size_t>(static_cast<double>(best_slot[lane]))]};
+  return {std::max(c, 0.0) / (std::sqrt(discriminant) - b),
+          others[static_cast<std::size_t>(static_cast<double>(best_slot[lane]))]};
 }
 
 template <class L, bool Periodic>
-GrainLines::Touch GrainLines::first_touch_in(std::size_t i, const Flight3& flight, const std::int32_t* others, std::size_t size, double wait) {
+GrainLines::Touch GrainLines::first_touch_in(std::size_t i, const Flight3& flight, const std::int32_t* others,
+                                             std::size_t size, double wait) {
   const Self<L> self(flight);
   L best = wait, smallest_room = smallest_room_, best_slot = -1.0, slot = lane_index<L>();
   const L zero = 0.0;

@@ -26,7 +26,8 @@ class HardEngine final : public Engine {
     Trajectory trajectory;
     trajectory.engine = "hard";
     trajectory.initial_energy = system.initial_energy();
-    const auto samples = static_cast<std::int64_t>(std::floor(setup.run.duration * setup.run.sample_rate * (1 + 1e-12)));
+    const auto samples =
+        static_cast<std::int64_t>(std::floor(setup.run.duration * setup.run.sample_rate * (1 + 1e-12)));
     reserve(static_cast<std::size_t>(samples + 1), trajectory);
     const std::int64_t report_every = std::max<std::int64_t>(1, samples / 200);
     for (std::int64_t k = 0; k <= samples; ++k) {
@@ -41,7 +42,8 @@ class HardEngine final : public Engine {
       if (options.progress && k % report_every == 0) options.progress(time);
     }
     trajectory.end_time = trajectory.time.empty() ? 0 : trajectory.time.back();
-    if (!trajectory.interrupted && setup.run.duration > trajectory.end_time) {  // a rest shorter than the interval of samples
+    // a rest shorter than the interval of samples
+    if (!trajectory.interrupted && setup.run.duration > trajectory.end_time) {
       system.advance_to(setup.run.duration);
       system.observe();
       trajectory.end_time = setup.run.duration;
@@ -51,15 +53,15 @@ class HardEngine final : public Engine {
     trajectory.collisions = system.collisions();
     trajectory.events = system.events();
     trajectory.health = system.health();
-    if (logging)
-      trajectory.collision_log = std::make_shared<const CollisionLog>(system.collision_log());
+    if (logging) trajectory.collision_log = std::make_shared<const CollisionLog>(system.collision_log());
     trajectory.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return trajectory;
   }
 
  private:
   static void reserve(std::size_t samples, Trajectory& trajectory) {
-    for (auto* series : {&trajectory.time, &trajectory.x_box, &trajectory.v_box, &trajectory.x_com, &trajectory.total_energy})
+    for (auto* series : {&trajectory.time, &trajectory.x_box, &trajectory.v_box, &trajectory.x_com,
+                         &trajectory.total_energy})
       series->reserve(samples);
     for (auto& series : trajectory.loss) series.reserve(samples);
   }

@@ -11,8 +11,9 @@
 
 namespace shakedown {
 
-using Loop = std::variant<EventLoop<AllPairs, BoxMotion>, EventLoop<CellLists<false>, BoxMotion>, EventLoop<CellLists<true>, BoxMotion>,
-                          EventLoop<AllPairs, DrivenBox>, EventLoop<CellLists<false>, DrivenBox>, EventLoop<CellCrossings, BoxMotion>>;
+using Loop = std::variant<EventLoop<AllPairs, BoxMotion>, EventLoop<CellLists<false>, BoxMotion>,
+                          EventLoop<CellLists<true>, BoxMotion>, EventLoop<AllPairs, DrivenBox>,
+                          EventLoop<CellLists<false>, DrivenBox>, EventLoop<CellCrossings, BoxMotion>>;
 
 struct HardSphereSystem::Inside {
   Loop loop;
@@ -41,7 +42,10 @@ Loop loop_for(const Setup& setup, const Physics& physics, const State& state) {
   const double fraction = grain_volume(state) / (cell[0] * cell[1] * cell[2]);
   const bool driven = is_driven(physics);
   if (driven && setup.domain != Domain::damper)
-    throw InputError({{{}, "domain.kind", "effects that drive box or grains, friction and attraction need a damper (other domains are for checks of the plain engine)",
+    throw InputError({{{},
+                       "domain.kind",
+                       "effects that drive box or grains, friction and attraction need a damper (other "
+                       "domains are for checks of the plain engine)",
                        "take domain.kind = \"damper\" or leave the effects out"}});
   if (setup.domain == Domain::periodic) {
     if (fraction < crossings_below && CellCrossings::can_hold(state, cell))
@@ -51,14 +55,19 @@ Loop loop_for(const Setup& setup, const Physics& physics, const State& state) {
   }
   const bool wells = physics.contact.has_attraction();
   if (wells && state.size() > wells_up_to)
-    throw InputError({{{}, "grain_cohesion", "is modelled by the hard engine up to " + std::to_string(wells_up_to) + " grains only (it keeps a table of pairs)",
+    throw InputError({{{},
+                       "grain_cohesion",
+                       "is modelled by the hard engine up to " + std::to_string(wells_up_to) +
+                           " grains only (it keeps a table of pairs)",
                        "take fewer grains or --engine soft"}});
   if (state.size() <= all_pairs_up_to || wells) {
     const AllPairs grains(state, half_width, wells ? physics.contact.attraction_range : 0);
-    return driven ? Loop(std::in_place_index<3>, state, physics, setup, grains) : Loop(std::in_place_index<0>, state, physics, setup, grains);
+    return driven ? Loop(std::in_place_index<3>, state, physics, setup, grains)
+                  : Loop(std::in_place_index<0>, state, physics, setup, grains);
   }
   // The grains of a damper lie in layers most of the time, whatever the box's mean filling.
-  const CellListsPlan plan{cell, false, half_width, setup.domain == Domain::damper ? std::max(0.5, fraction) : fraction, 0};
+  const CellListsPlan plan{cell, false, half_width,
+                           setup.domain == Domain::damper ? std::max(0.5, fraction) : fraction, 0};
   CellLists<false> grains(state, plan);
   return driven ? Loop(std::in_place_index<4>, state, physics, setup, std::move(grains))
                 : Loop(std::in_place_index<1>, state, physics, setup, std::move(grains));
@@ -66,7 +75,8 @@ Loop loop_for(const Setup& setup, const Physics& physics, const State& state) {
 
 }  // namespace
 
-HardSphereSystem::HardSphereSystem(const Setup& setup, int run) : HardSphereSystem(setup, initial_state(setup, run)) {}
+HardSphereSystem::HardSphereSystem(const Setup& setup, int run)
+    : HardSphereSystem(setup, initial_state(setup, run)) {}
 
 HardSphereSystem::HardSphereSystem(const Setup& setup, const State& state) {
   const double scale =
@@ -78,9 +88,12 @@ HardSphereSystem::~HardSphereSystem() = default;
 HardSphereSystem::HardSphereSystem(HardSphereSystem&&) noexcept = default;
 
 // Which loop it is was decided once; every call goes to it.
-#define SHAKEDOWN_IN_LOOP(expression) std::visit([&](auto& loop) -> decltype(auto) { return expression; }, inside_->loop)
+#define SHAKEDOWN_IN_LOOP(expression) \
+  std::visit([&](auto& loop) -> decltype(auto) { return expression; }, inside_->loop)
 
-bool HardSphereSystem::advance_to(double t, const std::atomic<bool>* stop) { return SHAKEDOWN_IN_LOOP(loop.advance_to(t, stop)); }
+bool HardSphereSystem::advance_to(double t, const std::atomic<bool>* stop) {
+  return SHAKEDOWN_IN_LOOP(loop.advance_to(t, stop));
+}
 void HardSphereSystem::advance_impacts(std::int64_t n) { SHAKEDOWN_IN_LOOP(loop.advance_impacts(n)); }
 double HardSphereSystem::time() const { return SHAKEDOWN_IN_LOOP(loop.time()); }
 void HardSphereSystem::log_collisions(State initial) {

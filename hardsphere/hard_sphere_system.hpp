@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The event-driven system itself, for those who want to steer it: benchmarks, checks against known physics, time reversal.
+// The event-driven system itself, for those who want to steer it: benchmarks, checks against known physics,
+// time reversal.
 #pragma once
 #include <atomic>
 #include <memory>
@@ -28,7 +29,8 @@ class HardSphereSystem {
   /// Executes n more impacts of any class.
   void advance_impacts(std::int64_t n);
 
-  /// Writes down every event; to be called before the first, with the state that this was made from. Not for periodic cells.
+  /// Writes down every event; to be called before the first, with the state that this was made from. Not for
+  /// periodic cells.
   void log_collisions(State initial);
   /// What was written until now.
   CollisionLog collision_log() const;
@@ -42,7 +44,8 @@ class HardSphereSystem {
   const std::array<std::int64_t, contact_classes>& collisions() const;
   std::int64_t events() const;
   double initial_energy() const;
-  /// Sum over pair impacts of impulse times distance, N s m; pressure of a periodic fluid: Z - 1 = virial / (3 N k T time).
+  /// Sum over pair impacts of impulse times distance, N s m; pressure of a periodic fluid: Z - 1 = virial /
+  /// (3 N k T time).
   double virial() const;
   /// Memory held per grain, bytes.
   double bytes_per_grain() const;

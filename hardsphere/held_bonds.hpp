@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Grains held in square wells, where a step of depth F d and a constant attraction F over the gap d would part ways.
+// Grains held in square wells, where a step of depth F d and a constant attraction F over the gap d would
+// part ways.
 //
-// Pull: a step holds what lies at rest against it with any force, a constant attraction with F. A grain that is pulled off slowly never
-// reaches the edge with the energy F d, it hangs there and hops. So a bond that hangs and has been pulled with more than F, on the average
-// since it last touched or was last judged, gives way. It has not paid for leaving; what that makes of energy, F d, is booked as work of
-// the attraction. From rest at contact both rules are the same one: a pull P reaches the edge with P d.
+// Pull: a step holds what lies at rest against it with any force, a constant attraction with F. A grain that
+// is pulled off slowly never reaches the edge with the energy F d, it hangs there and hops. So a bond that
+// hangs and has been pulled with more than F, on the average since it last touched or was last judged, gives
+// way. It has not paid for leaving; what that makes of energy, F d, is booked as work of the attraction. From
+// rest at contact both rules are the same one: a pull P reaches the edge with P d.
 //
-// Rest: grains in wells hop without end at any speed below which impacts are elastic, at a rate of that speed over the free gap, which is
-// nothing in a jammed row. So in wells slow impacts are elastic only when one of the two touched something less than `quick` ago (the
-// contact time of S. Luding and S. McNamara, Granular Matter 1, 113 (1998)); others cool the grains on.
+// Rest: grains in wells hop without end at any speed below which impacts are elastic, at a rate of that speed
+// over the free gap, which is nothing in a jammed row. So in wells slow impacts are elastic only when one of
+// the two touched something less than `quick` ago (the contact time of S. Luding and S. McNamara, Granular
+// Matter 1, 113 (1998)); others cool the grains on.
 //
-// Lasting contacts: grains that attraction holds against each other are pushed all at once, which costs less energy than one impact after
-// the other (S. Luding et al., Phys. Rev. E 50, 4113 (1994), "detachment"). And five grains of 10 mm just fill a width of 50 mm: a row that
-// wells press flat is wedged between the walls and carries that load, hundreds of times the attraction, by impacts, the more of them the
-// slower they are (ten million a second). So impacts after a free path of less than `hairbreadth` are elastic at any speed.
+// Lasting contacts: grains that attraction holds against each other are pushed all at once, which costs less
+// energy than one impact after the other (S. Luding et al., Phys. Rev. E 50, 4113 (1994), "detachment"). And
+// five grains of 10 mm just fill a width of 50 mm: a row that wells press flat is wedged between the walls
+// and carries that load, hundreds of times the attraction, by impacts, the more of them the slower they are
+// (ten million a second). So impacts after a free path of less than `hairbreadth` are elastic at any speed.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -25,37 +29,47 @@ namespace shakedown {
 
 class HeldBonds {
  public:
-  /// Longest time between impacts that count as one rest, s. 0.1 ms gives the same slopes within the spread of runs at up to twice the cost.
+  /// Longest time between impacts that count as one rest, s. 0.1 ms gives the same slopes within the spread
+  /// of runs at up to twice the cost.
   static constexpr double quick = 1e-3;
-  /// m; how deep a soft contact of 0.3 ms is at 2 cm/s, the speed that a well of 20 mN and 0.02 mm gives. There, from 0 to 5e-6, the slope
-  /// at L = 40 mm goes from -8.44 to -8.16 mm/s (soft engine: -8.17). At 200 mN some runs of 8.5 s took over a minute without it.
+  /// m; how deep a soft contact of 0.3 ms is at 2 cm/s, the speed that a well of 20 mN and 0.02 mm gives.
+  /// There, from 0 to 5e-6, the slope at L = 40 mm goes from -8.44 to -8.16 mm/s (soft engine: -8.17). At 200
+  /// mN some runs of 8.5 s took over a minute without it.
   static constexpr double hairbreadth = 2e-6;
 
-  HeldBonds(std::size_t grains, double force, double range) : force_(force), range_(range), last_touch_(grains, -1.0) {}
+  HeldBonds(std::size_t grains, double force, double range)
+      : force_(force), range_(range), last_touch_(grains, -1.0) {}
 
   static std::uint64_t of_pair(int i, int j) {
     return static_cast<std::uint64_t>(std::min(i, j)) << 32 | static_cast<std::uint64_t>(std::max(i, j));
   }
-  static std::uint64_t of_wall(int i, int axis, int side) { return std::uint64_t{1} << 63 | of_pair(i, 0) << 8 | static_cast<std::uint64_t>(2 * axis + (side > 0)); }
+  static std::uint64_t of_wall(int i, int axis, int side) {
+    return std::uint64_t{1} << 63 | of_pair(i, 0) << 8 | static_cast<std::uint64_t>(2 * axis + (side > 0));
+  }
 
-  /// Below which closing speed an impact of grain i (and j) is elastic, where `limit` holds for grains at rest.
+  /// Below which closing speed an impact of grain i (and j) is elastic, where `limit` holds for grains at
+  /// rest.
   double elastic_below(double limit, int i, int j, double now) const {
-    const double last = std::max(last_touch_[static_cast<std::size_t>(i)], j < 0 ? -1.0 : last_touch_[static_cast<std::size_t>(j)]);
+    const double last = std::max(last_touch_[static_cast<std::size_t>(i)],
+                                 j < 0 ? -1.0 : last_touch_[static_cast<std::size_t>(j)]);
     const double since = now - last;
     return since < quick ? std::max(limit, hairbreadth / since) : 0;
   }
   void touches(int i, double now) { last_touch_[static_cast<std::size_t>(i)] = now; }
 
-  /// The two touched and part with this momentum (reduced mass times opening speed): nothing has pulled at them yet.
+  /// The two touched and part with this momentum (reduced mass times opening speed): nothing has pulled at
+  /// them yet.
   void touched(std::uint64_t bond, double momentum, double now) { pulls_[bond] = {now, -momentum}; }
   void ended(std::uint64_t bond) { pulls_.erase(bond); }
 
-  /// The two came to the edge of their well with too little energy. True: they were pulled with more than the attraction.
+  /// The two came to the edge of their well with too little energy. True: they were pulled with more than the
+  /// attraction.
   bool gives_way(std::uint64_t bond, double reduced_mass, double opening_speed, double now) {
     const double momentum = reduced_mass * opening_speed;
     Pull& pull = pulls_.try_emplace(bond, Pull{now, 0}).first->second;
     const double time = now - pull.since;
-    if (time < std::sqrt(2 * range_ * reduced_mass / force_)) {  // in less the attraction itself would not cross its range
+    // in less the attraction itself would not cross its range
+    if (time < std::sqrt(2 * range_ * reduced_mass / force_)) {
       pull.impulse += 2 * momentum;
       return false;
     }

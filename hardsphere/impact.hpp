@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Impacts of hard spheres: impulse along the normal mu (1 + eps) times the closing speed; with friction a tangential impulse that would
-// reverse the slip of the touching points (times the tangential restitution), limited by mu_friction times the normal one.
-// Solid spheres: I = (2/5) m r^2, so slip feels the mass m / 3.5.
+// Impacts of hard spheres: impulse along the normal mu (1 + eps) times the closing speed; with friction a
+// tangential impulse that would reverse the slip of the touching points (times the tangential restitution),
+// limited by mu_friction times the normal one. Solid spheres: I = (2/5) m r^2, so slip feels the mass m
+// / 3.5.
 #pragma once
 #include <Eigen/Geometry>
 #include <cmath>
@@ -10,12 +11,14 @@
 
 namespace shakedown {
 
-/// Below which closing speeds impacts are elastic (the regularisation of inelastic collapse), and then frictionless too.
+/// Below which closing speeds impacts are elastic (the regularisation of inelastic collapse), and then
+/// frictionless too.
 struct ElasticLimits {
   double wall_fraction = 0.02;  ///< of the box's current top speed, end walls
   double pair_speed = 1e-3;     ///< m/s
   double wall_speed = 0;        ///< m/s, end and side walls
-  double pull = -1;             ///< m/s^2, acceleration that presses layers on walls and sets the last two; negative: none does
+  double pull =
+      -1;  ///< m/s^2, acceleration that presses layers on walls and sets the last two; negative: none does
 };
 
 /// A tangential impulse and the energy that it takes out.
@@ -24,9 +27,10 @@ struct Friction {
   double loss = 0;              ///< J
 };
 
-/// `slip`: velocity of the touching point relative to the other's, tangential part, m/s; `mass`: per axis, what the slip feels, kg.
-/// Scaling both components alike keeps the loss positive for any masses.
-inline Friction friction_impulse(const Vec3& slip, const Vec3& mass, double coefficient, double tangential_restitution, double normal_impulse) {
+/// `slip`: velocity of the touching point relative to the other's, tangential part, m/s; `mass`: per axis,
+/// what the slip feels, kg. Scaling both components alike keeps the loss positive for any masses.
+inline Friction friction_impulse(const Vec3& slip, const Vec3& mass, double coefficient,
+                                 double tangential_restitution, double normal_impulse) {
   const Vec3 reversing = -(1 + tangential_restitution) * mass.cwiseProduct(slip);
   const double needed = reversing.norm(), allowed = coefficient * normal_impulse;
   if (needed == 0 || allowed <= 0) return {};
@@ -34,7 +38,8 @@ inline Friction friction_impulse(const Vec3& slip, const Vec3& mass, double coef
   return {impulse, -(impulse.dot(slip) + impulse.cwiseProduct(impulse).cwiseQuotient(mass).sum() / 2)};
 }
 
-/// Change of spin of a sphere by an impulse at its surface point in direction `normal` from its centre, rad/s.
+/// Change of spin of a sphere by an impulse at its surface point in direction `normal` from its centre,
+/// rad/s.
 inline Vec3 spin_change(const Vec3& normal, double radius, double mass, const Vec3& impulse) {
   return normal.cross(impulse) * (2.5 / (mass * radius));
 }

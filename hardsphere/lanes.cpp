@@ -8,7 +8,9 @@ namespace shakedown {
 namespace {
 
 constexpr std::size_t large_page = std::size_t{1} << 21;
-std::align_val_t alignment(std::size_t bytes) { return std::align_val_t{bytes >= large_page ? large_page : 64}; }
+std::align_val_t alignment(std::size_t bytes) {
+  return std::align_val_t{bytes >= large_page ? large_page : 64};
+}
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vectors of doubles as wide as the machine, and arrays that they can be loaded from. The width never changes a result: every lane does
-// the same operations in the same order, and ties go to the lowest index.
+// Vectors of doubles as wide as the machine, and arrays that they can be loaded from. The width never changes
+// a result: every lane does the same operations in the same order, and ties go to the lowest index.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -18,7 +18,8 @@ namespace simd = std::experimental;
 using Lanes = simd::native_simd<double>;
 constexpr std::size_t lane_count = Lanes::size();
 
-/// Aligned to 64 bytes, and large arrays on large pages: reached at random, their addresses stay in the processor's tables.
+/// Aligned to 64 bytes, and large arrays on large pages: reached at random, their addresses stay in the
+/// processor's tables.
 void* allocate_cache_lines(std::size_t bytes);
 void free_cache_lines(void* memory, std::size_t bytes);
 
@@ -55,32 +56,42 @@ L lane_index() {
 constexpr std::size_t few_count = lane_count > 4 ? lane_count / 2 : lane_count;
 using FewLanes = simd::simd<double, simd::simd_abi::deduce_t<double, few_count>>;
 
-/// Square roots from below, good to 2^-21, of numbers up to 1e30: in single precision they take a third of the time, on every machine alike.
+/// Square roots from below, good to 2^-21, of numbers up to 1e30: in single precision they take a third of
+/// the time, on every machine alike.
 inline Lanes roots_below(const Lanes& x) {
   using Single = simd::simd<float, simd::simd_abi::deduce_t<float, lane_count>>;
   const Single root = simd::sqrt(simd::static_simd_cast<Single>(simd::min(x, Lanes(1e30))));
   return simd::static_simd_cast<Lanes>(root) * Lanes(1 - 0x1p-22);
 }
 
-/// Whether the machine has the two below, within 2^-14 of the true value and many times cheaper than a root or a division.
+/// Whether the machine has the two below, within 2^-14 of the true value and many times cheaper than a root
+/// or a division.
 #ifdef __AVX512VL__
 constexpr bool has_estimates = true;
 template <class L>
 L inverse_estimate(const L& x) {
-  if constexpr (L::size() == 8) return L(_mm512_rcp14_pd(static_cast<__m512d>(x)));
-  else return L(_mm256_rcp14_pd(static_cast<__m256d>(x)));
+  if constexpr (L::size() == 8)
+    return L(_mm512_rcp14_pd(static_cast<__m512d>(x)));
+  else
+    return L(_mm256_rcp14_pd(static_cast<__m256d>(x)));
 }
 template <class L>
 L inverse_root_estimate(const L& x) {
-  if constexpr (L::size() == 8) return L(_mm512_rsqrt14_pd(static_cast<__m512d>(x)));
-  else return L(_mm256_rsqrt14_pd(static_cast<__m256d>(x)));
+  if constexpr (L::size() == 8)
+    return L(_mm512_rsqrt14_pd(static_cast<__m512d>(x)));
+  else
+    return L(_mm256_rsqrt14_pd(static_cast<__m256d>(x)));
 }
 #else
 constexpr bool has_estimates = false;
 template <class L>
-L inverse_estimate(const L& x) { return L(1.0) / x; }
+L inverse_estimate(const L& x) {
+  return L(1.0) / x;
+}
 template <class L>
-L inverse_root_estimate(const L& x) { return L(1.0) / simd::sqrt(x); }
+L inverse_root_estimate(const L& x) {
+  return L(1.0) / simd::sqrt(x);
+}
 #endif
 
 /// first[stride * index[0]], first[stride * index[1]], ... for all lanes.
@@ -88,22 +99,27 @@ template <std::size_t stride, class L = Lanes>
 L gather(const double* first, const std::int32_t* index) {
 #ifdef __AVX512VL__  // GCC 12 makes fifteen instructions of the general form
   if constexpr (L::size() == 8) {
-    const __m256i at = _mm256_mullo_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(index)), _mm256_set1_epi32(stride));
+    const __m256i at = _mm256_mullo_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(index)),
+                                          _mm256_set1_epi32(stride));
     return L(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, at, first, 8));
   } else if constexpr (L::size() == 4) {
-    const __m128i at = _mm_mullo_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(index)), _mm_set1_epi32(stride));
+    const __m128i at =
+        _mm_mullo_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(index)), _mm_set1_epi32(stride));
     return L(_mm256_mmask_i32gather_pd(_mm256_setzero_pd(), 0xf, at, first, 8));
   }
 #endif
   return L([&](auto lane) { return first[stride * static_cast<std::size_t>(index[lane])]; });
 }
 
-/// The first seven numbers of as many lines of eight numbers as there are lanes: number k of them all in one vector.
+/// The first seven numbers of as many lines of eight numbers as there are lanes: number k of them all in one
+/// vector.
 template <class L>
 std::array<L, 7> columns(const double* first, const std::int32_t* index) {
 #ifdef __AVX512F__
   if constexpr (L::size() == 8) {  // whole lines, transposed: 1 to 5 % of a fluid less than seven gathers
-    const auto line = [&](int lane) { return _mm512_load_pd(first + 8 * static_cast<std::size_t>(index[lane])); };
+    const auto line = [&](int lane) {
+      return _mm512_load_pd(first + 8 * static_cast<std::size_t>(index[lane]));
+    };
     __m512d even[4], odd[4];  // numbers 0, 2, 4, 6 and 1, 3, 5, 7 of two lines each
     for (int two = 0; two < 4; ++two) {
       const __m512d a = line(2 * two), b = line(2 * two + 1);
@@ -112,21 +128,26 @@ std::array<L, 7> columns(const double* first, const std::int32_t* index) {
     }
     const auto quarters = [](const __m512d* of, auto first_level, auto second_level) {
       constexpr int one = decltype(first_level)::value, two = decltype(second_level)::value;
-      const __m512d a = _mm512_maskz_shuffle_f64x2(0xff, of[0], of[1], one), b = _mm512_maskz_shuffle_f64x2(0xff, of[2], of[3], one);
+      const __m512d a = _mm512_maskz_shuffle_f64x2(0xff, of[0], of[1], one),
+                    b = _mm512_maskz_shuffle_f64x2(0xff, of[2], of[3], one);
       return L(_mm512_maskz_shuffle_f64x2(0xff, a, b, two));
     };
     constexpr std::integral_constant<int, 0x88> low{};
     constexpr std::integral_constant<int, 0xdd> high{};
-    return {quarters(even, low, low),  quarters(odd, low, low),  quarters(even, high, low), quarters(odd, high, low),
-            quarters(even, low, high), quarters(odd, low, high), quarters(even, high, high)};
+    return {quarters(even, low, low),  quarters(odd, low, low),   quarters(even, high, low),
+            quarters(odd, high, low),  quarters(even, low, high), quarters(odd, low, high),
+            quarters(even, high, high)};
   }
 #endif
-  return {gather<8, L>(first, index),     gather<8, L>(first + 1, index), gather<8, L>(first + 2, index), gather<8, L>(first + 3, index),
-          gather<8, L>(first + 4, index), gather<8, L>(first + 5, index), gather<8, L>(first + 6, index)};
+  return {gather<8, L>(first, index),     gather<8, L>(first + 1, index), gather<8, L>(first + 2, index),
+          gather<8, L>(first + 3, index), gather<8, L>(first + 4, index), gather<8, L>(first + 5, index),
+          gather<8, L>(first + 6, index)};
 }
 
-/// Writes those of eight `what` whose `size` is less than `limit` to `to`, which has room for eight; returns how many.
-inline std::size_t append_where_less(std::int32_t* to, const std::array<std::int32_t, 8>& what, const std::array<float, 8>& size, float limit) {
+/// Writes those of eight `what` whose `size` is less than `limit` to `to`, which has room for eight; returns
+/// how many.
+inline std::size_t append_where_less(std::int32_t* to, const std::array<std::int32_t, 8>& what,
+                                     const std::array<float, 8>& size, float limit) {
 #ifdef __AVX512VL__
   const __mmask8 less = _mm256_cmp_ps_mask(_mm256_loadu_ps(size.data()), _mm256_set1_ps(limit), _CMP_LT_OQ);
   const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(what.data()));
@@ -149,13 +170,16 @@ struct Smallest {
 };
 inline Smallest smallest(const AlignedVector<double>& array, std::size_t size) {
   Lanes best = load(array, 0);
-  for (std::size_t first = lane_count; first < size; first += lane_count) best = simd::min(best, load(array, first));
+  for (std::size_t first = lane_count; first < size; first += lane_count)
+    best = simd::min(best, load(array, first));
   const double value = simd::hmin(best);
 #ifdef __AVX512F__
   if (size <= 64) {  // where it stands is as good as random: no branch on it
     std::uint64_t here = 0;
     for (std::size_t first = 0; first < size; first += lane_count)
-      here |= std::uint64_t{_mm512_cmp_pd_mask(_mm512_load_pd(array.data() + first), _mm512_set1_pd(value), _CMP_EQ_OQ)} << first;
+      here |= std::uint64_t{_mm512_cmp_pd_mask(_mm512_load_pd(array.data() + first), _mm512_set1_pd(value),
+                                               _CMP_EQ_OQ)}
+              << first;
     return {value, here == 0 ? 0 : __builtin_ctzll(here)};
   }
 #endif

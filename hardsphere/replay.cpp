@@ -13,7 +13,8 @@ namespace {
 using Loop = std::variant<EventLoop<ScriptedGrains, BoxMotion>, EventLoop<ScriptedGrains, DrivenBox>>;
 
 Loop loop_for(const Setup& setup, const State& state) {
-  if (setup.domain == Domain::periodic) throw InputError({{{}, "domain.kind", "a periodic cell has no collision log", "run the setup again"}});
+  if (setup.domain == Domain::periodic)
+    throw InputError({{{}, "domain.kind", "a periodic cell has no collision log", "run the setup again"}});
   const Physics physics = physics_of(setup);
   const ScriptedGrains grains(state);
   return is_driven(physics) ? Loop(std::in_place_index<1>, state, physics, setup, grains)
@@ -34,13 +35,16 @@ struct Replay::Inside {
   void check(std::size_t digest) {
     const std::uint64_t here = std::visit([](const auto& l) { return l.digest(); }, loop);
     if (digest >= log->digests.size() || log->digests[digest] != here)
-      throw FileError("the collision log does not fit this build of the program (its arithmetic differs in the last digit, or the setup was "
-                      "changed); make the run again with --log");
+      throw FileError(
+          "the collision log does not fit this build of the program (its arithmetic differs in the last "
+          "digit, or the setup was "
+          "changed); make the run again with --log");
   }
 };
 
 Replay::Replay(const Setup& setup, const CollisionLog& log)
-    : inside_(new Inside{loop_for(setup, log.initial), &log, EventReader(log), digest_interval(log.initial.size()), {}}) {
+    : inside_(new Inside{
+          loop_for(setup, log.initial), &log, EventReader(log), digest_interval(log.initial.size()), {}}) {
   inside_->read();
 }
 Replay::~Replay() = default;
@@ -60,7 +64,8 @@ std::optional<LoggedEvent> Replay::step() {
   const std::int64_t executed = inside_->reader.entry();
   std::visit([&](auto& loop) { loop.execute(*event); }, inside_->loop);
   inside_->read();
-  if (executed % inside_->interval == 0) inside_->check(static_cast<std::size_t>(executed / inside_->interval - 1));
+  if (executed % inside_->interval == 0)
+    inside_->check(static_cast<std::size_t>(executed / inside_->interval - 1));
   if (!inside_->next) inside_->check_end();
   return event;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A run made again from its collision log, without searching for events: the engine's own code executes each impact where the log says
-// that it happened. Every effect that the hard engine models is replayed, and every state is the engine's own, bit for bit.
+// A run made again from its collision log, without searching for events: the engine's own code executes each
+// impact where the log says that it happened. Every effect that the hard engine models is replayed, and every
+// state is the engine's own, bit for bit.
 #pragma once
 #include <memory>
 #include <optional>
@@ -17,8 +18,9 @@ class Replay {
   ~Replay();
   Replay(Replay&&) noexcept;
 
-  /// Executes every event until time t (s) and no later than the log's end; t may not lie before time(). Throws FileError when the replay does
-  /// not meet the digests in the log: it was written by a build whose arithmetic differs, or for another setup.
+  /// Executes every event until time t (s) and no later than the log's end; t may not lie before time().
+  /// Throws FileError when the replay does not meet the digests in the log: it was written by a build whose
+  /// arithmetic differs, or for another setup.
   void advance_to(double t);
   /// Executes the next event and returns it; empty at the end of the log.
   std::optional<LoggedEvent> step();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the systems of many grains have in common, however they find partners: one line a grain, and a calendar with the next event of each.
+// What the systems of many grains have in common, however they find partners: one line a grain, and a
+// calendar with the next event of each.
 #pragma once
 #include "calendar_queue.hpp"
 #include "grain_lines.hpp"
@@ -31,8 +32,8 @@ class ScheduledGrains {
   ScheduledGrains(const State& state, const std::array<double, 3>& extent)
       : lines_(state, extent), queue_(state.size()), prefetches_(state.size() > fits_in_cache) {}
 
-  /// The earliest event; `prefetch(i, days)` is told of grains whose turn comes in so many days of the calendar, where their lines do not
-  /// stay near by themselves.
+  /// The earliest event; `prefetch(i, days)` is told of grains whose turn comes in so many days of the
+  /// calendar, where their lines do not stay near by themselves.
   template <std::size_t Looks, class Prefetch>
   Next next_event(const std::array<int, Looks>& days_ahead, const Prefetch& prefetch) {
     return prefetches_ ? queue_.next(days_ahead, prefetch) : queue_.next();

@@ -29,7 +29,9 @@ class ScriptedGrains {
   void move_to(int i, const Flight3& flight) { set_flight(i, flight); }
   double radius(int i) const { return radius_[static_cast<std::size_t>(i)]; }
   double mass(int i) const { return mass_[static_cast<std::size_t>(i)]; }
-  std::array<double, 3> separation(const Flight3& a, const Flight3& b) const { return {b.x[0] - a.x[0], b.x[1] - a.x[1], b.x[2] - a.x[2]}; }
+  std::array<double, 3> separation(const Flight3& a, const Flight3& b) const {
+    return {b.x[0] - a.x[0], b.x[1] - a.x[1], b.x[2] - a.x[2]};
+  }
   GrainSums sums(double) const { return {}; }
 
   void set_bond(int, int, bool) {}

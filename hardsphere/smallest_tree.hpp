@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The smallest of many numbers that change one at a time: a tree whose nodes hold the smallest of one vector of children. Its top is
-// scanned, so that up to a few hundred numbers are a plain array.
+// The smallest of many numbers that change one at a time: a tree whose nodes hold the smallest of one vector
+// of children. Its top is scanned, so that up to a few hundred numbers are a plain array.
 #pragma once
 #include "lanes.hpp"
 
@@ -9,7 +9,8 @@ namespace shakedown {
 class SmallestTree {
  public:
   explicit SmallestTree(std::size_t capacity) : numbers_(std::max(padded(capacity), lane_count), infinite) {
-    for (std::size_t size = numbers_.size() / lane_count; size * lane_count > top_size; size = node_.back().size() / lane_count)
+    for (std::size_t size = numbers_.size() / lane_count; size * lane_count > top_size;
+         size = node_.back().size() / lane_count)
       node_.emplace_back(std::max(padded(size), lane_count), infinite);
   }
 
@@ -51,7 +52,9 @@ class SmallestTree {
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   static constexpr std::size_t top_size = 256;
   const AlignedVector<double>& children(std::size_t l) const { return l == 0 ? numbers_ : node_[l - 1]; }
-  double of_children(std::size_t l, std::size_t k) const { return simd::hmin(load(children(l), k * lane_count)); }
+  double of_children(std::size_t l, std::size_t k) const {
+    return simd::hmin(load(children(l), k * lane_count));
+  }
 
   AlignedVector<double> numbers_;
   std::vector<AlignedVector<double>> node_;  // level by level

@@ -6,9 +6,8 @@
 
 namespace shakedown {
 
-
-/// Walls across axis 0 (end walls), 1 or 2 (side walls) of a driven box. With a blade of length l the box's z position follows the arc
-/// arc_curvature x^2, arc_curvature = (3/5) / l, counted from its value at release.
+/// Walls across axis 0 (end walls), 1 or 2 (side walls) of a driven box. With a blade of length l the box's z
+/// position follows the arc arc_curvature x^2, arc_curvature = (3/5) / l, counted from its value at release.
 struct DrivenWalls {
   const DrivenBox* box;
   const FallingFrame* frame;
@@ -29,12 +28,15 @@ struct DrivenWalls {
     const double falling = frame->top(axis);
     if (axis == 0) return box->top_acceleration() + falling;
     if (axis == 1 || arc_curvature == 0) return falling;
-    // |2 c (v^2 + x a)|: speeds and amplitudes of the present swing, doubled for what drives it between kicks.
+    // |2 c (v^2 + x a)|: speeds and amplitudes of the present swing, doubled for what drives it between
+    // kicks.
     const double speed = 2 * box->top_speed(), reach = speed / box->angular_frequency();
     return 2 * arc_curvature * (speed * speed + reach * box->top_acceleration()) + falling;
   }
   double top_speed() const { return box->top_speed(); }
-  double valid_until() const { return axis == 0 || (axis == 2 && arc_curvature != 0) ? box->valid_until() : BoxMotion::valid_until(); }
+  double valid_until() const {
+    return axis == 0 || (axis == 2 && arc_curvature != 0) ? box->valid_until() : BoxMotion::valid_until();
+  }
 };
 
 }  // namespace shakedown

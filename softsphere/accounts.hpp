@@ -27,9 +27,9 @@ class CompensatedSum {
 struct Accounts {
   std::array<CompensatedSum, contact_classes> contact_work;  ///< J, done by contacts on grains and box
   std::vector<CompensatedSum> effect_work;                   ///< J, done by each line of Setup::effects
-  CompensatedSum outer_impulse;                              ///< N s along x, from spring, clamp and fields on box and grains
-  std::array<std::int64_t, contact_classes> collisions{};    ///< first touches
-  double deepest_overlap = 0;                                ///< m
+  CompensatedSum outer_impulse;  ///< N s along x, from spring, clamp and fields on box and grains
+  std::array<std::int64_t, contact_classes> collisions{};  ///< first touches
+  double deepest_overlap = 0;                              ///< m
 
   void add_work(int effect, double work) {
     if (effect >= 0) effect_work[static_cast<std::size_t>(effect)] += work;

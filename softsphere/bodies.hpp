@@ -10,13 +10,13 @@ struct Bodies {
   using Column = Eigen::ArrayXd;
 
   Eigen::Index grains = 0;
-  Rows position;  ///< m; x in the lab, y and z from the box's axis
-  Rows velocity;  ///< m/s
-  Rows spin;      ///< rad/s
-  Column radius, mass;          ///< of the grains
-  Column inverse_mass;          ///< along x, box included; 0 for a box that is held
-  Column inverse_mass_across;   ///< along y and z: the box is guided, 0
-  Column inverse_inertia;       ///< solid spheres, 5/(2 m R^2); 0 for the box
+  Rows position;               ///< m; x in the lab, y and z from the box's axis
+  Rows velocity;               ///< m/s
+  Rows spin;                   ///< rad/s
+  Column radius, mass;         ///< of the grains
+  Column inverse_mass;         ///< along x, box included; 0 for a box that is held
+  Column inverse_mass_across;  ///< along y and z: the box is guided, 0
+  Column inverse_inertia;      ///< solid spheres, 5/(2 m R^2); 0 for the box
 
   Eigen::Index box() const { return grains; }
   double& x_box() { return position(grains, 0); }

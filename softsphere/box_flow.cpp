@@ -7,7 +7,10 @@
 namespace shakedown {
 
 BoxFlow::BoxFlow(const Physics& physics)
-    : mass_(physics.box_mass), stiffness_(physics.stiffness), cubic_(physics.spring_cubic), forces_(physics.box) {
+    : mass_(physics.box_mass),
+      stiffness_(physics.stiffness),
+      cubic_(physics.spring_cubic),
+      forces_(physics.box) {
   plain_ = cubic_ == 0 && forces_.viscous == 0 && forces_.dry_friction == 0 && forces_.constant == 0 &&
            forces_.harmonics.empty() && forces_.free.empty();
 }
@@ -28,8 +31,8 @@ void BoxFlow::rotate(double step, double& x, double& v) {
     prepared_step_ = step;
     const double rate = std::sqrt(stiffness_ / mass_);
     const double half_sine = std::sin(rate * step / 2);
-    // cos - 1 is kept, not cos: rounding 1 - 5e-9 would change the energy by 1e-16 at every one of millions of steps, always the
-    // same way.
+    // cos - 1 is kept, not cos: rounding 1 - 5e-9 would change the energy by 1e-16 at every one of millions
+    // of steps, always the same way.
     cosine_less_one_ = -2 * half_sine * half_sine;
     sine_over_rate_ = rate > 0 ? std::sin(rate * step) / rate : step;
     rate_times_sine_ = rate * std::sin(rate * step);
@@ -43,7 +46,8 @@ void BoxFlow::rotate(double step, double& x, double& v) {
 struct BoxFlow::Phase {
   double x = 0, v = 0;
   double viscous_work = 0, dry_work = 0, constant_work = 0;
-  std::vector<double> other_work;  // harmonics, then formulas; empty, and so not allocated, for the usual forces
+  // harmonics, then formulas; empty, and so not allocated, for the usual forces
+  std::vector<double> other_work;
 };
 
 double BoxFlow::force(double t, double x, double v) const {
@@ -97,14 +101,16 @@ void BoxFlow::advance_with_effects(double time, double step, double& x, double& 
     accounts.add_work(forces_.dry_friction_effect, phase.dry_work);
     accounts.add_work(forces_.constant_effect, phase.constant_work);
     std::size_t line = 0;
-    for (const Harmonic& harmonic : forces_.harmonics) accounts.add_work(harmonic.effect, phase.other_work[line++]);
+    for (const Harmonic& harmonic : forces_.harmonics)
+      accounts.add_work(harmonic.effect, phase.other_work[line++]);
     for (const FreeForce& free : forces_.free) accounts.add_work(free.effect, phase.other_work[line++]);
     x = phase.x;
     v = phase.v;
   };
   if (forces_.dry_friction == 0) return enter(integrate(time, step, x, v, 0));
   double done = 0;
-  // Start, stop and start again within one step is already rare; more than a few pieces cannot happen with smooth forces.
+  // Start, stop and start again within one step is already rare; more than a few pieces cannot happen with
+  // smooth forces.
   for (int piece = 0; piece < 8 && done < step; ++piece) {
     double sliding = v > 0 ? 1 : -1;
     if (v == 0) {

@@ -6,10 +6,10 @@
 
 namespace shakedown {
 
-/// Linear spring alone: an exact rotation. Anything more: the classical Runge-Kutta method with the work of each force as further
-/// components. A soft step is a 50 000th of the box's period, so its error, (Omega step)^5 / 120 of the state, is below rounding.
-/// Dry friction is piecewise smooth: the moment at which the box stops is found, and it stays stopped when the other forces
-/// cannot overcome the clamp.
+/// Linear spring alone: an exact rotation. Anything more: the classical Runge-Kutta method with the work of
+/// each force as further components. A soft step is a 50 000th of the box's period, so its error, (Omega
+/// step)^5 / 120 of the state, is below rounding. Dry friction is piecewise smooth: the moment at which the
+/// box stops is found, and it stays stopped when the other forces cannot overcome the clamp.
 class BoxFlow {
  public:
   explicit BoxFlow(const Physics& physics);

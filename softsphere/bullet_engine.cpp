@@ -23,8 +23,8 @@ std::string text_of(const char* format, auto... values) {
 }
 
 bool has_fields(const GrainForces& forces) {
-  return !forces.constant.isZero(0) || !forces.harmonics.empty() || forces.linear_drag != 0 || forces.quadratic_drag != 0 ||
-         !forces.free.empty() || forces.arc_length > 0;
+  return !forces.constant.isZero(0) || !forces.harmonics.empty() || forces.linear_drag != 0 ||
+         forces.quadratic_drag != 0 || !forces.free.empty() || forces.arc_length > 0;
 }
 
 bool has_forces_beside_spring(const Physics& physics) {
@@ -40,28 +40,41 @@ void check(const Setup& setup, const Physics& physics) {
   };
   std::vector<Violation> found;
   if (setup.domain == Domain::periodic)
-    found.push_back({place("domain"), "domain", "periodic is not modelled by engine 'bullet' (Bullet has no periodic space)",
+    found.push_back({place("domain"), "domain",
+                     "periodic is not modelled by engine 'bullet' (Bullet has no periodic space)",
                      "use engine 'hard' for periodic cells, or domain = \"closed\""});
   if (!(setup.bullet.time_step > 0))
-    found.push_back({place("bullet.time_step"), "bullet.time_step", "must be above zero", "0.1 ms suits the paper's damper"});
+    found.push_back({place("bullet.time_step"), "bullet.time_step", "must be above zero",
+                     "0.1 ms suits the paper's damper"});
   if (physics.contact.has_attraction() || physics.contact.push)
-    found.push_back({{}, "effect", "attraction and forces by overlap are not modelled by engine 'bullet' (its contacts are impulses)",
-                     "use engine 'soft'"});
+    found.push_back(
+        {{},
+         "effect",
+         "attraction and forces by overlap are not modelled by engine 'bullet' (its contacts are impulses)",
+         "use engine 'soft'"});
   const ContactLaw& law = physics.contact;
-  const bool special_contacts = law.restitution_at || law.has_friction() || law.restitution[1] != law.restitution[2];
-  if (setup.bullet.defaults && (special_contacts || has_fields(physics.grains) || has_forces_beside_spring(physics)))
-    found.push_back({place("bullet.defaults"), "bullet.defaults", "does not go with effects (it shows Bullet untouched)",
-                     "set it to false"});
+  const bool special_contacts =
+      law.restitution_at || law.has_friction() || law.restitution[1] != law.restitution[2];
+  if (setup.bullet.defaults &&
+      (special_contacts || has_fields(physics.grains) || has_forces_beside_spring(physics)))
+    found.push_back({place("bullet.defaults"), "bullet.defaults",
+                     "does not go with effects (it shows Bullet untouched)", "set it to false"});
   if (!found.empty()) throw InputError(std::move(found));
 }
 
 class BulletRun {
  public:
   BulletRun(const Setup& setup, const RunOptions& options, const Physics& physics)
-      : setup_(setup), options_(options), physics_(physics), held_(setup.domain != Domain::damper),
-        untouched_(setup.bullet.defaults), fields_(has_fields(physics.grains)),
-        model_{physics.contact, setup.soft.contact_time, held_ ? 0.0 : physics.box_mass, setup.box.length, setup.box.width},
-        bodies_(bodies_of(initial_state(setup, options.run), model_.box_mass)), box_(physics),
+      : setup_(setup),
+        options_(options),
+        physics_(physics),
+        held_(setup.domain != Domain::damper),
+        untouched_(setup.bullet.defaults),
+        fields_(has_fields(physics.grains)),
+        model_{physics.contact, setup.soft.contact_time, held_ ? 0.0 : physics.box_mass, setup.box.length,
+               setup.box.width},
+        bodies_(bodies_of(initial_state(setup, options.run), model_.box_mass)),
+        box_(physics),
         world_(setup, physics, model_.box_mass, bodies_),
         record_(setup, "bullet", model_.box_mass, [this](double x) { return box_.spring_energy(x); }) {
     accounts_.effect_work.resize(setup.effects.size());
@@ -80,7 +93,8 @@ class BulletRun {
         });
     add_notes();
     Trajectory trajectory = record_.finish(bodies_, accounts_, {}, time_);
-    trajectory.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    trajectory.wall_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     return trajectory;
   }
 
@@ -108,7 +122,8 @@ class BulletRun {
     if (asleep_since_ < 0 && !held_ && world_.box_sleeps()) asleep_since_ = time_ + step;
   }
 
-  /// Bullet resolves the contacts at the places of the beginning of the step; the flight to its end is ours, and exact for the box.
+  /// Bullet resolves the contacts at the places of the beginning of the step; the flight to its end is ours,
+  /// and exact for the box.
   void advance(double step) {
     const double x = bodies_.x_box(), momentum_of_place = x * bodies_.v_box();
     world_.step(step, 0, accounts_);
@@ -120,7 +135,8 @@ class BulletRun {
   }
 
   void fly_box(double from, double step) {
-    // What Bullet's overlap correction has moved the box by: it did no work on velocities, but the spring feels it.
+    // What Bullet's overlap correction has moved the box by: it did no work on velocities, but the spring
+    // feels it.
     const double pushed = bodies_.x_box() - (from + step * bodies_.v_box());
     double x = from;
     box_.advance(time_, step, x, bodies_.v_box(), accounts_);
@@ -132,29 +148,40 @@ class BulletRun {
 
   void accelerate(double step, double momentum_of_place) {
     accelerate_grains(physics_.grains, time_, step, bodies_, accounts_);
-    half_kick(model_, physics_.grains, time_, step, implicit_passes, bodies_, no_contacts_, space_, accounts_);
+    half_kick(model_, physics_.grains, time_, step, implicit_passes, bodies_, no_contacts_, space_,
+              accounts_);
     if (physics_.grains.arc_length > 0) follow_arc(physics_.grains, momentum_of_place, bodies_, accounts_);
   }
 
   [[noreturn]] void fail() const {
-    throw PhysicsError(text_of("engine 'bullet': velocities are not finite at t = %.6g s (box x %.9g m, v %.9g m/s). Use a shorter "
-                               "bullet.time_step than %.3g ms.",
-                               time_, bodies_.x_box(), bodies_.v_box(), setup_.bullet.time_step * 1e3));
+    throw PhysicsError(text_of(
+        "engine 'bullet': velocities are not finite at t = %.6g s (box x %.9g m, v %.9g m/s). Use a shorter "
+        "bullet.time_step than %.3g ms.",
+        time_, bodies_.x_box(), bodies_.v_box(), setup_.bullet.time_step * 1e3));
   }
 
   void add_notes() {
     std::vector<std::string>& notes = record_.trajectory.health.notes;
     if (!untouched_) {
-      notes.push_back("simultaneous contacts are resolved one after another (restitution is right in binary impacts only)");
+      notes.push_back(
+          "simultaneous contacts are resolved one after another (restitution is right in binary impacts "
+          "only)");
       if (correction_work_.value() > 1e-9 * record_.trajectory.initial_energy)
-        notes.push_back(text_of("overlap corrections moved the box against its spring by %.2g of E0 in sum, entered as end-wall work",
-                                correction_work_.value() / record_.trajectory.initial_energy));
+        notes.push_back(
+            text_of("overlap corrections moved the box against its spring by %.2g of E0 in sum, entered as "
+                    "end-wall work",
+                    correction_work_.value() / record_.trajectory.initial_energy));
       return;
     }
-    notes.push_back("Bullet as shipped: impacts below 0.2 m/s do not bounce, faster ones by up to 0.2 too much (overlap correction), bodies fall asleep");
-    notes.push_back("ledger and momentum are not exact: spring by semi-implicit Euler, energy from overlap correction, sleep");
+    notes.push_back(
+        "Bullet as shipped: impacts below 0.2 m/s do not bounce, faster ones by up to 0.2 too much (overlap "
+        "correction), bodies fall asleep");
+    notes.push_back(
+        "ledger and momentum are not exact: spring by semi-implicit Euler, energy from overlap correction, "
+        "sleep");
     if (asleep_since_ >= 0)
-      notes.push_back(text_of("the box fell asleep at t = %.4g s and stays at %.4g mm", asleep_since_, bodies_.x_box() * 1e3));
+      notes.push_back(text_of("the box fell asleep at t = %.4g s and stays at %.4g mm", asleep_since_,
+                              bodies_.x_box() * 1e3));
   }
 
   const Setup& setup_;

@@ -7,7 +7,8 @@
 
 namespace shakedown {
 
-static_assert(sizeof(btScalar) == 8, "Bullet's headers are in single precision: take the flags of pkg-config bullet-float64");
+static_assert(sizeof(btScalar) == 8,
+              "Bullet's headers are in single precision: take the flags of pkg-config bullet-float64");
 
 namespace {
 
@@ -19,11 +20,13 @@ btTransform at(const Vec3& place) {
   return transform;
 }
 
-/// Bullet enlarges every bounding box by gContactBreakingThreshold (20 mm) and every leaf of its tree by gDbvtMargin (50 mm), so
-/// that among grains of 10 mm all pairs would be neighbours. Both are process-wide; this undoes them for one world.
+/// Bullet enlarges every bounding box by gContactBreakingThreshold (20 mm) and every leaf of its tree by
+/// gDbvtMargin (50 mm), so that among grains of 10 mm all pairs would be neighbours. Both are process-wide;
+/// this undoes them for one world.
 class TightBroadphase : public btDbvtBroadphase {
  public:
-  void setAabb(btBroadphaseProxy* proxy, const btVector3& low, const btVector3& high, btDispatcher* dispatcher) override {
+  void setAabb(btBroadphaseProxy* proxy, const btVector3& low, const btVector3& high,
+               btDispatcher* dispatcher) override {
     const btScalar excess = gContactBreakingThreshold - margin;
     const btVector3 shrink(excess, excess, excess);
     setAabbForceUpdate(proxy, low + shrink, high - shrink, dispatcher);
@@ -33,27 +36,31 @@ class TightBroadphase : public btDbvtBroadphase {
   static constexpr btScalar margin = 1e-5;  // metre
 };
 
-/// Bullet's sequential impulses, with restitution by class of contact (Bullet itself multiplies one number of each body) and the
-/// work of every impulse entered: the velocity of A changes by J n / m, so its kinetic energy by J n . (v + v') / 2, exactly.
+/// Bullet's sequential impulses, with restitution by class of contact (Bullet itself multiplies one number of
+/// each body) and the work of every impulse entered: the velocity of A changes by J n / m, so its kinetic
+/// energy by J n . (v + v') / 2, exactly.
 class AccountingSolver : public btSequentialImpulseConstraintSolver {
  public:
   AccountingSolver(const ContactLaw& law, int box, bool own_law) : law_(law), box_(box), own_law_(own_law) {}
   void enter_into(Accounts& accounts) { accounts_ = &accounts; }
 
-  btScalar solveGroup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds, int manifold_count,
-                      btTypedConstraint** constraints, int constraint_count, const btContactSolverInfo& info,
-                      btIDebugDraw* drawer, btDispatcher* dispatcher) override {
+  btScalar solveGroup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
+                      int manifold_count, btTypedConstraint** constraints, int constraint_count,
+                      const btContactSolverInfo& info, btIDebugDraw* drawer,
+                      btDispatcher* dispatcher) override {
     impacts_.clear();
     for (int k = 0; k < manifold_count; ++k) look_at(*manifolds[k]);
     const btScalar residual = btSequentialImpulseConstraintSolver::solveGroup(
-        bodies, body_count, manifolds, manifold_count, constraints, constraint_count, info, drawer, dispatcher);
+        bodies, body_count, manifolds, manifold_count, constraints, constraint_count, info, drawer,
+        dispatcher);
     for (const Impact& impact : impacts_) enter(impact);
     return residual;
   }
 
  protected:
   /// Bullet writes the impulses into the contacts only when they are to start the next step.
-  btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count, const btContactSolverInfo& info) override {
+  btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
+                                         const btContactSolverInfo& info) override {
     writeBackContacts(0, m_tmpSolverContactConstraintPool.size(), info);
     return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyFinish(bodies, body_count, info);
   }
@@ -71,7 +78,8 @@ class AccountingSolver : public btSequentialImpulseConstraintSolver {
     return std::abs(point.m_normalWorldOnB.x()) > 0.7 ? ContactClass::end_wall : ContactClass::side_wall;
   }
 
-  static btVector3 relative_velocity(const btRigidBody& a, const btRigidBody& b, const btManifoldPoint& point) {
+  static btVector3 relative_velocity(const btRigidBody& a, const btRigidBody& b,
+                                     const btManifoldPoint& point) {
     return a.getVelocityInLocalPoint(point.getPositionWorldOnA() - a.getCenterOfMassPosition()) -
            b.getVelocityInLocalPoint(point.getPositionWorldOnB() - b.getCenterOfMassPosition());
   }
@@ -92,8 +100,9 @@ class AccountingSolver : public btSequentialImpulseConstraintSolver {
   void set_law(const Impact& impact, btManifoldPoint& point) const {
     const auto kind = static_cast<std::size_t>(impact.kind);
     const double closing = -impact.relative_velocity.dot(point.m_normalWorldOnB);
-    point.m_combinedRestitution =
-        law_.restitution_at && closing > 0 ? law_.restitution_at(impact.kind, closing) : law_.restitution[kind];
+    point.m_combinedRestitution = law_.restitution_at && closing > 0
+                                      ? law_.restitution_at(impact.kind, closing)
+                                      : law_.restitution[kind];
     point.m_combinedFriction = law_.friction[kind];
   }
 
@@ -105,8 +114,10 @@ class AccountingSolver : public btSequentialImpulseConstraintSolver {
     impulse += point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1;
     impulse += point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
     accounts_->contact_work[kind] += impulse.dot(mean);
-    if (point.m_appliedImpulse > 0 && impact.relative_velocity.dot(point.m_normalWorldOnB) < 0) ++accounts_->collisions[kind];
-    accounts_->deepest_overlap = std::max(accounts_->deepest_overlap, -static_cast<double>(point.getDistance()));
+    if (point.m_appliedImpulse > 0 && impact.relative_velocity.dot(point.m_normalWorldOnB) < 0)
+      ++accounts_->collisions[kind];
+    accounts_->deepest_overlap =
+        std::max(accounts_->deepest_overlap, -static_cast<double>(point.getDistance()));
     if (impact.a->getInvMass() == 0) accounts_->outer_impulse += -impulse.x();
     if (impact.b->getInvMass() == 0) accounts_->outer_impulse += impulse.x();
   }
@@ -143,11 +154,11 @@ struct BulletWorld::Inside {
   }
 
   static void set_solver(btContactSolverInfo& info) {
-    info.m_restitutionVelocityThreshold = 0;          // default .2 m/s: no bounce below
-    info.m_splitImpulse = true;                       // overlap correction moves bodies and gives them no speed,
-    info.m_splitImpulsePenetrationThreshold = 1e30;   // however small the overlap
+    info.m_restitutionVelocityThreshold = 0;  // default .2 m/s: no bounce below
+    info.m_splitImpulse = true;               // overlap correction moves bodies and gives them no speed,
+    info.m_splitImpulsePenetrationThreshold = 1e30;  // however small the overlap
     info.m_erp2 = 0.02;
-    info.m_solverMode = 0;                            // no warm start: last step's impulse is no guess for a bounce
+    info.m_solverMode = 0;  // no warm start: last step's impulse is no guess for a bounce
     info.m_numIterations = 10;
   }
 
@@ -162,7 +173,8 @@ struct BulletWorld::Inside {
     body.setUserIndex(static_cast<int>(bodies.size()) - 1);
     body.setFriction(0);  // the setup's, as mass and restitution are; Bullet's own default is .5
     if (!untouched) {
-      body.setContactProcessingThreshold(0);  // else a contact seen ahead stops a grain before the step in which it bounces
+      // else a contact seen ahead stops a grain before the step in which it bounces
+      body.setContactProcessingThreshold(0);
       body.setActivationState(DISABLE_DEACTIVATION);
       if (!law.has_friction()) body.setAngularFactor(0);
     }
@@ -171,7 +183,8 @@ struct BulletWorld::Inside {
 
   /// Six slabs. Those at the ends are wider than the opening, so that no inner edge is exposed.
   std::unique_ptr<btCollisionShape> box_shape(const Setup& setup, double thickness) {
-    const double x = setup.box.length / 2, y = setup.box.width[0] / 2, z = setup.box.width[1] / 2, t = thickness;
+    const double x = setup.box.length / 2, y = setup.box.width[0] / 2, z = setup.box.width[1] / 2,
+                 t = thickness;
     auto compound = std::make_unique<btCompoundShape>();
     for (const double side : {-1.0, 1.0}) {
       add_slab(*compound, {t, y + 2 * t, z + 2 * t}, {side * (x + t), 0, 0});
@@ -195,10 +208,12 @@ BulletWorld::BulletWorld(const Setup& setup, const Physics& physics, double box_
   const double of_grain = std::sqrt(physics.contact.restitution[0]);
   const double of_box = of_grain > 0 ? physics.contact.restitution[1] / of_grain : 0;
   for (Eigen::Index i = 0; i < state.grains; ++i) {
-    btRigidBody& grain = inside_->add(state.mass(i), std::make_unique<btSphereShape>(state.radius(i)), state.position_of(i));
+    btRigidBody& grain =
+        inside_->add(state.mass(i), std::make_unique<btSphereShape>(state.radius(i)), state.position_of(i));
     grain.setRestitution(of_grain);
   }
-  btRigidBody& box = inside_->add(box_mass, inside_->box_shape(setup, setup.grains.diameter), {state.x_box(), 0, 0});
+  btRigidBody& box =
+      inside_->add(box_mass, inside_->box_shape(setup, setup.grains.diameter), {state.x_box(), 0, 0});
   box.setRestitution(of_box);
   box.setLinearFactor({1, 0, 0});
   box.setAngularFactor(0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Grains and box as rigid bodies in a Bullet world of their own. Nothing process-wide in Bullet is touched, so worlds in several
-// threads do not see each other.
+// Grains and box as rigid bodies in a Bullet world of their own. Nothing process-wide in Bullet is touched,
+// so worlds in several threads do not see each other.
 #pragma once
 #include <memory>
 
@@ -15,11 +15,12 @@ class BulletWorld {
   BulletWorld(const Setup& setup, const Physics& physics, double box_mass, const Bodies& bodies);
   ~BulletWorld();
 
-  /// One step of Bullet: finds contacts, resolves them, moves everything in straight lines. Work and first touches by class go
-  /// into the accounts. `force_on_box`, N, acts on the box during the step (Bullet's own semi-implicit Euler).
+  /// One step of Bullet: finds contacts, resolves them, moves everything in straight lines. Work and first
+  /// touches by class go into the accounts. `force_on_box`, N, acts on the box during the step (Bullet's own
+  /// semi-implicit Euler).
   void step(double seconds, double force_on_box, Accounts& accounts);
 
-  void read(Bodies& bodies) const;   ///< places, velocities and spins out of Bullet
+  void read(Bodies& bodies) const;  ///< places, velocities and spins out of Bullet
   void write_box(const Bodies& bodies);
   void write_grains(const Bodies& bodies);
   bool box_sleeps() const;

@@ -12,7 +12,9 @@ namespace {
 
 constexpr std::uint64_t wall_bit = std::uint64_t{1} << 63;
 
-std::uint64_t pair_key(int i, int j) { return (static_cast<std::uint64_t>(i) << 32) | static_cast<std::uint64_t>(j); }
+std::uint64_t pair_key(int i, int j) {
+  return (static_cast<std::uint64_t>(i) << 32) | static_cast<std::uint64_t>(j);
+}
 std::uint64_t wall_key(int i, int wall) { return wall_bit | pair_key(i, wall); }
 
 struct Geometry {
@@ -70,15 +72,17 @@ double reduced_mass_of(const ContactModel& model, const Bodies& bodies, const Co
 void begin_touch(const ContactModel& model, double rate, double step, Contact& contact, Accounts& accounts) {
   contact.touching = true;
   contact.closing_speed = std::max(rate, 0.0);
-  contact.spring = spring_dashpot(restitution_of(model.law, contact.kind, contact.closing_speed), contact.reduced_mass,
-                                  model.contact_time);
+  contact.spring = spring_dashpot(restitution_of(model.law, contact.kind, contact.closing_speed),
+                                  contact.reduced_mass, model.contact_time);
   contact.dashpot = 2 * part_of_step_inside(contact.overlap, rate, step);
   contact.stretch.setZero();
   ++accounts.collisions[static_cast<std::size_t>(contact.kind)];
 }
 
-void set_attraction(const ContactLaw& law, bool fresh, double overlap_before, double rate, double step, Contact& contact) {
-  const double depth = contact.overlap + law.attraction_range, depth_before = overlap_before + law.attraction_range;
+void set_attraction(const ContactLaw& law, bool fresh, double overlap_before, double rate, double step,
+                    Contact& contact) {
+  const double depth = contact.overlap + law.attraction_range,
+               depth_before = overlap_before + law.attraction_range;
   if (depth <= 0)
     contact.attraction = 2 * part_of_step_before_leaving(depth_before, depth) - 1;
   else
@@ -86,8 +90,8 @@ void set_attraction(const ContactLaw& law, bool fresh, double overlap_before, do
 }
 
 /// Brings a contact to the positions after the drift. `fresh`: it did not exist before.
-void update_contact(const ContactModel& model, const Bodies& bodies, const Geometry& geometry, bool fresh, double step,
-                    Contact& contact, Accounts& accounts) {
+void update_contact(const ContactModel& model, const Bodies& bodies, const Geometry& geometry, bool fresh,
+                    double step, Contact& contact, Accounts& accounts) {
   const double overlap_before = contact.overlap;
   contact.normal = geometry.normal;
   contact.overlap = geometry.overlap;
@@ -116,7 +120,13 @@ class Merge {
  public:
   Merge(const ContactModel& model, const Bodies& bodies, double step, const std::vector<Contact>& before,
         std::vector<Contact>& now, Accounts& accounts)
-      : model_(model), bodies_(bodies), step_(step), old_(before.begin()), end_(before.end()), now_(now), accounts_(accounts) {}
+      : model_(model),
+        bodies_(bodies),
+        step_(step),
+        old_(before.begin()),
+        end_(before.end()),
+        now_(now),
+        accounts_(accounts) {}
 
   void candidate(std::uint64_t key, int i, int j, ContactClass kind, const Geometry& geometry) {
     pass_by_until(key);
@@ -144,8 +154,8 @@ class Merge {
       Contact& contact = now_.back();
       const bool wall = (contact.key & wall_bit) != 0;
       const auto number = static_cast<int>(contact.key & 0xffffffffu);
-      const Geometry geometry =
-          wall ? wall_geometry(model_, bodies_, contact.i, number) : pair_geometry(bodies_, contact.i, contact.j);
+      const Geometry geometry = wall ? wall_geometry(model_, bodies_, contact.i, number)
+                                     : pair_geometry(bodies_, contact.i, contact.j);
       update_contact(model_, bodies_, geometry, false, step_, contact, accounts_);
     }
   }
@@ -160,7 +170,8 @@ class Merge {
 
 /// Whether any grain is within `range` of a wall across `axis`: one vector pass, as it is mostly false.
 bool any_at_wall(const Bodies& bodies, int axis, double centre, double half, double range) {
-  return ((bodies.position.col(axis).head(bodies.grains) - centre).abs() + bodies.radius).maxCoeff() > half - range;
+  return ((bodies.position.col(axis).head(bodies.grains) - centre).abs() + bodies.radius).maxCoeff() >
+         half - range;
 }
 
 void wall_candidates(const ContactModel& model, const Bodies& bodies, Merge& merge) {
@@ -189,8 +200,9 @@ void wall_candidates(const ContactModel& model, const Bodies& bodies, Merge& mer
 
 }  // namespace
 
-void find_contacts(const ContactModel& model, const Bodies& bodies, const std::vector<Pair>& pairs, double step,
-                   const std::vector<Contact>& before, std::vector<Contact>& now, Accounts& accounts) {
+void find_contacts(const ContactModel& model, const Bodies& bodies, const std::vector<Pair>& pairs,
+                   double step, const std::vector<Contact>& before, std::vector<Contact>& now,
+                   Accounts& accounts) {
   now.clear();
   Merge merge(model, bodies, step, before, now, accounts);
   const double* x = bodies.position.data();
@@ -217,9 +229,9 @@ void settle_contacts(std::vector<Contact>& contacts) {
 double stored_energy(const ContactModel& model, const Contact& contact) {
   double energy = 0;
   if (contact.touching) {
-    energy += model.law.stored_energy
-                  ? model.law.stored_energy(contact.kind, contact.overlap, contact.closing_speed, contact.reduced_mass)
-                  : contact.spring.stiffness * contact.overlap * contact.overlap / 2;
+    energy += model.law.stored_energy ? model.law.stored_energy(contact.kind, contact.overlap,
+                                                                contact.closing_speed, contact.reduced_mass)
+                                      : contact.spring.stiffness * contact.overlap * contact.overlap / 2;
     if (model.law.has_friction()) energy += energy_of_stretch(model, contact);
   }
   if (model.law.has_attraction() && contact.overlap > -model.law.attraction_range)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contacts of a soft run: which exist, their geometry, and with what weight their forces enter the coming half kick.
+// Contacts of a soft run: which exist, their geometry, and with what weight their forces enter the coming
+// half kick.
 #pragma once
 #include <vector>
 
@@ -26,10 +27,10 @@ struct Contact {
   double attraction = 0;
   Vec3 stretch = Vec3::Zero();  ///< m, of the tangential spring
   // Of the last evaluation.
-  double normal_force = 0;              ///< N, on i along the normal
-  double elastic_force = 0;             ///< N, the share of overlap alone in it
-  Vec3 tangential_force = Vec3::Zero(); ///< N, on i
-  bool sliding = false;                 ///< the tangential force is at its limit
+  double normal_force = 0;               ///< N, on i along the normal
+  double elastic_force = 0;              ///< N, the share of overlap alone in it
+  Vec3 tangential_force = Vec3::Zero();  ///< N, on i
+  bool sliding = false;                  ///< the tangential force is at its limit
 };
 
 /// What contacts of one run share.
@@ -41,15 +42,17 @@ struct ContactModel {
   std::array<double, 2> width{};
 };
 
-/// The contacts after a drift of `step` seconds, in order of their keys. `before` are those of the step before; those that have
-/// separated come back marked `over`. Counts first touches and the deepest overlap.
+/// The contacts after a drift of `step` seconds, in order of their keys. `before` are those of the step
+/// before; those that have separated come back marked `over`. Counts first touches and the deepest overlap.
 ///
-/// Why weights: the dashpot force jumps at touch and at separation, and a Verlet step that samples it in full makes a random
-/// first-order error in the restitution. The trapezoid rule over the part of the step in contact is second order: with a
-/// fraction f of the step in contact the closing half kick counts the dashpot 2 f times when the contact begins and 2 f - 1 times
-/// when it ends (the opening half kick having counted it once).
-void find_contacts(const ContactModel& model, const Bodies& bodies, const std::vector<Pair>& pairs, double step,
-                   const std::vector<Contact>& before, std::vector<Contact>& now, Accounts& accounts);
+/// Why weights: the dashpot force jumps at touch and at separation, and a Verlet step that samples it in full
+/// makes a random first-order error in the restitution. The trapezoid rule over the part of the step in
+/// contact is second order: with a fraction f of the step in contact the closing half kick counts the dashpot
+/// 2 f times when the contact begins and 2 f - 1 times when it ends (the opening half kick having counted it
+/// once).
+void find_contacts(const ContactModel& model, const Bodies& bodies, const std::vector<Pair>& pairs,
+                   double step, const std::vector<Contact>& before, std::vector<Contact>& now,
+                   Accounts& accounts);
 
 /// Puts all weights to those of an opening half kick and drops the contacts that are over.
 void settle_contacts(std::vector<Contact>& contacts);

@@ -64,7 +64,8 @@ void set_friction(const ContactModel& model, const Bodies& bodies, Contact& cont
   contact.sliding = false;
   const double coefficient = model.law.friction[static_cast<std::size_t>(contact.kind)];
   if (!contact.touching || coefficient == 0) return;
-  const Vec3 force = -tangential_stiffness(model, contact) * contact.stretch + dashpot_force(model, bodies, contact);
+  const Vec3 force =
+      -tangential_stiffness(model, contact) * contact.stretch + dashpot_force(model, bodies, contact);
   const double limit = coefficient * std::max(contact.elastic_force, 0.0);
   const double size = force.norm();
   contact.sliding = size > limit;
@@ -75,8 +76,10 @@ void let_slide(const ContactModel& model, const Bodies& bodies, Contact& contact
   if (!contact.touching || !contact.sliding) return;
   const Vec3 of_spring = contact.tangential_force - dashpot_force(model, bodies, contact);
   // A dashpot that alone exceeds the limit must not stretch the spring the other way.
-  if (of_spring.dot(contact.tangential_force) <= 0) contact.stretch.setZero();
-  else contact.stretch = -of_spring / tangential_stiffness(model, contact);
+  if (of_spring.dot(contact.tangential_force) <= 0)
+    contact.stretch.setZero();
+  else
+    contact.stretch = -of_spring / tangential_stiffness(model, contact);
 }
 
 }  // namespace shakedown

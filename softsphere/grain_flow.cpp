@@ -27,7 +27,8 @@ Change by_harmonic(const GrainForces::HarmonicVector& harmonic, double time, dou
           harmonic.amplitude * ((cosine * step - (std::sin(later) - sine) / rate) / rate), harmonic.effect};
 }
 
-/// Adds a change common to all grains; exact work of each of several simultaneous changes: m change . (v + v') / 2.
+/// Adds a change common to all grains; exact work of each of several simultaneous changes: m change . (v +
+/// v') / 2.
 void add_velocity(const std::vector<Change>& changes, Bodies& bodies, Accounts& accounts) {
   const Eigen::Index n = bodies.grains;
   Vec3 total = Vec3::Zero();
@@ -51,12 +52,14 @@ void advance_grains(const GrainForces& forces, double time, double step, Bodies&
   accelerate_grains(forces, time, step, bodies, accounts);
 }
 
-void accelerate_grains(const GrainForces& forces, double time, double step, Bodies& bodies, Accounts& accounts) {
+void accelerate_grains(const GrainForces& forces, double time, double step, Bodies& bodies,
+                       Accounts& accounts) {
   const Eigen::Index n = bodies.grains;
   const bool constant = !forces.constant.isZero(0);
   if (!constant && forces.harmonics.empty()) return;
   std::vector<Change> changes;
-  if (constant) changes.push_back({forces.constant * step, forces.constant * (step * step / 2), forces.constant_effect});
+  if (constant)
+    changes.push_back({forces.constant * step, forces.constant * (step * step / 2), forces.constant_effect});
   for (const auto& harmonic : forces.harmonics) changes.push_back(by_harmonic(harmonic, time, step));
   for (const Change& change : changes)
     for (int axis = 0; axis < 3; ++axis) bodies.position.col(axis).head(n) += change.position(axis);

@@ -17,10 +17,17 @@ bool acts_on_every_grain(const GrainForces& forces) {
 /// One half kick; the plain path touches only the bodies in contact.
 class HalfKick {
  public:
-  HalfKick(const ContactModel& model, const GrainForces& grain_forces, double time, double half_step, Bodies& bodies,
-           std::vector<Contact>& contacts, KickSpace& space)
-      : model_(model), grain_forces_(grain_forces), time_(time), half_step_(half_step), bodies_(bodies), contacts_(contacts),
-        space_(space), friction_(model.law.has_friction()), everywhere_(acts_on_every_grain(grain_forces)),
+  HalfKick(const ContactModel& model, const GrainForces& grain_forces, double time, double half_step,
+           Bodies& bodies, std::vector<Contact>& contacts, KickSpace& space)
+      : model_(model),
+        grain_forces_(grain_forces),
+        time_(time),
+        half_step_(half_step),
+        bodies_(bodies),
+        contacts_(contacts),
+        space_(space),
+        friction_(model.law.has_friction()),
+        everywhere_(acts_on_every_grain(grain_forces)),
         box_is_held_(model.box_mass == 0) {}
 
   void run(int passes, Accounts& accounts) {
@@ -63,7 +70,8 @@ class HalfKick {
   }
 
   void accelerate(Eigen::Index body) {
-    const double along = half_step_ * bodies_.inverse_mass(body), across = half_step_ * bodies_.inverse_mass_across(body);
+    const double along = half_step_ * bodies_.inverse_mass(body),
+                 across = half_step_ * bodies_.inverse_mass_across(body);
     bodies_.velocity(body, 0) = space_.velocity_before(body, 0) + along * space_.force(body, 0);
     bodies_.velocity(body, 1) = space_.velocity_before(body, 1) + across * space_.force(body, 1);
     bodies_.velocity(body, 2) = space_.velocity_before(body, 2) + across * space_.force(body, 2);
@@ -127,7 +135,8 @@ class HalfKick {
     }
     accounts.contact_work[static_cast<std::size_t>(contact.kind)] += half_step_ * power;
     if (box_is_held_ && contact.j == bodies_.box())
-      accounts.outer_impulse += half_step_ * (contact.normal_force * contact.normal.x() + contact.tangential_force.x());
+      accounts.outer_impulse +=
+          half_step_ * (contact.normal_force * contact.normal.x() + contact.tangential_force.x());
   }
 
   /// Air that moves with the box, and formulas of the user.
@@ -140,7 +149,8 @@ class HalfKick {
       add(space_.force, i, drag);
       add(space_.force, box, -drag);
       for (std::size_t k = 0; k < grain_forces_.free.size(); ++k) {
-        const double newton = grain_forces_.free[k].newton(bodies_.position(i, 0), bodies_.velocity(i, 0), time_);
+        const double newton =
+            grain_forces_.free[k].newton(bodies_.position(i, 0), bodies_.velocity(i, 0), time_);
         space_.free[k](i) = newton;
         space_.force(i, 0) += newton;
       }
@@ -153,7 +163,8 @@ class HalfKick {
     const double box_speed = mean_velocity(bodies_.box()).x();
     for (Eigen::Index i = 0; i < bodies_.grains; ++i) {
       const Vec3 speed = mean_velocity(i);
-      drag_power += space_.drag(i, 0) * (speed.x() - box_speed) + space_.drag(i, 1) * speed.y() + space_.drag(i, 2) * speed.z();
+      drag_power += space_.drag(i, 0) * (speed.x() - box_speed) + space_.drag(i, 1) * speed.y() +
+                    space_.drag(i, 2) * speed.z();
     }
     accounts.add_work(grain_forces_.drag_effect, half_step_ * drag_power);
     for (std::size_t k = 0; k < grain_forces_.free.size(); ++k) {
@@ -179,15 +190,17 @@ class HalfKick {
 void make_room(const Bodies& bodies, const GrainForces& forces, KickSpace& space) {
   const Eigen::Index rows = bodies.grains + 1;
   if (space.force.rows() == rows) return;
-  for (Bodies::Rows* part : {&space.velocity_before, &space.spin_before, &space.force, &space.torque, &space.drag})
+  for (Bodies::Rows* part :
+       {&space.velocity_before, &space.spin_before, &space.force, &space.torque, &space.drag})
     part->setZero(rows, 3);
   space.free.assign(forces.free.size(), Bodies::Column::Zero(rows));
 }
 
 }  // namespace
 
-void half_kick(const ContactModel& model, const GrainForces& grain_forces, double time, double half_step, int passes,
-               Bodies& bodies, std::vector<Contact>& contacts, KickSpace& space, Accounts& accounts) {
+void half_kick(const ContactModel& model, const GrainForces& grain_forces, double time, double half_step,
+               int passes, Bodies& bodies, std::vector<Contact>& contacts, KickSpace& space,
+               Accounts& accounts) {
   make_room(bodies, grain_forces, space);
   HalfKick(model, grain_forces, time, half_step, bodies, contacts, space).run(passes, accounts);
 }

@@ -10,14 +10,16 @@
 
 namespace shakedown {
 
-static_assert(sizeof(btScalar) == 8, "Bullet's headers are in single precision: take the flags of pkg-config bullet-float64");
+static_assert(sizeof(btScalar) == 8,
+              "Bullet's headers are in single precision: take the flags of pkg-config bullet-float64");
 
 struct Neighbours::Tree {
   btDbvtBroadphase broadphase;
   std::vector<btBroadphaseProxy*> proxies;
 
   ~Tree() {
-    // destroyProxy looks through all pairs for each grain: a square law, for pairs that nobody needs any more.
+    // destroyProxy looks through all pairs for each grain: a square law, for pairs that nobody needs any
+    // more.
     broadphase.getOverlappingPairCache()->getOverlappingPairArray().clear();
     for (btBroadphaseProxy* proxy : proxies) broadphase.destroyProxy(proxy, nullptr);
   }
@@ -25,7 +27,8 @@ struct Neighbours::Tree {
 
 namespace {
 btVector3 corner(const Bodies& bodies, Eigen::Index i, double half_edge) {
-  return {bodies.position(i, 0) + half_edge, bodies.position(i, 1) + half_edge, bodies.position(i, 2) + half_edge};
+  return {bodies.position(i, 0) + half_edge, bodies.position(i, 1) + half_edge,
+          bodies.position(i, 2) + half_edge};
 }
 }  // namespace
 
@@ -33,9 +36,9 @@ Neighbours::Neighbours(const Bodies& bodies, double range, double skin)
     : tree_(std::make_unique<Tree>()), range_(range), skin_(skin) {
   for (Eigen::Index i = 0; i < bodies.grains; ++i) {
     void* number = reinterpret_cast<void*>(i);  // Bullet keeps it as an opaque pointer
-    tree_->proxies.push_back(tree_->broadphase.createProxy(corner(bodies, i, -bodies.radius(i)), corner(bodies, i, bodies.radius(i)),
-                                                           0, number, btBroadphaseProxy::DefaultFilter,
-                                                           btBroadphaseProxy::AllFilter, nullptr));
+    tree_->proxies.push_back(tree_->broadphase.createProxy(
+        corner(bodies, i, -bodies.radius(i)), corner(bodies, i, bodies.radius(i)), 0, number,
+        btBroadphaseProxy::DefaultFilter, btBroadphaseProxy::AllFilter, nullptr));
   }
   search(bodies);
 }
@@ -49,8 +52,9 @@ const std::vector<Pair>& Neighbours::pairs(const Bodies& bodies) {
 
 bool Neighbours::stale(const Bodies& bodies) const {
   if (skin_ == 0) return true;
-  // Boxes that did not overlap were apart by more than the skin along some axis; what matters along it is the largest difference
-  // of two displacements. Grains that travel together with the box therefore do not wear the list out.
+  // Boxes that did not overlap were apart by more than the skin along some axis; what matters along it is the
+  // largest difference of two displacements. Grains that travel together with the box therefore do not wear
+  // the list out.
   for (int axis = 0; axis < 3; ++axis) {
     const auto moved = bodies.position.col(axis).head(bodies.grains) - searched_at_.col(axis);
     if (bodies.grains > 1 && moved.maxCoeff() - moved.minCoeff() >= skin_) return true;
@@ -65,8 +69,9 @@ void Neighbours::search(const Bodies& bodies) {
     // Rounding of the last bit must not lose a pair, hence the tiny extra of 1e-9 R.
     const double half_edge = bodies.radius(i) * (1 + 1e-9) + (range_ + skin_) / 2;
     // Not setAabb: that enlarges by gDbvtMargin, a process-wide 50 mm.
-    tree_->broadphase.setAabbForceUpdate(tree_->proxies[static_cast<std::size_t>(i)], corner(bodies, i, -half_edge),
-                                         corner(bodies, i, half_edge), nullptr);
+    tree_->broadphase.setAabbForceUpdate(tree_->proxies[static_cast<std::size_t>(i)],
+                                         corner(bodies, i, -half_edge), corner(bodies, i, half_edge),
+                                         nullptr);
   }
   tree_->broadphase.calculateOverlappingPairs(nullptr);
   const btBroadphasePairArray& found = tree_->broadphase.getOverlappingPairCache()->getOverlappingPairArray();
@@ -78,7 +83,8 @@ void Neighbours::search(const Bodies& bodies) {
     const double reach = bodies.radius(i) + bodies.radius(j) + range_;
     // A skin along each axis is at most sqrt(3) skins along the line of centres.
     const double keep = reach * (1 + 1e-9) + std::numbers::sqrt3 * skin_;
-    if ((bodies.position_of(i) - bodies.position_of(j)).squaredNorm() <= keep * keep) pairs_.push_back({i, j, reach * reach});
+    if ((bodies.position_of(i) - bodies.position_of(j)).squaredNorm() <= keep * keep)
+      pairs_.push_back({i, j, reach * reach});
   }
   std::sort(pairs_.begin(), pairs_.end(),
             [](const Pair& a, const Pair& b) { return std::tie(a.i, a.j) < std::tie(b.i, b.j); });

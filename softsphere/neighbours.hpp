@@ -9,12 +9,12 @@
 namespace shakedown {
 
 struct Pair {
-  int i = 0, j = 0;           ///< i < j
-  double reach_squared = 0;   ///< m^2, centres closer than this interact
+  int i = 0, j = 0;          ///< i < j
+  double reach_squared = 0;  ///< m^2, centres closer than this interact
 };
 
-/// The tree holds every grain enlarged by half a skin and is asked again only when some two grains may have moved by a skin
-/// relative to each other along an axis; a skin of zero asks at every call.
+/// The tree holds every grain enlarged by half a skin and is asked again only when some two grains may have
+/// moved by a skin relative to each other along an axis; a skin of zero asks at every call.
 class Neighbours {
  public:
   /// `range`: gap in m up to which grains interact.

@@ -17,7 +17,8 @@ double centre_of_mass(const Bodies& bodies) {
 /// M Omega Delta0; without a spring the sum of m |v|.
 double scale_of_momentum(const Setup& setup, const Bodies& bodies, double box_mass) {
   const double rate = 2 * std::numbers::pi * setup.spring.frequency;
-  if (box_mass > 0 && setup.release.displacement != 0) return setup.box.mass * rate * std::abs(setup.release.displacement);
+  if (box_mass > 0 && setup.release.displacement != 0)
+    return setup.box.mass * rate * std::abs(setup.release.displacement);
   double sum = 0;
   for (Eigen::Index i = 0; i < bodies.grains; ++i) sum += bodies.mass(i) * bodies.velocity_of(i).norm();
   return sum > 0 ? sum : 1;
@@ -25,16 +26,20 @@ double scale_of_momentum(const Setup& setup, const Bodies& bodies, double box_ma
 
 }  // namespace
 
-RunRecord::RunRecord(const Setup& setup, std::string engine, double box_mass, std::function<double(double)> spring_energy)
+RunRecord::RunRecord(const Setup& setup, std::string engine, double box_mass,
+                     std::function<double(double)> spring_energy)
     : box_mass_(box_mass), spring_energy_(std::move(spring_energy)) {
   trajectory.engine = std::move(engine);
-  const auto samples = static_cast<std::size_t>(std::max(0.0, setup.run.duration * setup.run.sample_rate)) + 2;
-  for (auto* column : {&trajectory.time, &trajectory.x_box, &trajectory.v_box, &trajectory.x_com, &trajectory.total_energy})
+  const auto samples =
+      static_cast<std::size_t>(std::max(0.0, setup.run.duration * setup.run.sample_rate)) + 2;
+  for (auto* column :
+       {&trajectory.time, &trajectory.x_box, &trajectory.v_box, &trajectory.x_com, &trajectory.total_energy})
     column->reserve(samples);
 }
 
 double RunRecord::energy(const Bodies& bodies, const StoredEnergy& stored) const {
-  double energy = box_mass_ > 0 ? box_mass_ * bodies.v_box() * bodies.v_box() / 2 + spring_energy_(bodies.x_box()) : 0.0;
+  double energy =
+      box_mass_ > 0 ? box_mass_ * bodies.v_box() * bodies.v_box() / 2 + spring_energy_(bodies.x_box()) : 0.0;
   for (Eigen::Index i = 0; i < bodies.grains; ++i) {
     energy += bodies.mass(i) * bodies.velocity_of(i).squaredNorm() / 2;
     energy += 0.2 * bodies.mass(i) * bodies.radius(i) * bodies.radius(i) * bodies.spin_of(i).squaredNorm();
@@ -51,7 +56,8 @@ double RunRecord::momentum(const Bodies& bodies) const {
 Ledger RunRecord::ledger(const Accounts& accounts, const StoredEnergy& stored) const {
   Ledger ledger;
   for (std::size_t kind = 0; kind < contact_classes; ++kind)
-    ledger.contact_loss[kind] = -accounts.contact_work[kind].value() - (stored[kind] - stored_at_start_[kind]);
+    ledger.contact_loss[kind] =
+        -accounts.contact_work[kind].value() - (stored[kind] - stored_at_start_[kind]);
   for (const CompensatedSum& work : accounts.effect_work) ledger.effect_loss.push_back(-work.value());
   return ledger;
 }
@@ -74,17 +80,20 @@ bool RunRecord::check(const Bodies& bodies, const Accounts& accounts, const Stor
   return std::isfinite(open) && std::isfinite(drift);
 }
 
-void RunRecord::sample(double time, const Bodies& bodies, const Accounts& accounts, const StoredEnergy& stored) {
+void RunRecord::sample(double time, const Bodies& bodies, const Accounts& accounts,
+                       const StoredEnergy& stored) {
   trajectory.time.push_back(time);
   trajectory.x_box.push_back(bodies.x_box());
   trajectory.v_box.push_back(bodies.v_box());
   trajectory.x_com.push_back(centre_of_mass(bodies));
   trajectory.total_energy.push_back(energy(bodies, stored));
   const Ledger now = ledger(accounts, stored);
-  for (std::size_t kind = 0; kind < contact_classes; ++kind) trajectory.loss[kind].push_back(now.contact_loss[kind]);
+  for (std::size_t kind = 0; kind < contact_classes; ++kind)
+    trajectory.loss[kind].push_back(now.contact_loss[kind]);
 }
 
-Trajectory RunRecord::finish(const Bodies& bodies, const Accounts& accounts, const StoredEnergy& stored, double end_time) {
+Trajectory RunRecord::finish(const Bodies& bodies, const Accounts& accounts, const StoredEnergy& stored,
+                             double end_time) {
   check(bodies, accounts, stored);
   trajectory.ledger = ledger(accounts, stored);
   trajectory.collisions = accounts.collisions;

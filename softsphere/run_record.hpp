@@ -16,14 +16,16 @@ using StoredEnergy = std::array<double, contact_classes>;
 class RunRecord {
  public:
   /// `spring_energy` of the box as a function of its place, J; a held box has mass 0.
-  RunRecord(const Setup& setup, std::string engine, double box_mass, std::function<double(double)> spring_energy);
+  RunRecord(const Setup& setup, std::string engine, double box_mass,
+            std::function<double(double)> spring_energy);
 
   /// The state at release, from which the balances count.
   void begin(const Setup& setup, const Bodies& bodies, const StoredEnergy& stored);
   void sample(double time, const Bodies& bodies, const Accounts& accounts, const StoredEnergy& stored);
   /// Enters the balances into the health; false when they are not numbers.
   bool check(const Bodies& bodies, const Accounts& accounts, const StoredEnergy& stored);
-  Trajectory finish(const Bodies& bodies, const Accounts& accounts, const StoredEnergy& stored, double end_time);
+  Trajectory finish(const Bodies& bodies, const Accounts& accounts, const StoredEnergy& stored,
+                    double end_time);
 
   Trajectory trajectory;
 
@@ -38,8 +40,9 @@ class RunRecord {
   StoredEnergy stored_at_start_{};
 };
 
-/// Walks through a run sample by sample. march(interval, until) goes on by `interval` seconds to the time `until` and returns false
-/// when stopped; sample(time) is called at 0, 1/rate, 2/rate ... A rest of the duration below one interval is marched without a sample.
+/// Walks through a run sample by sample. march(interval, until) goes on by `interval` seconds to the time
+/// `until` and returns false when stopped; sample(time) is called at 0, 1/rate, 2/rate ... A rest of the
+/// duration below one interval is marched without a sample.
 template <class March, class Sample>
 void through_samples(const Setup& setup, const RunOptions& options, March march, Sample sample) {
   const double rate = setup.run.sample_rate;

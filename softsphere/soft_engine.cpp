@@ -15,8 +15,8 @@ namespace shakedown {
 
 namespace {
 
-/// Wide enough that Bullet is asked seldom, narrow enough that few pairs are looked at: 0.1 to 0.25 diameters cost the same within
-/// 5 %, in the dense layer, in a long box and with 1e4 grains.
+/// Wide enough that Bullet is asked seldom, narrow enough that few pairs are looked at: 0.1 to 0.25 diameters
+/// cost the same within 5 %, in the dense layer, in a long box and with 1e4 grains.
 constexpr double skin_in_diameters = 0.15;
 constexpr int implicit_passes = 3;
 /// Fewer and the contact oscillator is no longer resolved at all (Verlet is unstable below pi / 2).
@@ -38,15 +38,16 @@ SourcePlace place_of(const Setup& setup, const std::string& key) {
 void check(const Setup& setup) {
   std::vector<Violation> found;
   if (setup.domain == Domain::periodic)
-    found.push_back({place_of(setup, "domain"), "domain", "periodic is not modelled by engine 'soft' (its walls are real ones)",
+    found.push_back({place_of(setup, "domain"), "domain",
+                     "periodic is not modelled by engine 'soft' (its walls are real ones)",
                      "use engine 'hard' for periodic cells, or domain = \"closed\""});
   if (!(setup.soft.contact_time > 0))
-    found.push_back({place_of(setup, "soft.contact_time"), "soft.contact_time", "must be above zero (it sets the stiffness)",
-                     "0.3 ms suits the paper's damper"});
+    found.push_back({place_of(setup, "soft.contact_time"), "soft.contact_time",
+                     "must be above zero (it sets the stiffness)", "0.3 ms suits the paper's damper"});
   if (!(setup.soft.steps_per_contact >= fewest_steps_per_contact))
     found.push_back({place_of(setup, "soft.steps_per_contact"), "soft.steps_per_contact",
-                     text_of("%g is too few (below %g the contact is not resolved)", setup.soft.steps_per_contact,
-                             fewest_steps_per_contact),
+                     text_of("%g is too few (below %g the contact is not resolved)",
+                             setup.soft.steps_per_contact, fewest_steps_per_contact),
                      "use 20, or 50 for a restitution right to 6e-4"});
   if (!found.empty()) throw InputError(std::move(found));
 }
@@ -55,9 +56,14 @@ void check(const Setup& setup) {
 class SoftRun {
  public:
   SoftRun(const Setup& setup, const RunOptions& options, PairSearch search)
-      : setup_(setup), options_(options), physics_(physics_of(setup)), held_(setup.domain != Domain::damper),
-        model_{physics_.contact, setup.soft.contact_time, held_ ? 0.0 : physics_.box_mass, setup.box.length, setup.box.width},
-        bodies_(bodies_of(initial_state(setup, options.run), model_.box_mass)), box_(physics_),
+      : setup_(setup),
+        options_(options),
+        physics_(physics_of(setup)),
+        held_(setup.domain != Domain::damper),
+        model_{physics_.contact, setup.soft.contact_time, held_ ? 0.0 : physics_.box_mass, setup.box.length,
+               setup.box.width},
+        bodies_(bodies_of(initial_state(setup, options.run), model_.box_mass)),
+        box_(physics_),
         neighbours_(bodies_, model_.law.has_attraction() ? model_.law.attraction_range : 0.0,
                     search == PairSearch::every_step ? 0.0 : skin_in_diameters * setup.grains.diameter),
         record_(setup, "soft", model_.box_mass, [this](double x) { return box_.spring_energy(x); }) {
@@ -80,7 +86,8 @@ class SoftRun {
     check_promises();
     add_notes();
     Trajectory trajectory = record_.finish(bodies_, accounts_, stored(), time_);
-    trajectory.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    trajectory.wall_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     return trajectory;
   }
 
@@ -130,7 +137,8 @@ class SoftRun {
 
   StoredEnergy stored() const {
     StoredEnergy energy{};
-    for (const Contact& contact : contacts_) energy[static_cast<std::size_t>(contact.kind)] += stored_energy(model_, contact);
+    for (const Contact& contact : contacts_)
+      energy[static_cast<std::size_t>(contact.kind)] += stored_energy(model_, contact);
     return energy;
   }
 
@@ -139,17 +147,19 @@ class SoftRun {
     if (!finite || accounts_.deepest_overlap > setup_.grains.diameter / 4) fail();
   }
 
-  /// Contacts deeper than half a radius, or numbers that are none: the setup asks for more than soft contacts can do.
+  /// Contacts deeper than half a radius, or numbers that are none: the setup asks for more than soft contacts
+  /// can do.
   [[noreturn]] void fail() const {
-    std::string text = text_of("engine 'soft': contacts are too soft at t = %.6g s: deepest overlap %.3g mm of a diameter of %.3g mm "
-                               "(grains pass through walls and each other). Use a shorter soft.contact_time than %.3g ms.",
-                               time_, accounts_.deepest_overlap * 1e3, setup_.grains.diameter * 1e3,
-                               setup_.soft.contact_time * 1e3);
+    std::string text = text_of(
+        "engine 'soft': contacts are too soft at t = %.6g s: deepest overlap %.3g mm of a diameter of %.3g "
+        "mm "
+        "(grains pass through walls and each other). Use a shorter soft.contact_time than %.3g ms.",
+        time_, accounts_.deepest_overlap * 1e3, setup_.grains.diameter * 1e3, setup_.soft.contact_time * 1e3);
     text += text_of("\nbox: x %.9g m, v %.9g m/s", bodies_.x_box(), bodies_.v_box());
     for (const Contact& contact : contacts_)
       text += text_of("\n%s contact of grain %d and %d: overlap %.3g mm, touched at %.3g m/s",
-                      contact_class_names[static_cast<std::size_t>(contact.kind)], contact.i + 1, contact.j + 1,
-                      contact.overlap * 1e3, contact.closing_speed);
+                      contact_class_names[static_cast<std::size_t>(contact.kind)], contact.i + 1,
+                      contact.j + 1, contact.overlap * 1e3, contact.closing_speed);
     throw PhysicsError(text);
   }
 
@@ -160,16 +170,18 @@ class SoftRun {
         setup_.soft.contact_time / interval * static_cast<double>(steps_that_fill(interval, longest_step()));
     const double error = predicted_restitution_error(steps);
     if (error > largest_quiet_restitution_error)
-      notes.push_back(text_of("%.3g steps per contact are coarse: the restitution is off by up to %.2g (predicted); use 20 for "
-                              "3.1e-3, 50 for 5e-4",
-                              steps, error));
+      notes.push_back(text_of(
+          "%.3g steps per contact are coarse: the restitution is off by up to %.2g (predicted); use 20 for "
+          "3.1e-3, 50 for 5e-4",
+          steps, error));
     if (steps > 2 * setup_.soft.steps_per_contact)
-      notes.push_back(text_of("samples %.3g ms apart force %.3g steps per contact instead of %.3g", interval * 1e3, steps,
-                              setup_.soft.steps_per_contact));
+      notes.push_back(text_of("samples %.3g ms apart force %.3g steps per contact instead of %.3g",
+                              interval * 1e3, steps, setup_.soft.steps_per_contact));
     if (accounts_.deepest_overlap > 0.03 * setup_.grains.diameter)
-      notes.push_back(text_of("grains overlap by up to %.2g %% of their diameter: contacts this soft change the packing; use a "
-                              "shorter soft.contact_time",
-                              100 * accounts_.deepest_overlap / setup_.grains.diameter));
+      notes.push_back(text_of(
+          "grains overlap by up to %.2g %% of their diameter: contacts this soft change the packing; use a "
+          "shorter soft.contact_time",
+          100 * accounts_.deepest_overlap / setup_.grains.diameter));
   }
 
   const Setup& setup_;

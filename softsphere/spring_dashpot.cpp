@@ -14,6 +14,8 @@ SpringDashpot spring_dashpot(double restitution, double reduced_mass, double con
   return {reduced_mass * (rate * rate + decay * decay), 2 * reduced_mass * decay};
 }
 
-double predicted_restitution_error(double steps_per_contact) { return 1.24 / (steps_per_contact * steps_per_contact); }
+double predicted_restitution_error(double steps_per_contact) {
+  return 1.24 / (steps_per_contact * steps_per_contact);
+}
 
 }  // namespace shakedown

@@ -10,11 +10,14 @@
 
 namespace shakedown {
 
-/// A folder of its own, empty at first and gone with this object: neither tests in parallel nor two runs of them meet in it.
+/// A folder of its own, empty at first and gone with this object: neither tests in parallel nor two runs of
+/// them meet in it.
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / ("shakedown_test_" + std::string(6, 'X'))).string();  // as mkdtemp wants it
+    // as mkdtemp wants it
+    std::string name =
+        (std::filesystem::temp_directory_path() / ("shakedown_test_" + std::string(6, 'X'))).string();
     if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
     path_ = name;
   }

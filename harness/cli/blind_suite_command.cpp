@@ -30,7 +30,8 @@ struct BlindSuiteArguments {
 };
 
 MethodFault fault_named(const std::string& name) {
-  return static_cast<MethodFault>(std::find(method_fault_names.begin(), method_fault_names.end(), name) - method_fault_names.begin());
+  return static_cast<MethodFault>(std::find(method_fault_names.begin(), method_fault_names.end(), name) -
+                                  method_fault_names.begin());
 }
 
 int blind_suite(const BlindSuiteArguments& arguments) {
@@ -39,10 +40,14 @@ int blind_suite(const BlindSuiteArguments& arguments) {
   arguments.json.check();
   const std::unique_ptr<Engine> laboratory = engine_named(arguments.engine), model = engine_named("hard");
   EnsembleCache ensembles;
-  const TrialTools tools{laboratory.get(), model.get(), all_effects(), arguments.budget, arguments.threads, catch_interruption(),
-                         &strength_uncertainty, fault_named(arguments.mutation), &ensembles};
+  const TrialTools tools{
+      laboratory.get(),  model.get(),          all_effects(),         arguments.budget,
+      arguments.threads, catch_interruption(), &strength_uncertainty, fault_named(arguments.mutation),
+      &ensembles};
   BlindSuiteOptions options;
-  options.counts = !arguments.cases.empty() ? parse_counts(arguments.cases) : arguments.small ? small_counts : full_counts;
+  options.counts = !arguments.cases.empty() ? parse_counts(arguments.cases)
+                   : arguments.small        ? small_counts
+                                            : full_counts;
   options.small = arguments.small;
   options.signals = arguments.signals;
   options.variant = arguments.variant;
@@ -66,7 +71,8 @@ int blind_suite(const BlindSuiteArguments& arguments) {
   for (const std::string& line : score.cases) lines += line + "\n";
   folder.write("score.txt", blind_score_text(score) + "\n" + lines);
   folder.write("score.json", blind_score_json(score));
-  fmt::print(arguments.json.for_people(), "{}cases: {}\n", blind_score_text(score), (folder.path() / "score.txt").string());
+  fmt::print(arguments.json.for_people(), "{}cases: {}\n", blind_score_text(score),
+             (folder.path() / "score.txt").string());
   arguments.json.write(blind_score_json(score));
   return interrupted ? exit_interrupted : exit_done;
 }
@@ -74,29 +80,53 @@ int blind_suite(const BlindSuiteArguments& arguments) {
 }  // namespace
 
 Command add_blind_suite_command(CLI::App& program) {
-  CLI::App& command = *program.add_subcommand("blind-suite", "the diagnosis on trial: hundreds of hidden cases, answers sealed until they are scored");
+  CLI::App& command = *program.add_subcommand(
+      "blind-suite",
+      "the diagnosis on trial: hundreds of hidden cases, answers sealed until they are scored");
   const auto a = std::make_shared<BlindSuiteArguments>();
   command.add_option("SETUP", a->setup, "what the user believes; default: the paper's damper")->type_name("");
-  command.add_option("--out", a->out, "folder for plan, sealed answers, diagnoses and score")->type_name("DIR")->required();
-  command.add_option("--cases", a->cases, "how many of each kind: nulls=60,parameters=60,singles=120,camera=30,pairs=30,unlisted=24,twins=20")
+  command.add_option("--out", a->out, "folder for plan, sealed answers, diagnoses and score")
+      ->type_name("DIR")
+      ->required();
+  command
+      .add_option(
+          "--cases", a->cases,
+          "how many of each kind: nulls=60,parameters=60,singles=120,camera=30,pairs=30,unlisted=24,twins=20")
       ->type_name("KIND=N,...");
-  command.add_option("--signals", a->signals, "signal to noise of what is hidden, in turn; default: 3,6,12,25 (--small: 25)")
+  command
+      .add_option("--signals", a->signals,
+                  "signal to noise of what is hidden, in turn; default: 3,6,12,25 (--small: 25)")
       ->delimiter(',')
       ->check(CLI::Range(0.1, 1000.0))
       ->type_name("RATIO,...");
   command.add_flag("--small", a->small, "a few cases, two short runs each, strong signals");
-  command.add_option("--variant", a->variant, "a worse experiment: one-repeat, two-lengths, half-duration, 250fps, missing, outliers, no-centre")->type_name("NAME");
-  command.add_flag("--baselines", a->baselines, "ask simpler methods the same: smallest error, Akaike's criterion with white noise, one seed");
-  command.add_option("--mutation", a->mutation, "a mistake put into the diagnosis, to see which figures notice: in-sample, no-refit, no-centre, wrong-sign, noise-tenfold")
+  command
+      .add_option(
+          "--variant", a->variant,
+          "a worse experiment: one-repeat, two-lengths, half-duration, 250fps, missing, outliers, no-centre")
+      ->type_name("NAME");
+  command.add_flag(
+      "--baselines", a->baselines,
+      "ask simpler methods the same: smallest error, Akaike's criterion with white noise, one seed");
+  command
+      .add_option("--mutation", a->mutation,
+                  "a mistake put into the diagnosis, to see which figures notice: in-sample, no-refit, "
+                  "no-centre, wrong-sign, noise-tenfold")
       ->check(CLI::IsMember(std::vector<std::string>(method_fault_names.begin(), method_fault_names.end())))
       ->type_name("NAME");
   command.add_flag("--resume", a->resume, "go on where an interrupted suite stopped");
   command.add_flag("--score", a->score_only, "only open and score what is there");
-  command.add_option("--strengths", a->strengths, "strengths.json of an earlier suite of the same design, instead of measuring")->type_name("FILE");
+  command
+      .add_option("--strengths", a->strengths,
+                  "strengths.json of an earlier suite of the same design, instead of measuring")
+      ->type_name("FILE");
   command.add_option("--engine", a->engine, "the laboratory's")->type_name("NAME")->capture_default_str();
   command.add_option("--seed", a->seed, "of the draw")->capture_default_str();
-  command.add_option("--budget", a->budget, "simulations of one diagnosis at most")->type_name("RUNS")->capture_default_str();
-  command.add_option("--threads", a->threads, "0: one for each core; the answers do not depend on it")->capture_default_str();
+  command.add_option("--budget", a->budget, "simulations of one diagnosis at most")
+      ->type_name("RUNS")
+      ->capture_default_str();
+  command.add_option("--threads", a->threads, "0: one for each core; the answers do not depend on it")
+      ->capture_default_str();
   add_json_option(command, a->json);
   return {&command, [a] { return blind_suite(*a); }};
 }

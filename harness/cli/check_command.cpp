@@ -32,8 +32,8 @@ struct LinearDecayArguments {
 };
 
 DecayMeasurement measured(const LinearDecayArguments& arguments, const Engine& engine, double length) {
-  ProgressDisplay display(
-      fmt::format("linear decay, L = {:g} mm: {} runs with engine {}", 1e3 * length, arguments.runs, engine.name()));
+  ProgressDisplay display(fmt::format("linear decay, L = {:g} mm: {} runs with engine {}", 1e3 * length,
+                                      arguments.runs, engine.name()));
   EnsembleOptions options;
   options.runs = arguments.runs;
   options.threads = threads_or_all(arguments.threads);
@@ -98,7 +98,9 @@ void add_ensemble_options(CLI::App& command, LinearDecayArguments& arguments) {
       ->check(CLI::Range(0, 1024))
       ->type_name("T")
       ->capture_default_str();
-  command.add_option("--seed", arguments.seed, "seed of the random numbers")->type_name("N")->capture_default_str();
+  command.add_option("--seed", arguments.seed, "seed of the random numbers")
+      ->type_name("N")
+      ->capture_default_str();
 }
 
 Command add_linear_decay_check(CLI::App& check) {

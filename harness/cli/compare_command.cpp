@@ -56,40 +56,53 @@ std::string readable(const std::vector<FailureCell>& cells) {
 }
 
 std::string beside(const MeasuredNumber& number, double scale, int digits) {
-  return fmt::format("{:.{}f} ({:.{}f} +- {:.{}f})", number.measured * scale, digits, number.model * scale, digits, number.spread * scale, digits);
+  return fmt::format("{:.{}f} ({:.{}f} +- {:.{}f})", number.measured * scale, digits, number.model * scale,
+                     digits, number.spread * scale, digits);
 }
 
 std::string readable(const std::vector<DecayComparison>& decays) {
   std::string text = "  measured (model +- spread from run to run)\n";
   for (const DecayComparison& run : decays) {
-    text += fmt::format("    {:<12} frequency {} Hz, slope of |peaks| {} mm/s\n      peaks, mm:", run.run, beside(run.frequency, 1, 4), beside(run.slope, 1e3, 2));
+    text += fmt::format("    {:<12} frequency {} Hz, slope of |peaks| {} mm/s\n      peaks, mm:", run.run,
+                        beside(run.frequency, 1, 4), beside(run.slope, 1e3, 2));
     for (const MeasuredNumber& peak : run.peaks) text += " " + beside(peak, 1e3, 1);
     text += "\n";
   }
   return text;
 }
 
-std::string readable(const Refit& fit, const MomentumAudit& momentum, const std::vector<DecayComparison>& decays, bool holds) {
-  std::string text = holds ? "The model holds: what remains is within camera noise and the spread from run to run.\n"
-                           : "The data reject the model.\n";
-  text += fmt::format("  {:<16} {:>11} {:>9} {:>14} {:>9}\n", "run", "box, mm", "spread", "centre, mm", "spread");
+std::string readable(const Refit& fit, const MomentumAudit& momentum,
+                     const std::vector<DecayComparison>& decays, bool holds) {
+  std::string text =
+      holds ? "The model holds: what remains is within camera noise and the spread from run to run.\n"
+            : "The data reject the model.\n";
+  text +=
+      fmt::format("  {:<16} {:>11} {:>9} {:>14} {:>9}\n", "run", "box, mm", "spread", "centre, mm", "spread");
   for (const RunComparison& run : fit.runs)
-    text += fmt::format("  {:<16} {:>11.3f} {:>9.3f} {:>14.3f} {:>9.3f}  {}\n", run.run, run.error_box * 1e3, run.floor_box * 1e3,
-                        run.error_centre * 1e3, run.floor_centre * 1e3, severity(run.error_box / run.floor_box));
-  text += fmt::format("  whole: p = {:.3f} ({:.2f} times the misfit of the model's own runs)\n", fit.p_value, fit.scatter);
+    text += fmt::format("  {:<16} {:>11.3f} {:>9.3f} {:>14.3f} {:>9.3f}  {}\n", run.run, run.error_box * 1e3,
+                        run.floor_box * 1e3, run.error_centre * 1e3, run.floor_centre * 1e3,
+                        severity(run.error_box / run.floor_box));
+  text += fmt::format("  whole: p = {:.3f} ({:.2f} times the misfit of the model's own runs)\n", fit.p_value,
+                      fit.scatter);
   text += readable(fit.cells) + readable(decays);
   if (momentum.possible) {
-    text += fmt::format("  momentum balance: chi2 per degree of freedom {:.3f}, p = {:.3g}\n", momentum.as_given.chi2_per_degree(), momentum.as_given.p_value);
+    text += fmt::format("  momentum balance: chi2 per degree of freedom {:.3f}, p = {:.3g}\n",
+                        momentum.as_given.chi2_per_degree(), momentum.as_given.p_value);
     for (const RunBalance& run : momentum.runs)
-      text += fmt::format("    {:<16} force that the model lacks {:.2f} mN rms (noise of one window {:.2f} mN)\n", run.run,
-                          run.missing_force * 1e3, run.missing_force_noise * 1e3);
+      text +=
+          fmt::format("    {:<16} force that the model lacks {:.2f} mN rms (noise of one window {:.2f} mN)\n",
+                      run.run, run.missing_force * 1e3, run.missing_force_noise * 1e3);
   }
   return text;
 }
 
 nlohmann::ordered_json json_of(const MeasuredNumber& number, double scale) {
-  const auto value = [](double x) { return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr); };
-  return {{"measured", value(number.measured * scale)}, {"model", value(number.model * scale)}, {"spread", value(number.spread * scale)}};
+  const auto value = [](double x) {
+    return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+  };
+  return {{"measured", value(number.measured * scale)},
+          {"model", value(number.model * scale)},
+          {"spread", value(number.spread * scale)}};
 }
 
 nlohmann::ordered_json json_of(const std::vector<DecayComparison>& decays) {
@@ -97,7 +110,10 @@ nlohmann::ordered_json json_of(const std::vector<DecayComparison>& decays) {
   for (const DecayComparison& run : decays) {
     nlohmann::ordered_json peaks = nlohmann::ordered_json::array();
     for (const MeasuredNumber& peak : run.peaks) peaks.push_back(json_of(peak, 1e3));
-    list.push_back({{"run", run.run}, {"frequency_hz", json_of(run.frequency, 1)}, {"slope_mm_per_s", json_of(run.slope, 1e3)}, {"peaks_mm", peaks}});
+    list.push_back({{"run", run.run},
+                    {"frequency_hz", json_of(run.frequency, 1)},
+                    {"slope_mm_per_s", json_of(run.slope, 1e3)},
+                    {"peaks_mm", peaks}});
   }
   return list;
 }
@@ -105,19 +121,42 @@ nlohmann::ordered_json json_of(const std::vector<DecayComparison>& decays) {
 nlohmann::ordered_json json_of(const std::vector<FailureCell>& cells) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const FailureCell& cell : cells)
-    list.push_back({{"run", cell.run.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(cell.run)}, {"observable", cell.observable},
-                    {"what", cell.what}, {"from_s", cell.from}, {"to_s", cell.to}, {"error_mm", cell.error * 1e3}, {"sigmas", cell.sigmas}, {"p_value", cell.p_value}});
+    list.push_back(
+        {{"run", cell.run.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(cell.run)},
+         {"observable", cell.observable},
+         {"what", cell.what},
+         {"from_s", cell.from},
+         {"to_s", cell.to},
+         {"error_mm", cell.error * 1e3},
+         {"sigmas", cell.sigmas},
+         {"p_value", cell.p_value}});
   return list;
 }
 
-nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum, const std::vector<DecayComparison>& decays, bool holds) {
+nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum,
+                               const std::vector<DecayComparison>& decays, bool holds) {
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();
   for (const RunComparison& run : fit.runs)
-    runs.push_back({{"run", run.run}, {"error_box_mm", run.error_box * 1e3}, {"floor_box_mm", run.floor_box * 1e3},
-                    {"error_com_mm", run.error_centre * 1e3}, {"floor_com_mm", run.floor_centre * 1e3}, {"chi2", run.chi2}});
-  return {{"schema_version", 1}, {"holds", holds}, {"p_value", fit.p_value}, {"scatter", fit.scatter}, {"error_box_mm", fit.error_box() * 1e3},
-          {"error_com_mm", fit.error_centre() * 1e3}, {"noise_floor", {{"box_mm", fit.floor_box() * 1e3}, {"com_mm", fit.floor_centre() * 1e3}}},
-          {"runs", runs}, {"where", json_of(fit.cells)}, {"decay", json_of(decays)}, {"momentum", {{"possible", momentum.possible}, {"chi2_per_dof", momentum.as_given.chi2_per_degree()}, {"p_value", momentum.as_given.p_value}}}};
+    runs.push_back({{"run", run.run},
+                    {"error_box_mm", run.error_box * 1e3},
+                    {"floor_box_mm", run.floor_box * 1e3},
+                    {"error_com_mm", run.error_centre * 1e3},
+                    {"floor_com_mm", run.floor_centre * 1e3},
+                    {"chi2", run.chi2}});
+  return {{"schema_version", 1},
+          {"holds", holds},
+          {"p_value", fit.p_value},
+          {"scatter", fit.scatter},
+          {"error_box_mm", fit.error_box() * 1e3},
+          {"error_com_mm", fit.error_centre() * 1e3},
+          {"noise_floor", {{"box_mm", fit.floor_box() * 1e3}, {"com_mm", fit.floor_centre() * 1e3}}},
+          {"runs", runs},
+          {"where", json_of(fit.cells)},
+          {"decay", json_of(decays)},
+          {"momentum",
+           {{"possible", momentum.possible},
+            {"chi2_per_dof", momentum.as_given.chi2_per_degree()},
+            {"p_value", momentum.as_given.p_value}}}};
 }
 
 int compare(const CompareArguments& arguments) {
@@ -136,11 +175,16 @@ int compare(const CompareArguments& arguments) {
   Refit fit;
   std::vector<DecayComparison> decays;
   {
-    ProgressDisplay display(fmt::format("{}: comparing with {} runs of each setup", arguments.data, arguments.runs));
+    ProgressDisplay display(
+        fmt::format("{}: comparing with {} runs of each setup", arguments.data, arguments.runs));
     std::int64_t done = 0;
     const double all = static_cast<double>(arguments.runs) * static_cast<double>(experiment.runs.size());
-    const Workshop workshop{engine.get(), all_effects(), arguments.threads, catch_interruption(),
-                            [&](int n) { display.show(std::min(1.0, static_cast<double>(done += n) / all)); }, nullptr};
+    const Workshop workshop{engine.get(),
+                            all_effects(),
+                            arguments.threads,
+                            catch_interruption(),
+                            [&](int n) { display.show(std::min(1.0, static_cast<double>(done += n) / all)); },
+                            nullptr};
     fit = refit(features_of(experiment, found, setups), as_given(setup), workshop, options);
     decays = compare_decay(experiment, found, setups, workshop, std::min(32, arguments.runs), 1);
   }
@@ -154,8 +198,11 @@ int compare(const CompareArguments& arguments) {
     drawn.threads = arguments.threads;
     drawn.known = all_effects();
     drawn.stop = catch_interruption();
-    const std::vector<MeasuredAgainstModel> curves = measured_against_model(experiment, found, nullptr, setup, *engine, drawn);
-    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(fit, momentum, holds, experiment, setup, curves), arguments.out));
+    const std::vector<MeasuredAgainstModel> curves =
+        measured_against_model(experiment, found, nullptr, setup, *engine, drawn);
+    fmt::print(
+        arguments.json.for_people(), "{}",
+        arguments.report.write(report_of(fit, momentum, holds, experiment, setup, curves), arguments.out));
   }
   arguments.json.write(document);
   return holds ? exit_done : exit_model_rejected;
@@ -164,15 +211,25 @@ int compare(const CompareArguments& arguments) {
 }  // namespace
 
 Command add_compare_command(CLI::App& program) {
-  CLI::App& command = *program.add_subcommand("compare", "is the model acceptable for these measurements, and where does it fail");
+  CLI::App& command = *program.add_subcommand(
+      "compare", "is the model acceptable for these measurements, and where does it fail");
   const auto arguments = std::make_shared<CompareArguments>();
   add_setup_arguments(command, arguments->setup);
   command.add_option("--data", arguments->data, "experiment file")->type_name("EXPERIMENT")->required();
-  command.add_option("--runs", arguments->runs, "simulations of each different setup")->check(CLI::Range(16, 100000))->capture_default_str();
-  command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->capture_default_str();
-  command.add_option("--out", arguments->out, "write compare.json and what `shakedown report` needs into this folder")->type_name("DIR");
+  command.add_option("--runs", arguments->runs, "simulations of each different setup")
+      ->check(CLI::Range(16, 100000))
+      ->capture_default_str();
+  command
+      .add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")
+      ->capture_default_str();
+  command
+      .add_option("--out", arguments->out,
+                  "write compare.json and what `shakedown report` needs into this folder")
+      ->type_name("DIR");
   add_report_option(command, arguments->report);
-  command.add_option("--engine", arguments->engine, "hard, soft or bullet")->type_name("NAME")->capture_default_str();
+  command.add_option("--engine", arguments->engine, "hard, soft or bullet")
+      ->type_name("NAME")
+      ->capture_default_str();
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return compare(*arguments); }};
 }

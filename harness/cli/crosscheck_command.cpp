@@ -123,16 +123,18 @@ int run(const CrosscheckArguments& arguments) {
                              : "the engines are equivalent within the margins");
   if (folder) fmt::print(arguments.json.for_people(), "results in {}\n", folder->path().string());
   if (arguments.report.wanted(arguments.folder))
-    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(found, cases.back().setup), arguments.folder));
+    fmt::print(arguments.json.for_people(), "{}",
+               arguments.report.write(report_of(found, cases.back().setup), arguments.folder));
   arguments.json.write(crosscheck_json(found));
   return differ ? exit_model_rejected : exit_done;
 }
 
 void add_margin_options(CLI::App& command, CrosscheckArguments& arguments) {
   command
-      .add_option("--slope-margin", arguments.slope_margin_mm_per_s,
-                  "difference of slopes that counts as none; without it 0.10, 0.5, 0.6, 0.8 mm/s for boxes of "
-                  "40, 65, 85, 104 mm and 3 % of the slope for others")
+      .add_option(
+          "--slope-margin", arguments.slope_margin_mm_per_s,
+          "difference of slopes that counts as none; without it 0.10, 0.5, 0.6, 0.8 mm/s for boxes of "
+          "40, 65, 85, 104 mm and 3 % of the slope for others")
       ->check(CLI::PositiveNumber)
       ->type_name("MM/S");
   command.add_option("--frequency-margin", arguments.options.margins.frequency, "the same of frequencies")
@@ -168,8 +170,7 @@ void add_ensemble_options(CLI::App& command, CrosscheckArguments& arguments) {
 
 void add_setup_options(CLI::App& command, CrosscheckArguments& arguments) {
   command.add_option("SETUP", arguments.files, "setup files (TOML)")->required()->type_name("");
-  command
-      .add_option("--set", arguments.changes.overrides, "change a key of every setup; may be repeated")
+  command.add_option("--set", arguments.changes.overrides, "change a key of every setup; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command
@@ -199,7 +200,8 @@ Command add_crosscheck_command(CLI::App& program) {
   add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
   command.footer(
-      "Exit code 1: an observable differs beyond its margin (its 95 % interval lies outside). \"Cannot tell\" "
+      "Exit code 1: an observable differs beyond its margin (its 95 % interval lies outside). \"Cannot "
+      "tell\" "
       "is\nno failure.");
   return {&command, [arguments] { return run(*arguments); }};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shakedown diagnose: which effect is missing in the model, how strong is it, and does the error fall when it is added.
+// shakedown diagnose: which effect is missing in the model, how strong is it, and does the error fall when it
+// is added.
 #include "diagnosis.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <memory>
 
 #include "command.hpp"
+#include "diagnose_report.hpp"
 #include "effects.hpp"
 #include "engine_differences.hpp"
 #include "engines.hpp"
@@ -18,9 +20,8 @@
 #include "json_output.hpp"
 #include "output_file.hpp"
 #include "parameter_knobs.hpp"
-#include "diagnose_report.hpp"
-#include "report_output.hpp"
 #include "progress_display.hpp"
+#include "report_output.hpp"
 #include "setup_arguments.hpp"
 #include "setup_file.hpp"
 
@@ -51,12 +52,16 @@ std::vector<std::string> split_at_commas(const std::string& text) {
 void check_names(const DiagnoseArguments& arguments) {
   std::vector<Violation> found;
   for (const std::string& name : split_at_commas(arguments.effects))
-    if (find_effect(name) == nullptr) found.push_back({{"--effects", 0, 0}, name, "is not an effect", "`shakedown effects` lists them"});
+    if (find_effect(name) == nullptr)
+      found.push_back({{"--effects", 0, 0}, name, "is not an effect", "`shakedown effects` lists them"});
   std::vector<std::string> fitted;
   for (const Knob& knob : free_parameters(Setup{})) fitted.push_back(knob.key);
   for (const std::string& name : split_at_commas(arguments.fixed))
     if (std::find(fitted.begin(), fitted.end(), name) == fitted.end())
-      found.push_back({{"--fixed", 0, 0}, name, "is not fitted anyway", "restitution.grain_grain, restitution.grain_wall and spring.frequency are"});
+      found.push_back({{"--fixed", 0, 0},
+                       name,
+                       "is not fitted anyway",
+                       "restitution.grain_grain, restitution.grain_wall and spring.frequency are"});
   if (!found.empty()) throw InputError(std::move(found));
 }
 
@@ -64,25 +69,32 @@ void check_names(const DiagnoseArguments& arguments) {
 std::string amended_setup(const Diagnosis& diagnosis) {
   std::string text = "# Amended by `shakedown diagnose`: " + diagnosis.sentence + "\n";
   for (const DiagnosedParameter& p : diagnosis.parameters)
-    text += p.word.empty() ? fmt::format("#   {} = {:.6g} {} (95 %: {:.6g} to {:.6g})\n", p.name, p.value, p.unit, p.low, p.high)
+    text += p.word.empty() ? fmt::format("#   {} = {:.6g} {} (95 %: {:.6g} to {:.6g})\n", p.name, p.value,
+                                         p.unit, p.low, p.high)
                            : fmt::format("#   {} = {}\n", p.name, p.word);
   return text + write_setup(diagnosis.amended);
 }
 
-/// Simulations that fit into the seconds: chosen once, before the start, so that the answer depends on this number alone.
-std::int64_t budget_for(double seconds, const Setup& setup, const Experiment& experiment, const Engine& engine, int threads) {
+/// Simulations that fit into the seconds: chosen once, before the start, so that the answer depends on this
+/// number alone.
+std::int64_t budget_for(double seconds, const Setup& setup, const Experiment& experiment,
+                        const Engine& engine, int threads) {
   constexpr double dearer = 1.6;  // with effects and low restitutions, on average of whole diagnoses
   std::vector<Setup> setups = setups_of_runs(setup, experiment, all_effects());
   const auto start = std::chrono::steady_clock::now();
   for (std::size_t r = 0; r < setups.size(); ++r) {
-    setups[r].run.duration = experiment.runs[r].time.empty() ? 1.0 : std::max(0.5, experiment.runs[r].time.back());
+    setups[r].run.duration =
+        experiment.runs[r].time.empty() ? 1.0 : std::max(0.5, experiment.runs[r].time.back());
     RunOptions options;
     options.run = static_cast<int>(r);
     options.stop = catch_interruption();
     engine.run(setups[r], options);
   }
-  const double each = dearer * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / static_cast<double>(setups.size());
-  return std::max<std::int64_t>(1000, static_cast<std::int64_t>(seconds * threads_or_all(threads) / each) / 1000 * 1000);
+  const double each = dearer *
+                      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
+                      static_cast<double>(setups.size());
+  return std::max<std::int64_t>(
+      1000, static_cast<std::int64_t>(seconds * threads_or_all(threads) / each) / 1000 * 1000);
 }
 
 int diagnose_data(const DiagnoseArguments& arguments) {
@@ -102,7 +114,12 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   Diagnosis diagnosis;
   {
     ProgressDisplay display(fmt::format("{}: diagnosing, at most {} simulations", arguments.data, budget));
-    DiagnoseOptions options{split_at_commas(arguments.effects), budget, arguments.threads, all_effects(), catch_interruption(), {}};
+    DiagnoseOptions options{split_at_commas(arguments.effects),
+                            budget,
+                            arguments.threads,
+                            all_effects(),
+                            catch_interruption(),
+                            {}};
     options.fixed = split_at_commas(arguments.fixed);
     options.strength_uncertainty = &strength_uncertainty;
     options.progress = [&](const std::string& stage, double fraction) {
@@ -123,8 +140,10 @@ int diagnose_data(const DiagnoseArguments& arguments) {
     drawn.threads = arguments.threads;
     drawn.known = all_effects();
     drawn.stop = catch_interruption();
-    const std::vector<MeasuredAgainstModel> curves = measured_against_model(experiment, audit(experiment), &setup, diagnosis.amended, *engine, drawn);
-    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(diagnosis, experiment, setup, curves), arguments.out));
+    const std::vector<MeasuredAgainstModel> curves =
+        measured_against_model(experiment, audit(experiment), &setup, diagnosis.amended, *engine, drawn);
+    fmt::print(arguments.json.for_people(), "{}",
+               arguments.report.write(report_of(diagnosis, experiment, setup, curves), arguments.out));
   }
   arguments.json.write(document);
   return diagnosis.verdict == Verdict::adequate ? exit_done : exit_model_rejected;
@@ -137,12 +156,22 @@ Command add_diagnose_command(CLI::App& program) {
   const auto arguments = std::make_shared<DiagnoseArguments>();
   add_setup_arguments(command, arguments->setup);
   command.add_option("--data", arguments->data, "experiment file")->type_name("EXPERIMENT")->required();
-  command.add_option("--out", arguments->out, "write the amended setup and the diagnosis into this folder")->type_name("DIR");
+  command.add_option("--out", arguments->out, "write the amended setup and the diagnosis into this folder")
+      ->type_name("DIR");
   command.add_option("--effects", arguments->effects, "only these may be added")->type_name("a,b,...");
-  command.add_option("--fixed", arguments->fixed, "not refitted, because known otherwise: restitution.grain_grain, restitution.grain_wall, spring.frequency")->type_name("KEY,KEY,...");
-  command.add_option("--budget", arguments->budget, "simulations at most")->type_name("RUNS")->capture_default_str();
-  command.add_option("--seconds", arguments->seconds, "choose the budget for about this time and say which")->check(CLI::PositiveNumber);
-  command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->capture_default_str();
+  command
+      .add_option("--fixed", arguments->fixed,
+                  "not refitted, because known otherwise: restitution.grain_grain, restitution.grain_wall, "
+                  "spring.frequency")
+      ->type_name("KEY,KEY,...");
+  command.add_option("--budget", arguments->budget, "simulations at most")
+      ->type_name("RUNS")
+      ->capture_default_str();
+  command.add_option("--seconds", arguments->seconds, "choose the budget for about this time and say which")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")
+      ->capture_default_str();
   add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return diagnose_data(*arguments); }};

@@ -21,7 +21,8 @@ struct ExportArguments {
 double quantity_or(const std::string& text, const char* option, std::string_view unit, double otherwise) {
   if (text.empty()) return otherwise;
   const ValueOrReason<Quantity> read = parse_quantity(text);
-  const std::string remedy = fmt::format("write a number with its unit, e.g. {} {}{}", option, unit == "Hz" ? "10k" : "3.2", unit);
+  const std::string remedy =
+      fmt::format("write a number with its unit, e.g. {} {}{}", option, unit == "Hz" ? "10k" : "3.2", unit);
   if (const auto* reason = std::get_if<std::string>(&read)) throw InputError({{{}, option, *reason, remedy}});
   const Quantity& quantity = std::get<Quantity>(read);
   if (quantity.dimension != std::get<Unit>(parse_unit(unit)).dimension)
@@ -37,23 +38,35 @@ int export_stored(const ExportArguments& arguments) {
   times.from = quantity_or(arguments.from, "--from", "s", times.from);
   times.to = quantity_or(arguments.to, "--to", "s", times.to);
   std::filesystem::path folder = arguments.folder;
-  if (folder.empty()) folder = std::filesystem::is_directory(arguments.run) ? std::filesystem::path(arguments.run) / "export" : "export";
+  if (folder.empty())
+    folder = std::filesystem::is_directory(arguments.run) ? std::filesystem::path(arguments.run) / "export"
+                                                          : "export";
   const Exported exported = export_run(run, times, format, folder);
-  fmt::print("{} frames of {} grains: open {}\n", exported.frames, run.log.initial.size(), exported.open.string());
+  fmt::print("{} frames of {} grains: open {}\n", exported.frames, run.log.initial.size(),
+             exported.open.string());
   return exit_done;
 }
 
 }  // namespace
 
 Command add_export_command(CLI::App& program) {
-  CLI::App& command = *program.add_subcommand("export", "trajectories for OVITO, ASE, ParaView, LAMMPS tools, numpy, from a collision log");
+  CLI::App& command = *program.add_subcommand(
+      "export", "trajectories for OVITO, ASE, ParaView, LAMMPS tools, numpy, from a collision log");
   const auto arguments = std::make_shared<ExportArguments>();
-  command.add_option("RUN", arguments->run, "folder of `shakedown run --out DIR --log`, or a collision log")->required();
-  command.add_option("--as", arguments->format, "xyz, lammps, vtp, npy or csv")->type_name("FORMAT")->capture_default_str();
-  command.add_option("--rate", arguments->rate, "frames a second of simulated time, e.g. 10kHz (default: the setup's)")->type_name("RATE");
-  command.add_option("--from", arguments->from, "first moment, e.g. 3.2s (default: release)")->type_name("TIME");
+  command.add_option("RUN", arguments->run, "folder of `shakedown run --out DIR --log`, or a collision log")
+      ->required();
+  command.add_option("--as", arguments->format, "xyz, lammps, vtp, npy or csv")
+      ->type_name("FORMAT")
+      ->capture_default_str();
+  command
+      .add_option("--rate", arguments->rate,
+                  "frames a second of simulated time, e.g. 10kHz (default: the setup's)")
+      ->type_name("RATE");
+  command.add_option("--from", arguments->from, "first moment, e.g. 3.2s (default: release)")
+      ->type_name("TIME");
   command.add_option("--to", arguments->to, "last moment (default: the end)")->type_name("TIME");
-  command.add_option("--out", arguments->folder, "folder to write into (default: RUN/export)")->type_name("DIR");
+  command.add_option("--out", arguments->folder, "folder to write into (default: RUN/export)")
+      ->type_name("DIR");
   return {&command, [arguments] { return export_stored(*arguments); }};
 }
 

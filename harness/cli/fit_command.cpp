@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shakedown fit: parameters of the model from some runs of an experiment, and how well it foretells the others.
+// shakedown fit: parameters of the model from some runs of an experiment, and how well it foretells the
+// others.
 #include "fit.hpp"
 
 #include <fmt/format.h>
@@ -60,7 +61,8 @@ int fit(const FitArguments& arguments) {
   }
   fmt::print(arguments.json.for_people(), "{}", fit_text(found));
   if (folder) {
-    folder->write("setup.toml", "# Fitted by `shakedown fit` to " + arguments.data + "\n" + write_setup(found.fitted));
+    folder->write("setup.toml",
+                  "# Fitted by `shakedown fit` to " + arguments.data + "\n" + write_setup(found.fitted));
     folder->write("fit.json", fit_json(found));
   }
   if (arguments.report.wanted(arguments.out)) {
@@ -68,8 +70,10 @@ int fit(const FitArguments& arguments) {
     drawn.threads = arguments.threads;
     drawn.known = all_effects();
     drawn.stop = catch_interruption();
-    const std::vector<MeasuredAgainstModel> curves = measured_against_model(experiment, audit(experiment), &setup, found.fitted, *engine_named("hard"), drawn);
-    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(found, experiment, curves), arguments.out));
+    const std::vector<MeasuredAgainstModel> curves = measured_against_model(
+        experiment, audit(experiment), &setup, found.fitted, *engine_named("hard"), drawn);
+    fmt::print(arguments.json.for_people(), "{}",
+               arguments.report.write(report_of(found, experiment, curves), arguments.out));
   }
   arguments.json.write(fit_json(found));
   return exit_done;
@@ -78,16 +82,30 @@ int fit(const FitArguments& arguments) {
 }  // namespace
 
 Command add_fit_command(CLI::App& program) {
-  CLI::App& command = *program.add_subcommand("fit", "parameters of the model from measurements, and the error on runs left out");
+  CLI::App& command = *program.add_subcommand(
+      "fit", "parameters of the model from measurements, and the error on runs left out");
   const auto arguments = std::make_shared<FitArguments>();
   add_setup_arguments(command, arguments->setup);
   command.add_option("--data", arguments->data, "experiment file")->type_name("EXPERIMENT")->required();
-  command.add_option("--free", arguments->free, "keys to fit, starting at the setup's values; keys joined by & move together")->type_name("KEY,KEY,...")->required();
-  command.add_option("--on", arguments->on, "fit these runs only, foretell the others")->type_name("RUN,RUN,...");
-  command.add_option("--out", arguments->out, "write the fitted setup, fit.json and what `shakedown report` needs into this folder")->type_name("DIR");
+  command
+      .add_option("--free", arguments->free,
+                  "keys to fit, starting at the setup's values; keys joined by & move together")
+      ->type_name("KEY,KEY,...")
+      ->required();
+  command.add_option("--on", arguments->on, "fit these runs only, foretell the others")
+      ->type_name("RUN,RUN,...");
+  command
+      .add_option("--out", arguments->out,
+                  "write the fitted setup, fit.json and what `shakedown report` needs into this folder")
+      ->type_name("DIR");
   add_report_option(command, arguments->report);
-  command.add_option("--runs", arguments->count, "simulations of each different setup in a round")->check(CLI::Range(32, 100000))->capture_default_str();
-  command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->check(CLI::Range(0, 1024))->capture_default_str();
+  command.add_option("--runs", arguments->count, "simulations of each different setup in a round")
+      ->check(CLI::Range(32, 100000))
+      ->capture_default_str();
+  command
+      .add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return fit(*arguments); }};
 }

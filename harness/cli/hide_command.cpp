@@ -55,10 +55,12 @@ HiddenCase hidden_case(const HideArguments& arguments) {
   read_each(arguments.effects, found, [&](const std::string& text) {
     for (Override& override : overrides_of_effect(text)) truth.push_back(std::move(override));
   });
-  read_each(arguments.parameters, found, [&](const std::string& text) { truth.push_back(parse_override(text)); });
+  read_each(arguments.parameters, found,
+            [&](const std::string& text) { truth.push_back(parse_override(text)); });
   if (!found.empty()) throw InputError(std::move(found));
   truth.insert(truth.begin(), common.begin(), common.end());
-  return {read_setup(arguments.setup, all_effects(), common), read_setup(arguments.setup, all_effects(), truth)};
+  return {read_setup(arguments.setup, all_effects(), common),
+          read_setup(arguments.setup, all_effects(), truth)};
 }
 
 std::vector<PlannedRun> planned_runs(const HideArguments& arguments) {
@@ -70,17 +72,21 @@ std::vector<PlannedRun> planned_runs(const HideArguments& arguments) {
       value.kind = TomlValue::Kind::text;
       value.text = text;
       const ValueOrProblem<double> length = number_in(value, "mm");
-      if (const Problem* wrong = std::get_if<Problem>(&length)) found.push_back({{"--lengths", 0, 0}, "", wrong->problem, wrong->remedy});
-      else lengths.push_back(std::get<double>(length));
+      if (const Problem* wrong = std::get_if<Problem>(&length))
+        found.push_back({{"--lengths", 0, 0}, "", wrong->problem, wrong->remedy});
+      else
+        lengths.push_back(std::get<double>(length));
     }
   std::vector<PlannedRun> runs = runs_of_lengths(lengths);
   int number = 0;
   read_each(arguments.runs, found, [&](const std::string& text) {
     PlannedRun run{fmt::format("run_{}", ++number), {}};
-    for (const std::string& part : split_at_commas(text)) run.overrides.push_back(parse_override(part, "--run"));
+    for (const std::string& part : split_at_commas(text))
+      run.overrides.push_back(parse_override(part, "--run"));
     runs.push_back(std::move(run));
   });
-  if (found.empty() && runs.empty()) found.push_back({{"--lengths", 0, 0}, "", "names no run", "give at least one length, or --run"});
+  if (found.empty() && runs.empty())
+    found.push_back({{"--lengths", 0, 0}, "", "names no run", "give at least one length, or --run"});
   if (!found.empty()) throw InputError(std::move(found));
   return runs;
 }
@@ -100,7 +106,10 @@ Trial trial_of(const HideArguments& arguments) {
   collect(found, [&] { trial.runs = planned_runs(arguments); });
   collect(found, [&] { trial.recording = recording_of(arguments); });
   if (!arguments.power && arguments.out.empty())
-    found.push_back({{"--out", 0, 0}, "", "is missing (where shall the measurements go?)", "name a folder, or ask for the --power of a diagnosis"});
+    found.push_back({{"--out", 0, 0},
+                     "",
+                     "is missing (where shall the measurements go?)",
+                     "name a folder, or ask for the --power of a diagnosis"});
   if (!found.empty()) throw InputError(std::move(found));
   trial.seed = arguments.seed;
   return trial;
@@ -109,8 +118,9 @@ Trial trial_of(const HideArguments& arguments) {
 Experiment measured(const HideArguments& arguments, const Trial& trial) {
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
   ProgressDisplay display(fmt::format("{}: measuring with engine {}", arguments.setup, arguments.engine));
-  const Laboratory laboratory{engine.get(), all_effects(), arguments.seed, arguments.threads, catch_interruption(),
-                              [&](double fraction) { display.show(fraction); }};
+  const Laboratory laboratory{engine.get(),         all_effects(),
+                              arguments.seed,       arguments.threads,
+                              catch_interruption(), [&](double fraction) { display.show(fraction); }};
   Experiment experiment = make_measurements(trial.hidden.truth, trial.runs, trial.recording, laboratory);
   experiment.title = arguments.title.empty() ? "granular damper, synthetic" : arguments.title;
   return experiment;
@@ -119,50 +129,70 @@ Experiment measured(const HideArguments& arguments, const Trial& trial) {
 int hide(const HideArguments& arguments, const Trial& trial) {
   arguments.json.check();
   const OutputFolder folder(arguments.out);
-  const std::filesystem::path truth = arguments.truth.empty() ? folder.path() / "truth.json" : std::filesystem::path(arguments.truth);
+  const std::filesystem::path truth =
+      arguments.truth.empty() ? folder.path() / "truth.json" : std::filesystem::path(arguments.truth);
   expect_writable(truth);
   const Experiment experiment = measured(arguments, trial);
-  folder.write("setup.toml", "# What the user believes; box.length is replaced by each run's.\n" + write_setup(trial.hidden.believed));
+  folder.write("setup.toml", "# What the user believes; box.length is replaced by each run's.\n" +
+                                 write_setup(trial.hidden.believed));
   write_measurements(folder.path(), experiment);
   write_file(truth, truth_json(trial.hidden, trial.recording, arguments.engine, arguments.seed));
   std::FILE* people = arguments.json.for_people();
-  fmt::print(people, "{} runs in {}\nwhat is hidden: {} (do not look before the diagnosis is made)\n", experiment.runs.size(), folder.path().string(), truth.string());
-  fmt::print(people, "shakedown diagnose {0}/setup.toml --data {0}/experiment.toml\n", folder.path().string());
+  fmt::print(people, "{} runs in {}\nwhat is hidden: {} (do not look before the diagnosis is made)\n",
+             experiment.runs.size(), folder.path().string(), truth.string());
+  fmt::print(people, "shakedown diagnose {0}/setup.toml --data {0}/experiment.toml\n",
+             folder.path().string());
   std::vector<std::string> names;
   for (const MeasuredRun& run : experiment.runs) names.push_back(run.name);
-  arguments.json.write(nlohmann::ordered_json{{"schema_version", 1}, {"folder", folder.path().string()}, {"truth", truth.string()}, {"runs", names}}.dump(2) + "\n");
+  arguments.json.write(nlohmann::ordered_json{{"schema_version", 1},
+                                              {"folder", folder.path().string()},
+                                              {"truth", truth.string()},
+                                              {"runs", names}}
+                           .dump(2) +
+                       "\n");
   return exit_done;
 }
 
 nlohmann::ordered_json json_of(const Share& share) {
-  return {{"hits", share.hits}, {"trials", share.trials}, {"share", share.value}, {"low", share.low}, {"high", share.high}};
+  return {{"hits", share.hits},
+          {"trials", share.trials},
+          {"share", share.value},
+          {"low", share.low},
+          {"high", share.high}};
 }
 
 std::string in_words(const Share& share) {
-  return fmt::format("{} of {} ({:.0f} %, 95 %: {:.0f} to {:.0f} %)", share.hits, share.trials, 100 * share.value, 100 * share.low, 100 * share.high);
+  return fmt::format("{} of {} ({:.0f} %, 95 %: {:.0f} to {:.0f} %)", share.hits, share.trials,
+                     100 * share.value, 100 * share.low, 100 * share.high);
 }
 
 /// Would a diagnosis see it? Nothing is written.
 int measure_power(const HideArguments& arguments, const Trial& trial) {
   const std::unique_ptr<Engine> laboratory = engine_named(arguments.engine), model = engine_named("hard");
   arguments.json.check();
-  const TrialTools tools{laboratory.get(), model.get(), all_effects(), arguments.budget, arguments.threads, catch_interruption(),
-                         &strength_uncertainty};
+  const TrialTools tools{laboratory.get(),  model.get(),          all_effects(),        arguments.budget,
+                         arguments.threads, catch_interruption(), &strength_uncertainty};
   const Power power = power_of(trial, arguments.repeats, tools, [&](int done, const std::string& answer) {
     fmt::print(stderr, "{:>3} of {}: {}\n", done, arguments.repeats, answer);
   });
   const std::vector<std::string> hidden = hidden_effects(trial.hidden);
   std::string names;
   for (const std::string& effect : hidden) names += (names.empty() ? "" : " + ") + effect;
-  fmt::print(arguments.json.for_people(), "hidden: {}\n  something is found missing: {}\n  answered exactly:           {}\n  answers:\n",
+  fmt::print(arguments.json.for_people(),
+             "hidden: {}\n  something is found missing: {}\n  answered exactly:           {}\n  answers:\n",
              names.empty() ? "nothing" : names, in_words(power.detected), in_words(power.named));
   nlohmann::ordered_json answers = nlohmann::ordered_json::object();
   for (const auto& [answer, times] : power.answers) {
     fmt::print(arguments.json.for_people(), "    {:>3}  {}\n", times, answer);
     answers[answer] = times;
   }
-  arguments.json.write(nlohmann::ordered_json{{"schema_version", 1}, {"hidden", hidden}, {"detected", json_of(power.detected)},
-                                              {"named", json_of(power.named)}, {"answers", answers}}.dump(2) + "\n");
+  arguments.json.write(nlohmann::ordered_json{{"schema_version", 1},
+                                              {"hidden", hidden},
+                                              {"detected", json_of(power.detected)},
+                                              {"named", json_of(power.named)},
+                                              {"answers", answers}}
+                           .dump(2) +
+                       "\n");
   return exit_done;
 }
 
@@ -174,27 +204,52 @@ int hide_or_measure_power(const HideArguments& arguments) {
 }  // namespace
 
 Command add_hide_command(CLI::App& program) {
-  CLI::App& command = *program.add_subcommand("hide", "make measurements in which an effect is hidden, to try a diagnosis on");
+  CLI::App& command = *program.add_subcommand(
+      "hide", "make measurements in which an effect is hidden, to try a diagnosis on");
   const auto a = std::make_shared<HideArguments>();
-  const auto many = [&](const char* name, std::vector<std::string>& values, const char* sentence, const char* type) {
+  const auto many = [&](const char* name, std::vector<std::string>& values, const char* sentence,
+                        const char* type) {
     command.add_option(name, values, sentence)->type_name(type)->allow_extra_args(false);
   };
-  command.add_option("SETUP", a->setup, "setup file (TOML): what the user believes")->required()->type_name("");
-  many("--effect", a->effects, "hide this effect (at its typical strength when no parameter is given); may be repeated", "NAME[=k:v,...]");
-  many("--set", a->parameters, "what else is different in the laboratory, e.g. restitution.grain_grain=0.8; may be repeated", "KEY=VALUE");
-  command.add_option("--out", a->out, "folder for setup.toml, experiment.toml, the tables and truth.json")->type_name("DIR");
-  command.add_option("--truth", a->truth, "put the answer there instead of DIR/truth.json")->type_name("FILE");
-  command.add_option("--lengths", a->lengths, "box length of each run; \"\" for none")->type_name("L,L,...")->capture_default_str();
-  many("--run", a->runs, "one more run with keys of its own, e.g. box.length=40mm,grains.count=0; may be repeated", "KEY=VALUE,...");
+  command.add_option("SETUP", a->setup, "setup file (TOML): what the user believes")
+      ->required()
+      ->type_name("");
+  many("--effect", a->effects,
+       "hide this effect (at its typical strength when no parameter is given); may be repeated",
+       "NAME[=k:v,...]");
+  many("--set", a->parameters,
+       "what else is different in the laboratory, e.g. restitution.grain_grain=0.8; may be repeated",
+       "KEY=VALUE");
+  command.add_option("--out", a->out, "folder for setup.toml, experiment.toml, the tables and truth.json")
+      ->type_name("DIR");
+  command.add_option("--truth", a->truth, "put the answer there instead of DIR/truth.json")
+      ->type_name("FILE");
+  command.add_option("--lengths", a->lengths, "box length of each run; \"\" for none")
+      ->type_name("L,L,...")
+      ->capture_default_str();
+  many("--run", a->runs,
+       "one more run with keys of its own, e.g. box.length=40mm,grains.count=0; may be repeated",
+       "KEY=VALUE,...");
   command.add_option("--engine", a->engine, "the laboratory's")->type_name("NAME")->capture_default_str();
-  many("--camera", a->camera, "noise.box, noise.centre (0.2 mm, 0.5 mm), fps (500), missing, outliers (0), jump (20 mm), centre=false", "KEY=VALUE,...");
-  command.add_option("--duration", a->duration, "of each run, e.g. \"20 s\"; default: the setup's")->type_name("TIME");
+  many("--camera", a->camera,
+       "noise.box, noise.centre (0.2 mm, 0.5 mm), fps (500), missing, outliers (0), jump (20 mm), "
+       "centre=false",
+       "KEY=VALUE,...");
+  command.add_option("--duration", a->duration, "of each run, e.g. \"20 s\"; default: the setup's")
+      ->type_name("TIME");
   command.add_option("--title", a->title, "of the experiment");
   command.add_option("--seed", a->seed, "of initial states and noise")->capture_default_str();
-  command.add_option("--threads", a->threads, "0: one for each core; the measurements do not depend on it")->capture_default_str();
-  command.add_flag("--power", a->power, "write nothing; repeat measurement and diagnosis: how often is the effect seen, how often named?");
-  command.add_option("--repeats", a->repeats, "with --power")->check(CLI::Range(1, 100000))->capture_default_str();
-  command.add_option("--budget", a->budget, "with --power: simulations of one diagnosis at most")->type_name("RUNS")->capture_default_str();
+  command.add_option("--threads", a->threads, "0: one for each core; the measurements do not depend on it")
+      ->capture_default_str();
+  command.add_flag(
+      "--power", a->power,
+      "write nothing; repeat measurement and diagnosis: how often is the effect seen, how often named?");
+  command.add_option("--repeats", a->repeats, "with --power")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command.add_option("--budget", a->budget, "with --power: simulations of one diagnosis at most")
+      ->type_name("RUNS")
+      ->capture_default_str();
   add_json_option(command, a->json);
   return {&command, [a] { return hide_or_measure_power(*a); }};
 }

@@ -36,19 +36,21 @@ struct LadderArguments {
 
 std::string effects_of(const Setup& setup) {
   std::string names;
-  for (const EffectChoice& choice : setup.effects) names += (names.empty() ? "" : " + ") + std::string(choice.record->name);
+  for (const EffectChoice& choice : setup.effects)
+    names += (names.empty() ? "" : " + ") + std::string(choice.record->name);
   return names.empty() ? "plain" : names;
 }
 
-Rung climb(const std::string& file, const Setup& setup, const Experiment& experiment, const Audit& found, const Workshop& workshop,
-           const LadderArguments& arguments) {
+Rung climb(const std::string& file, const Setup& setup, const Experiment& experiment, const Audit& found,
+           const Workshop& workshop, const LadderArguments& arguments) {
   const std::vector<Setup> setups = setups_of_runs(setup, experiment, all_effects());
   RefitOptions options;
   options.count = arguments.runs;
   // Refitted, so that a rung with few effects does not lose because its parameters were chosen worse.
   const std::vector<Knob> knobs = arguments.refit ? free_parameters(setup) : as_given(setup);
   if (!arguments.refit) options.rounds = options.most_rounds = 1;
-  Rung rung{file, effects_of(setup), refit(features_of(experiment, found, setups), knobs, workshop, options), {}};
+  Rung rung{
+      file, effects_of(setup), refit(features_of(experiment, found, setups), knobs, workshop, options), {}};
   // The balance is judged at the frequency of this rung.
   Setup fitted = setup;
   for (const FittedValue& value : rung.fit.values) set_number(fitted, value.key, value.value, all_effects());
@@ -56,51 +58,77 @@ Rung climb(const std::string& file, const Setup& setup, const Experiment& experi
   return rung;
 }
 
-std::vector<Rung> climb_all(const LadderArguments& arguments, const std::vector<Setup>& setups, const Experiment& experiment) {
+std::vector<Rung> climb_all(const LadderArguments& arguments, const std::vector<Setup>& setups,
+                            const Experiment& experiment) {
   const Audit found = audit(experiment);
   const std::unique_ptr<Engine> engine = engine_named("hard");
   ProgressDisplay display(fmt::format("{}: {} setups", arguments.data, setups.size()));
   std::int64_t done = 0;
   const double rounds = arguments.refit ? 2 : 1;
-  const double all = static_cast<double>(arguments.runs) * static_cast<double>(experiment.runs.size() * setups.size()) * rounds;
-  const Workshop workshop{engine.get(), all_effects(), arguments.threads, catch_interruption(),
-                          [&](int n) { display.show(std::min(1.0, static_cast<double>(done += n) / all)); }, nullptr};
+  const double all = static_cast<double>(arguments.runs) *
+                     static_cast<double>(experiment.runs.size() * setups.size()) * rounds;
+  const Workshop workshop{engine.get(),
+                          all_effects(),
+                          arguments.threads,
+                          catch_interruption(),
+                          [&](int n) { display.show(std::min(1.0, static_cast<double>(done += n) / all)); },
+                          nullptr};
   std::vector<Rung> rungs;
-  for (std::size_t i = 0; i < setups.size(); ++i) rungs.push_back(climb(arguments.setups[i], setups[i], experiment, found, workshop, arguments));
+  for (std::size_t i = 0; i < setups.size(); ++i)
+    rungs.push_back(climb(arguments.setups[i], setups[i], experiment, found, workshop, arguments));
   return rungs;
 }
 
 std::string readable(const std::vector<Rung>& rungs, bool refitted) {
-  std::string text = fmt::format("{:<28} {:>16} {:>16} {:>12} {:>8} {:>10} {:>10}\n", "errors and their floor, mm", "box", "grains' centre",
-                                 refitted ? "held out" : "", "p", "misfit", "momentum");
+  std::string text =
+      fmt::format("{:<28} {:>16} {:>16} {:>12} {:>8} {:>10} {:>10}\n", "errors and their floor, mm", "box",
+                  "grains' centre", refitted ? "held out" : "", "p", "misfit", "momentum");
   for (const Rung& rung : rungs) {
-    text += fmt::format("{:<28} {:>8.3f} /{:>6.3f} {:>8.3f} /{:>6.3f} {:>12} {:>8.3f} {:>10.2f} {:>10}  {}\n", rung.setup, rung.fit.error_box() * 1e3,
-                        rung.fit.floor_box() * 1e3, rung.fit.error_centre() * 1e3, rung.fit.floor_centre() * 1e3,
-                        refitted ? fmt::format("{:.3f}", rung.fit.held_out_error_box * 1e3) : "", rung.fit.p_value, rung.fit.scatter,
-                        rung.momentum.possible ? fmt::format("{:.2g}", rung.momentum.as_given.p_value) : "-", rung.holds() ? "holds" : "rejected");
+    text += fmt::format("{:<28} {:>8.3f} /{:>6.3f} {:>8.3f} /{:>6.3f} {:>12} {:>8.3f} {:>10.2f} {:>10}  {}\n",
+                        rung.setup, rung.fit.error_box() * 1e3, rung.fit.floor_box() * 1e3,
+                        rung.fit.error_centre() * 1e3, rung.fit.floor_centre() * 1e3,
+                        refitted ? fmt::format("{:.3f}", rung.fit.held_out_error_box * 1e3) : "",
+                        rung.fit.p_value, rung.fit.scatter,
+                        rung.momentum.possible ? fmt::format("{:.2g}", rung.momentum.as_given.p_value) : "-",
+                        rung.holds() ? "holds" : "rejected");
     text += "  " + rung.effects;
-    for (const FittedValue& value : rung.fit.values) text += fmt::format(", {} {:.4g} +- {:.2g}", value.key, value.value, value.error);
+    for (const FittedValue& value : rung.fit.values)
+      text += fmt::format(", {} {:.4g} +- {:.2g}", value.key, value.value, value.error);
     text += "\n";
   }
-  return text + "p: share of experiments of the model's own that fit no better; misfit: times what such experiments have; momentum: p of its balance.\n";
+  return text +
+         "p: share of experiments of the model's own that fit no better; misfit: times what such experiments "
+         "have; momentum: p of its balance.\n";
 }
 
-nlohmann::ordered_json number_or_null(double value) { return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr); }
+nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
 
 std::string json_of(const std::vector<Rung>& rungs, bool refitted) {
   nlohmann::ordered_json ladder = nlohmann::ordered_json::array();
   for (const Rung& rung : rungs) {
     nlohmann::ordered_json values = nlohmann::ordered_json::object();
-    for (const FittedValue& value : rung.fit.values) values[value.key] = {{"value", value.value}, {"low", value.low}, {"high", value.high}};
-    ladder.push_back({{"setup", rung.setup}, {"effects", rung.effects}, {"error_box_mm", rung.fit.error_box() * 1e3},
-                      {"error_com_mm", rung.fit.error_centre() * 1e3},
-                      {"noise_floor", {{"box_mm", rung.fit.floor_box() * 1e3}, {"com_mm", rung.fit.floor_centre() * 1e3}}},
-                      {"held_out_error_box_mm", refitted ? number_or_null(rung.fit.held_out_error_box * 1e3) : nlohmann::ordered_json(nullptr)},
-                      {"p_value", rung.fit.p_value}, {"scatter", rung.fit.scatter}, {"chi2", rung.fit.chi2},
-                      {"momentum_p_value", rung.momentum.possible ? nlohmann::ordered_json(rung.momentum.as_given.p_value) : nlohmann::ordered_json(nullptr)},
-                      {"holds", rung.holds()}, {"parameters", values}});
+    for (const FittedValue& value : rung.fit.values)
+      values[value.key] = {{"value", value.value}, {"low", value.low}, {"high", value.high}};
+    ladder.push_back(
+        {{"setup", rung.setup},
+         {"effects", rung.effects},
+         {"error_box_mm", rung.fit.error_box() * 1e3},
+         {"error_com_mm", rung.fit.error_centre() * 1e3},
+         {"noise_floor", {{"box_mm", rung.fit.floor_box() * 1e3}, {"com_mm", rung.fit.floor_centre() * 1e3}}},
+         {"held_out_error_box_mm",
+          refitted ? number_or_null(rung.fit.held_out_error_box * 1e3) : nlohmann::ordered_json(nullptr)},
+         {"p_value", rung.fit.p_value},
+         {"scatter", rung.fit.scatter},
+         {"chi2", rung.fit.chi2},
+         {"momentum_p_value", rung.momentum.possible ? nlohmann::ordered_json(rung.momentum.as_given.p_value)
+                                                     : nlohmann::ordered_json(nullptr)},
+         {"holds", rung.holds()},
+         {"parameters", values}});
   }
-  return nlohmann::ordered_json{{"schema_version", 1}, {"refitted", refitted}, {"ladder", ladder}}.dump(2) + "\n";
+  return nlohmann::ordered_json{{"schema_version", 1}, {"refitted", refitted}, {"ladder", ladder}}.dump(2) +
+         "\n";
 }
 
 int ladder(const LadderArguments& arguments) {
@@ -124,7 +152,9 @@ int ladder(const LadderArguments& arguments) {
   const std::string document = json_of(rungs, arguments.refit);
   if (folder) folder->write("ladder.json", document);
   if (arguments.report.wanted(arguments.out))
-    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(rungs, arguments.refit, experiment, setups.back()), arguments.out));
+    fmt::print(
+        arguments.json.for_people(), "{}",
+        arguments.report.write(report_of(rungs, arguments.refit, experiment, setups.back()), arguments.out));
   arguments.json.write(document);
   const bool any = std::any_of(rungs.begin(), rungs.end(), [](const Rung& rung) { return rung.holds(); });
   return any ? exit_done : exit_model_rejected;
@@ -133,14 +163,24 @@ int ladder(const LadderArguments& arguments) {
 }  // namespace
 
 Command add_ladder_command(CLI::App& program) {
-  CLI::App& command = *program.add_subcommand("ladder", "setups beside each other, judged by the same measurements");
+  CLI::App& command =
+      *program.add_subcommand("ladder", "setups beside each other, judged by the same measurements");
   const auto arguments = std::make_shared<LadderArguments>();
   command.add_option("SETUP", arguments->setups, "setup files (TOML)")->required()->type_name("...");
   command.add_option("--data", arguments->data, "experiment file")->type_name("EXPERIMENT")->required();
-  command.add_flag("--refit", arguments->refit, "refit both restitutions and the frequency of each, and predict each box length from the others");
-  command.add_option("--runs", arguments->runs, "simulations of each different setup")->check(CLI::Range(16, 100000))->capture_default_str();
-  command.add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")->capture_default_str();
-  command.add_option("--out", arguments->out, "write ladder.json and what `shakedown report` needs into this folder")->type_name("DIR");
+  command.add_flag(
+      "--refit", arguments->refit,
+      "refit both restitutions and the frequency of each, and predict each box length from the others");
+  command.add_option("--runs", arguments->runs, "simulations of each different setup")
+      ->check(CLI::Range(16, 100000))
+      ->capture_default_str();
+  command
+      .add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")
+      ->capture_default_str();
+  command
+      .add_option("--out", arguments->out,
+                  "write ladder.json and what `shakedown report` needs into this folder")
+      ->type_name("DIR");
   add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return ladder(*arguments); }};

@@ -48,8 +48,11 @@ int paper(const PaperArguments& arguments) {
   folder.write("statements.csv", statements_csv(found.statements));
   folder.write("paper.json", paper_json(found));
   folder.write("paper.md", paper_markdown(found));
-  for (const Statement& s : found.statements) fmt::print(arguments.json.for_people(), "  {:<15} {:<26} (paper: {})\n{:18}holds when {}\n", name_of(s.judgement), s.name, s.paper, "", s.rule);
-  fmt::print(arguments.json.for_people(), "{:.0f} s; read {}\n", found.seconds, (folder.path() / "paper.md").string());
+  for (const Statement& s : found.statements)
+    fmt::print(arguments.json.for_people(), "  {:<15} {:<26} (paper: {})\n{:18}holds when {}\n",
+               name_of(s.judgement), s.name, s.paper, "", s.rule);
+  fmt::print(arguments.json.for_people(), "{:.0f} s; read {}\n", found.seconds,
+             (folder.path() / "paper.md").string());
   fmt::print(arguments.json.for_people(), "{}", arguments.report.write(report_of(found), arguments.folder));
   arguments.json.write(paper_json(found));
   return exit_done;
@@ -60,9 +63,16 @@ int paper(const PaperArguments& arguments) {
 Command add_paper_command(CLI::App& program) {
   CLI::App& command = *program.add_subcommand("paper", "the paper's table, figures and statements, judged");
   const auto arguments = std::make_shared<PaperArguments>();
-  command.add_option("--out", arguments->folder, "folder for figures (CSV and SVG) and statements (Markdown, JSON, CSV)")->required()->type_name("DIR");
+  command
+      .add_option("--out", arguments->folder,
+                  "folder for figures (CSV and SVG) and statements (Markdown, JSON, CSV)")
+      ->required()
+      ->type_name("DIR");
   command.add_flag("--quick", arguments->quick, "few runs: minutes instead of a quarter of an hour");
-  command.add_option("--threads", arguments->threads, "0: one for each core; the numbers do not depend on it")->check(CLI::Range(0, 1024))->capture_default_str();
+  command
+      .add_option("--threads", arguments->threads, "0: one for each core; the numbers do not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
   add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return paper(*arguments); }};

@@ -26,7 +26,9 @@ ProgressDisplay::~ProgressDisplay() {
 void ProgressDisplay::rename(const std::string& what) {
   if (what == what_) return;
   what_ = what;
-  if (!terminal_) fmt::print(stderr, "{:6.1f} s  {}\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(), what_);
+  if (!terminal_)
+    fmt::print(stderr, "{:6.1f} s  {}\n",
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(), what_);
 }
 
 void ProgressDisplay::show(double fraction) {

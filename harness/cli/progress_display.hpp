@@ -17,7 +17,8 @@ class ProgressDisplay {
 
   /// fraction: 0 to 1.
   void show(double fraction);
-  /// Changes what the bar says is being done; without a terminal the new stage gets a line with the time so far.
+  /// Changes what the bar says is being done; without a terminal the new stage gets a line with the time so
+  /// far.
   void rename(const std::string& what);
 
  private:

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "command.hpp"
-#include "report_output.hpp"
 #include "report_joined.hpp"
+#include "report_output.hpp"
 #include "sweep_report.hpp"
 
 namespace shakedown {
@@ -19,7 +19,8 @@ bool is_result_file(const std::filesystem::path& file) {
   constexpr std::string_view magic = "SQLite format 3";
   std::string beginning(magic.size(), ' ');
   std::ifstream stream(file, std::ios::binary);
-  return std::filesystem::is_regular_file(file) && stream.read(beginning.data(), static_cast<std::streamsize>(magic.size())) && beginning == magic;
+  return std::filesystem::is_regular_file(file) &&
+         stream.read(beginning.data(), static_cast<std::streamsize>(magic.size())) && beginning == magic;
 }
 
 NamedReport stored_report(const std::filesystem::path& place) {
@@ -34,7 +35,11 @@ Command add_report_command(CLI::App& program) {
   const auto folders = std::make_shared<std::vector<std::string>>();
   const auto output = std::make_shared<ReportOutput>();
   output->file = "report.html";
-  command.add_option("DIR", *folders, "folders that run, compare, diagnose, fit, ladder, paper, crosscheck wrote with --out, and files of sweep")->required();
+  command
+      .add_option("DIR", *folders,
+                  "folders that run, compare, diagnose, fit, ladder, paper, crosscheck wrote with --out, and "
+                  "files of sweep")
+      ->required();
   command.add_option("--out", output->file, "the page")->type_name("FILE.html")->capture_default_str();
   return {&command, [folders, output] {
             std::vector<NamedReport> reports;

@@ -11,11 +11,13 @@ namespace shakedown {
 struct ReportOutput {
   std::string file;
 
-  /// Whether a report must be made: for the page, or to be kept in a folder of results (empty: there is none).
+  /// Whether a report must be made: for the page, or to be kept in a folder of results (empty: there is
+  /// none).
   bool wanted(const std::string& folder) const { return !file.empty() || !folder.empty(); }
   /// Throws FileError when the page cannot be written; to be called before long work.
   void check() const;
-  /// Writes the page and keeps the report in the folder. Returns a line for people: what to open, with its size.
+  /// Writes the page and keeps the report in the folder. Returns a line for people: what to open, with its
+  /// size.
   std::string write(const Report& report, const std::string& folder) const;
 };
 

@@ -66,8 +66,13 @@ void refuse_log_where_there_is_none(const RunArguments& arguments, const Setup& 
   if (!arguments.log) return;
   if (arguments.folder.empty()) found.push_back({{}, "--log", "has nowhere to be written", "add --out DIR"});
   if (arguments.engine != "hard")
-    found.push_back({{}, "--log", "the engine " + arguments.engine + " has contacts that last, not collisions", "take --engine hard"});
-  if (setup.domain == Domain::periodic) found.push_back({{}, "--log", "a periodic cell has no log", "take domain.kind = \"damper\" or \"closed\""});
+    found.push_back({{},
+                     "--log",
+                     "the engine " + arguments.engine + " has contacts that last, not collisions",
+                     "take --engine hard"});
+  if (setup.domain == Domain::periodic)
+    found.push_back(
+        {{}, "--log", "a periodic cell has no log", "take domain.kind = \"damper\" or \"closed\""});
   if (!found.empty()) throw InputError(std::move(found));
 }
 
@@ -91,7 +96,9 @@ int run(const RunArguments& arguments) {
   if (results)
     fmt::print(arguments.json.for_people(), "  results in {}\n", results->folder().path().string());
   if (arguments.report.wanted(arguments.folder))
-    fmt::print(arguments.json.for_people(), "{}", arguments.report.write(curves.report(ensemble, setup, arguments.setup.file), arguments.folder));
+    fmt::print(
+        arguments.json.for_people(), "{}",
+        arguments.report.write(curves.report(ensemble, setup, arguments.setup.file), arguments.folder));
   arguments.json.write(summary_json(ensemble, setup));
   return ensemble.interrupted ? exit_interrupted : exit_done;
 }
@@ -127,7 +134,8 @@ Command add_run_command(CLI::App& program) {
                    "with --out: the series of every run, not only of the first");
   add_report_option(command, arguments->report);
   command.add_flag("--log", arguments->log,
-                   "with --out: the collision log, from which `shakedown export` and reports rebuild the motion at any time");
+                   "with --out: the collision log, from which `shakedown export` and reports rebuild the "
+                   "motion at any time");
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return run(*arguments); }};
 }

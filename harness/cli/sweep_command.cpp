@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shakedown sweep: one or two keys of a setup over ranges; shakedown merge: results of several processes into one file.
+// shakedown sweep: one or two keys of a setup over ranges; shakedown merge: results of several processes into
+// one file.
 #include "sweep.hpp"
 
 #include <fmt/format.h>
@@ -55,45 +56,61 @@ std::string duration(double seconds) {
 
 std::string readable(const SweepCost& cost, const Share& share, int threads) {
   std::string text = fmt::format("{} points, {} runs", cost.points, cost.jobs);
-  if (share.of > 1) text += fmt::format("; share {} of {} (from {}): {} runs", share.index + 1, share.of, share.source, cost.here);
+  if (share.of > 1)
+    text += fmt::format("; share {} of {} (from {}): {} runs", share.index + 1, share.of, share.source,
+                        cost.here);
   if (cost.done > 0) text += fmt::format("; {} of them done before", cost.done);
   if (cost.done == cost.here) return text + "; nothing is left to do";
-  return text + fmt::format("; a run takes {:.3g} s, the rest about {} on {} thread{}", cost.seconds_a_run, duration(cost.seconds), threads, threads == 1 ? "" : "s");
+  return text + fmt::format("; a run takes {:.3g} s, the rest about {} on {} thread{}", cost.seconds_a_run,
+                            duration(cost.seconds), threads, threads == 1 ? "" : "s");
 }
 
-nlohmann::ordered_json json_of(const std::vector<ResultRow>& rows, const SweepIdentity& identity, bool complete) {
+nlohmann::ordered_json json_of(const std::vector<ResultRow>& rows, const SweepIdentity& identity,
+                               bool complete) {
   nlohmann::ordered_json axes = nlohmann::ordered_json::array();
   for (const SweepAxis& axis : identity.axes) axes.push_back({{"key", axis.key}, {"unit", axis.unit}});
-  return {{"schema_version", 1}, {"engine", identity.engine}, {"axes", axes}, {"runs", rows.size()}, {"complete", complete}, {"digest", results_digest(rows)}};
+  return {{"schema_version", 1}, {"engine", identity.engine}, {"axes", axes},
+          {"runs", rows.size()}, {"complete", complete},      {"digest", results_digest(rows)}};
 }
 
 /// What is in the file at the end, for people and as table and JSON.
-void present(const ResultFile& file, const std::string& name, const Presentation& how, bool complete, std::size_t jobs = 0) {
+void present(const ResultFile& file, const std::string& name, const Presentation& how, bool complete,
+             std::size_t jobs = 0) {
   const std::vector<ResultRow> rows = file.rows();
   if (!how.table.empty()) write_file(how.table, summary_csv(file.identity(), summaries_of(rows)));
-  const std::string missing = rows.size() < jobs ? fmt::format(" of {} so far (the digest of all comes with the last)", jobs) : "";
-  fmt::print(how.json.for_people(), "{}: {} runs{}, digest {}\n", name, rows.size(), missing, results_digest(rows));
-  if (how.report.wanted("")) fmt::print(how.json.for_people(), "{}", how.report.write(report_of(file, name), ""));
+  const std::string missing =
+      rows.size() < jobs ? fmt::format(" of {} so far (the digest of all comes with the last)", jobs) : "";
+  fmt::print(how.json.for_people(), "{}: {} runs{}, digest {}\n", name, rows.size(), missing,
+             results_digest(rows));
+  if (how.report.wanted(""))
+    fmt::print(how.json.for_people(), "{}", how.report.write(report_of(file, name), ""));
   how.json.write(json_of(rows, file.identity(), complete).dump(2) + "\n");
 }
 
 int sweep(const SweepArguments& arguments) {
-  const Share share = arguments.shard.empty() ? share_from_launcher(process_environment()) : parse_share(arguments.shard);
+  const Share share =
+      arguments.shard.empty() ? share_from_launcher(process_environment()) : parse_share(arguments.shard);
   const Setup setup = arguments.setup.read();
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
-  const SweepPlan plan = plan_sweep(setup, parse_axes(arguments.vary, all_effects()), arguments.runs, *engine, all_effects());
+  const SweepPlan plan =
+      plan_sweep(setup, parse_axes(arguments.vary, all_effects()), arguments.runs, *engine, all_effects());
   arguments.results.check();
   expect_writable(arguments.out);
   // Processes that share a file must not refuse what the others have begun.
-  const auto opening = arguments.resume || share.of > 1 ? ResultFile::Opening::resume : ResultFile::Opening::fresh;
+  const auto opening =
+      arguments.resume || share.of > 1 ? ResultFile::Opening::resume : ResultFile::Opening::fresh;
   ResultFile file(arguments.out, identity_of(plan, *engine), opening);
   for (const std::string& other : file.begin_session(version_line()))
-    fmt::print(stderr, "note: some results in {} are of another build ({}): means agree, single runs need not\n", arguments.out, other);
+    fmt::print(stderr,
+               "note: some results in {} are of another build ({}): means agree, single runs need not\n",
+               arguments.out, other);
   for (const std::string& note : plan.notes) fmt::print(stderr, "note: {}\n", note);
 
   SweepOptions options;
   // A launcher starts one process a core; a sweep alone takes all cores.
-  options.threads = arguments.threads > 0 ? arguments.threads : share.of > 1 && share.source != "--shard" ? 1 : threads_or_all(0);
+  options.threads = arguments.threads > 0                       ? arguments.threads
+                    : share.of > 1 && share.source != "--shard" ? 1
+                                                                : threads_or_all(0);
   options.share = share;
   options.stop = catch_interruption();
   std::unique_ptr<ProgressDisplay> display;
@@ -107,8 +124,11 @@ int sweep(const SweepArguments& arguments) {
   };
   const SweepOutcome outcome = run_sweep(*engine, plan, file, options);
   display.reset();
-  present(file, arguments.out, arguments.results, !outcome.interrupted, plan.points.size() * static_cast<std::size_t>(plan.runs));
-  if (outcome.failed > 0) fmt::print(stderr, "{} runs failed and are kept as such; the first: {}\n", outcome.failed, outcome.first_failure);
+  present(file, arguments.out, arguments.results, !outcome.interrupted,
+          plan.points.size() * static_cast<std::size_t>(plan.runs));
+  if (outcome.failed > 0)
+    fmt::print(stderr, "{} runs failed and are kept as such; the first: {}\n", outcome.failed,
+               outcome.first_failure);
   if (outcome.interrupted && !arguments.estimate) {
     fmt::print(stderr, "interrupted; --resume goes on\n");
     return exit_interrupted;
@@ -123,7 +143,8 @@ struct MergeArguments {
 };
 
 void add_presentation(CLI::App& command, Presentation& results) {
-  command.add_option("--table", results.table, "write mean and spread of every point as CSV")->type_name("FILE");
+  command.add_option("--table", results.table, "write mean and spread of every point as CSV")
+      ->type_name("FILE");
   add_report_option(command, results.report);
   add_json_option(command, results.json);
 }
@@ -139,19 +160,40 @@ int merge(const MergeArguments& arguments) {
 }  // namespace
 
 Command add_sweep_command(CLI::App& program) {
-  CLI::App& command = *program.add_subcommand("sweep", "one or two keys of a setup over ranges, results into an SQLite file");
+  CLI::App& command =
+      *program.add_subcommand("sweep", "one or two keys of a setup over ranges, results into an SQLite file");
   const auto arguments = std::make_shared<SweepArguments>();
   add_setup_arguments(command, arguments->setup);
-  command.add_option("--vary", arguments->vary, "e.g. box.length=25mm:600mm:5mm or box.length=40mm,65mm; given once or twice")
-      ->required()->allow_extra_args(false)->type_name("KEY=FROM:TO:STEP");
-  command.add_option("--runs", arguments->runs, "runs of each point")->check(CLI::Range(1, 1000000))->type_name("N")->capture_default_str();
-  command.add_option("--engine", arguments->engine, "hard, soft, bullet")->type_name("NAME")->capture_default_str();
-  command.add_option("--out", arguments->out, "file of the results, a row a run; several processes may share it")->type_name("FILE")->capture_default_str();
+  command
+      .add_option("--vary", arguments->vary,
+                  "e.g. box.length=25mm:600mm:5mm or box.length=40mm,65mm; given once or twice")
+      ->required()
+      ->allow_extra_args(false)
+      ->type_name("KEY=FROM:TO:STEP");
+  command.add_option("--runs", arguments->runs, "runs of each point")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--engine", arguments->engine, "hard, soft, bullet")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
+      .add_option("--out", arguments->out, "file of the results, a row a run; several processes may share it")
+      ->type_name("FILE")
+      ->capture_default_str();
   command.add_flag("--resume", arguments->resume, "go on with the file: what it holds is not done again");
   command.add_flag("--estimate", arguments->estimate, "say what the sweep would cost, and stop");
-  command.add_option("--shard", arguments->shard, "do the i-th of n shares only; without it the launcher's environment says (mpirun, srun, job arrays)")->type_name("i/n");
-  command.add_option("--threads", arguments->threads, "0: one for each core, one under a launcher; the numbers do not depend on it")
-      ->check(CLI::Range(0, 1024))->type_name("T")->capture_default_str();
+  command
+      .add_option("--shard", arguments->shard,
+                  "do the i-th of n shares only; without it the launcher's environment says (mpirun, srun, "
+                  "job arrays)")
+      ->type_name("i/n");
+  command
+      .add_option("--threads", arguments->threads,
+                  "0: one for each core, one under a launcher; the numbers do not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("T")
+      ->capture_default_str();
   add_presentation(command, arguments->results);
   return {&command, [arguments] { return sweep(*arguments); }};
 }
@@ -159,8 +201,12 @@ Command add_sweep_command(CLI::App& program) {
 Command add_merge_command(CLI::App& program) {
   CLI::App& command = *program.add_subcommand("merge", "results of a sweep from several files into one");
   const auto arguments = std::make_shared<MergeArguments>();
-  command.add_option("OUT", arguments->out, "file to put them into (made when missing)")->required()->type_name("");
-  command.add_option("FILES", arguments->files, "files that `shakedown sweep` wrote")->required()->type_name("");
+  command.add_option("OUT", arguments->out, "file to put them into (made when missing)")
+      ->required()
+      ->type_name("");
+  command.add_option("FILES", arguments->files, "files that `shakedown sweep` wrote")
+      ->required()
+      ->type_name("");
   add_presentation(command, arguments->results);
   return {&command, [arguments] { return merge(*arguments); }};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a person asks first of a measured run beside a model: frequency, slope of the decay and the first peaks.
+// What a person asks first of a measured run beside a model: frequency, slope of the decay and the first
+// peaks.
 #pragma once
 #include <string>
 #include <vector>
@@ -20,9 +21,10 @@ struct DecayComparison {
   std::vector<MeasuredNumber> peaks;  ///< m, signed: the first ones
 };
 
-/// Measured and simulated motion are both read as levels of 50 ms, so that camera noise and smoothing tell on both alike. `runs`
-/// simulations for each measured run, numbered from first_run.
-std::vector<DecayComparison> compare_decay(const Experiment& experiment, const Audit& audit, const std::vector<Setup>& setups,
-                                           const Workshop& workshop, int runs, int first_run, int peaks = 4);
+/// Measured and simulated motion are both read as levels of 50 ms, so that camera noise and smoothing tell on
+/// both alike. `runs` simulations for each measured run, numbered from first_run.
+std::vector<DecayComparison> compare_decay(const Experiment& experiment, const Audit& audit,
+                                           const std::vector<Setup>& setups, const Workshop& workshop,
+                                           int runs, int first_run, int peaks = 4);
 
 }  // namespace shakedown

@@ -17,10 +17,12 @@ namespace shakedown {
 
 double Knob::at(double z) const { return std::clamp(centre + width * z, low, high); }
 
-std::vector<MeasuredFeatures> features_of(const Experiment& experiment, const Audit& audit, const std::vector<Setup>& setups) {
+std::vector<MeasuredFeatures> features_of(const Experiment& experiment, const Audit& audit,
+                                          const std::vector<Setup>& setups) {
   std::vector<MeasuredFeatures> measured;
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
-    MeasuredFeatures m{experiment.runs[r].name, setups[r], plan_features(experiment.runs[r], audit.runs[r]), {}};
+    MeasuredFeatures m{
+        experiment.runs[r].name, setups[r], plan_features(experiment.runs[r], audit.runs[r]), {}};
     m.values = measured_features(m.plan, audit.runs[r], experiment.runs[r]);
     m.setup.run.duration = std::max(0.5, m.plan.end + 0.05);
     m.setup.run.sample_rate = 500;
@@ -34,7 +36,8 @@ Eigen::VectorXd regression_terms(const std::vector<Knob>& knobs, const Eigen::Ve
   for (Eigen::Index k = 0; k < z.size(); ++k) terms.push_back(z[k]);
   for (std::size_t a = 0; a < knobs.size(); ++a)
     for (std::size_t b = a; b < knobs.size(); ++b)
-      if (knobs[a].curved && knobs[b].curved) terms.push_back(z[static_cast<Eigen::Index>(a)] * z[static_cast<Eigen::Index>(b)]);
+      if (knobs[a].curved && knobs[b].curved)
+        terms.push_back(z[static_cast<Eigen::Index>(a)] * z[static_cast<Eigen::Index>(b)]);
   for (std::size_t k = 0; k < knobs.size(); ++k)
     if (knobs[k].curved && knobs[k].cubic) terms.push_back(std::pow(z[static_cast<Eigen::Index>(k)], 3));
   return Eigen::Map<Eigen::VectorXd>(terms.data(), static_cast<Eigen::Index>(terms.size()));
@@ -44,7 +47,8 @@ void set_knob(Setup& setup, const Knob& knob, std::span<const EffectRecord* cons
   for (const std::string& key : joined_keys(knob.key)) set_number(setup, key, knob.at(0), known);
 }
 
-Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::VectorXd& z, std::span<const EffectRecord* const> known) {
+Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::VectorXd& z,
+               std::span<const EffectRecord* const> known) {
   Setup changed = setup;
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     Knob moved = knobs[k];
@@ -126,8 +130,10 @@ bool is_point(const std::vector<Knob>& knobs) {
   return std::all_of(knobs.begin(), knobs.end(), [](const Knob& knob) { return knob.width == 0; });
 }
 
-/// What simulations must share to be comparable: the setup but for the knobs' values, which knobs, and what is read off.
-std::string model_name(const Group& group, const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const Workshop& workshop) {
+/// What simulations must share to be comparable: the setup but for the knobs' values, which knobs, and what
+/// is read off.
+std::string model_name(const Group& group, const std::vector<MeasuredFeatures>& measured,
+                       const std::vector<Knob>& knobs, const Workshop& workshop) {
   Setup canonical = group.setup;
   canonical.run.duration = 1;
   std::string name;
@@ -136,7 +142,8 @@ std::string model_name(const Group& group, const std::vector<MeasuredFeatures>& 
     set_knob(canonical, knob, workshop.known);
     name += knob.key + ' ';
   }
-  for (const std::size_t m : group.members) name += measured[m].run + ' ' + std::to_string(measured[m].values.size()) + ' ';
+  for (const std::size_t m : group.members)
+    name += measured[m].run + ' ' + std::to_string(measured[m].values.size()) + ' ';
   return name + digest(canonical);
 }
 
@@ -156,26 +163,32 @@ struct Simulated {
   std::vector<Eigen::VectorXd> features;  // of each member
 };
 
-Simulated simulate(const Group& group, std::uint64_t stream, const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, int run,
-                   double sparse, const Workshop& workshop) {
+Simulated simulate(const Group& group, std::uint64_t stream, const std::vector<MeasuredFeatures>& measured,
+                   const std::vector<Knob>& knobs, int run, double sparse, const Workshop& workshop) {
   Simulated simulated{scatter(knobs, group.setup.run.seed + 7919 * stream, run, sparse), {}};
   Setup setup = setup_at(group.setup, knobs, simulated.z, workshop.known);
   setup.run.seed += 104729 * stream;
-  const auto recorded = [&] { return recorded_by(physics_of(setup).camera, run_surely(setup, run, workshop)); };
-  const auto recording = workshop.ensembles ? workshop.ensembles->recording(setup, run, recorded) : std::make_shared<const Recording>(recorded());
-  for (const std::size_t m : group.members) simulated.features.push_back(simulated_features(measured[m].plan, *recording));
+  const auto recorded = [&] {
+    return recorded_by(physics_of(setup).camera, run_surely(setup, run, workshop));
+  };
+  const auto recording = workshop.ensembles ? workshop.ensembles->recording(setup, run, recorded)
+                                            : std::make_shared<const Recording>(recorded());
+  for (const std::size_t m : group.members)
+    simulated.features.push_back(simulated_features(measured[m].plan, *recording));
   return simulated;
 }
 
 /// Adds what the pool has of this model in the box, and gives the pool what is new.
-void exchange(std::vector<Simulated>& simulated, const std::string& model, const std::vector<Knob>& knobs, SimulationPool& pool) {
+void exchange(std::vector<Simulated>& simulated, const std::string& model, const std::vector<Knob>& knobs,
+              SimulationPool& pool) {
   std::vector<PooledRun>& pooled = pool[model];
   const std::size_t fresh = simulated.size(), before = is_point(knobs) ? 0 : pooled.size();
   for (std::size_t i = 0; i < before; ++i)
     if (const auto z = place_in_box(pooled[i], knobs)) simulated.push_back({*z, pooled[i].features});
   for (std::size_t i = 0; i < fresh; ++i) {
     Eigen::VectorXd values(simulated[i].z.size());
-    for (Eigen::Index k = 0; k < values.size(); ++k) values[k] = knobs[static_cast<std::size_t>(k)].at(simulated[i].z[k]);
+    for (Eigen::Index k = 0; k < values.size(); ++k)
+      values[k] = knobs[static_cast<std::size_t>(k)].at(simulated[i].z[k]);
     pooled.push_back({values, simulated[i].features});
   }
 }
@@ -187,41 +200,51 @@ Eigen::MatrixXd Emulator::coefficients_without(Eigen::Index block, Eigen::Index 
   const auto left_out = Eigen::seqN(block, rows, blocks);
   const Eigen::MatrixXd x = terms(left_out, Eigen::all);
   const Eigen::MatrixXd wrong = residuals(left_out, Eigen::all) * std::sqrt(share_left(terms));
-  const Eigen::MatrixXd normal = inverse_normal.ldlt().solve(Eigen::MatrixXd::Identity(terms.cols(), terms.cols())) - x.transpose() * x;
+  const Eigen::MatrixXd normal =
+      inverse_normal.ldlt().solve(Eigen::MatrixXd::Identity(terms.cols(), terms.cols())) - x.transpose() * x;
   return coefficients - normal.ldlt().solve(x.transpose() * wrong);
 }
 
-std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, int count, int first_run,
-                              const Workshop& workshop, double sparse) {
+std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
+                              int count, int first_run, const Workshop& workshop, double sparse) {
   const std::vector<Group> groups = groups_of(measured);
-  std::vector<std::vector<Simulated>> simulated(groups.size(), std::vector<Simulated>(static_cast<std::size_t>(count)));
+  std::vector<std::vector<Simulated>> simulated(groups.size(),
+                                                std::vector<Simulated>(static_cast<std::size_t>(count)));
   const int groups_count = static_cast<int>(groups.size());
   // The longest runs are begun first: groups in turn, so that the last ones are spread over all.
-  work_in_parallel_deliver_in_order(count * groups_count, threads_or_all(workshop.threads), [&](int job) -> std::function<void()> {
-    const int row = job / groups_count;
-    const auto g = static_cast<std::size_t>(job % groups_count);
-    if (workshop.stop && *workshop.stop) throw Interrupted("interrupted");
-    simulated[g][static_cast<std::size_t>(row)] = simulate(groups[g], g, measured, knobs, first_run + row, sparse, workshop);
-    return [&] {
-      if (workshop.runs) ++*workshop.runs;
-      if (workshop.done) workshop.done(1);
-    };
-  });
+  work_in_parallel_deliver_in_order(
+      count * groups_count, threads_or_all(workshop.threads), [&](int job) -> std::function<void()> {
+        const int row = job / groups_count;
+        const auto g = static_cast<std::size_t>(job % groups_count);
+        if (workshop.stop && *workshop.stop) throw Interrupted("interrupted");
+        simulated[g][static_cast<std::size_t>(row)] =
+            simulate(groups[g], g, measured, knobs, first_run + row, sparse, workshop);
+        return [&] {
+          if (workshop.runs) ++*workshop.runs;
+          if (workshop.done) workshop.done(1);
+        };
+      });
   std::vector<Emulator> emulators(measured.size());
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    if (workshop.pool) exchange(simulated[g], model_name(groups[g], measured, knobs, workshop), knobs, *workshop.pool);
+    if (workshop.pool)
+      exchange(simulated[g], model_name(groups[g], measured, knobs, workshop), knobs, *workshop.pool);
     const auto rows = static_cast<Eigen::Index>(simulated[g].size());
     const std::vector<Knob> varied = is_point(knobs) ? std::vector<Knob>{} : knobs;
-    const auto n_terms = regression_terms(varied, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(varied.size()))).size();
+    const auto n_terms =
+        regression_terms(varied, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(varied.size()))).size();
     Eigen::MatrixXd terms(rows, n_terms);
     for (Eigen::Index i = 0; i < rows; ++i)
-      terms.row(i) = regression_terms(varied, simulated[g][static_cast<std::size_t>(i)].z.head(static_cast<Eigen::Index>(varied.size()))).transpose();
+      terms.row(i) = regression_terms(varied, simulated[g][static_cast<std::size_t>(i)].z.head(
+                                                  static_cast<Eigen::Index>(varied.size())))
+                         .transpose();
     for (std::size_t k = 0; k < groups[g].members.size(); ++k) {
       const std::size_t m = groups[g].members[k];
       Eigen::MatrixXd features(rows, measured[m].values.size());
-      for (Eigen::Index i = 0; i < rows; ++i) features.row(i) = simulated[g][static_cast<std::size_t>(i)].features[k].transpose();
+      for (Eigen::Index i = 0; i < rows; ++i)
+        features.row(i) = simulated[g][static_cast<std::size_t>(i)].features[k].transpose();
       emulators[m] = regress(terms, features);
-      if (workshop.fault == MethodFault::wrong_sign && !varied.empty()) emulators[m].coefficients.row(1) *= -1;
+      if (workshop.fault == MethodFault::wrong_sign && !varied.empty())
+        emulators[m].coefficients.row(1) *= -1;
     }
   }
   return emulators;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How the features of an experiment depend on parameters of the model. Runs of the engine at scattered parameter values (each its own
-// microstate) are regressed on those values: every run tells of every parameter at once, and what is left over is the chaos from
-// run to run. A regression replaces hundreds of ensembles on a grid.
+// How the features of an experiment depend on parameters of the model. Runs of the engine at scattered
+// parameter values (each its own microstate) are regressed on those values: every run tells of every
+// parameter at once, and what is left over is the chaos from run to run. A regression replaces hundreds of
+// ensembles on a grid.
 #pragma once
 #include <Eigen/Core>
 #include <atomic>
@@ -18,30 +19,34 @@
 
 namespace shakedown {
 
-/// A parameter that may be varied. `centre` +- `width` is where runs are scattered; values stay in [low, high].
+/// A parameter that may be varied. `centre` +- `width` is where runs are scattered; values stay in [low,
+/// high].
 struct Knob {
-  /// Setup path, e.g. "restitution.grain_grain"; several joined by "&" move together, e.g. both coefficients of grain_friction.
+  /// Setup path, e.g. "restitution.grain_grain"; several joined by "&" move together, e.g. both coefficients
+  /// of grain_friction.
   std::string key;
   double centre = 0, width = 0;
   double low = 0, high = 0;
   bool curved = true;  ///< the regression has a square of it, and products with the other curved ones
-  /// What is known of it beforehand: a normal distribution of this mean and standard deviation; 0: nothing is.
+  /// What is known of it beforehand: a normal distribution of this mean and standard deviation; 0: nothing
+  /// is.
   double believed = 0, believed_error = 0;
-  bool cubic = false;   ///< ... and a cube (with curved)
+  bool cubic = false;  ///< ... and a cube (with curved)
 
-  double at(double z) const;       ///< value at z in [-1, 1], kept in bounds
+  double at(double z) const;  ///< value at z in [-1, 1], kept in bounds
   double z_of(double value) const { return width > 0 ? (value - centre) / width : 0; }
 };
 
 /// The measured runs with what is needed to compare them; runs of equal setup share their simulations.
 struct MeasuredFeatures {
   std::string run;
-  Setup setup;             ///< of this run, its duration cut to what is looked at
+  Setup setup;  ///< of this run, its duration cut to what is looked at
   FeaturePlan plan;
   Eigen::VectorXd values;  ///< m
 };
 
-std::vector<MeasuredFeatures> features_of(const Experiment& experiment, const Audit& audit, const std::vector<Setup>& setups);
+std::vector<MeasuredFeatures> features_of(const Experiment& experiment, const Audit& audit,
+                                          const std::vector<Setup>& setups);
 
 struct Workshop {
   const Engine* engine = nullptr;
@@ -50,34 +55,40 @@ struct Workshop {
   const std::atomic<bool>* stop = nullptr;
   std::function<void(int runs)> done;  ///< told of finished simulations; may be empty
   std::int64_t* runs = nullptr;        ///< counts simulations; may be null
-  SimulationPool* pool = nullptr;      ///< what was simulated before, and where new simulations go; may be null
+  SimulationPool* pool = nullptr;  ///< what was simulated before, and where new simulations go; may be null
   MethodFault fault = MethodFault::none;
-  EnsembleCache* ensembles = nullptr;  ///< where simulations that other experiments repeat are kept; may be null
+  EnsembleCache* ensembles =
+      nullptr;  ///< where simulations that other experiments repeat are kept; may be null
 };
 
 /// Regression of one run's features on the knobs.
 struct Emulator {
   Eigen::MatrixXd coefficients;  ///< terms x features
-  Eigen::MatrixXd residuals;     ///< simulations x features, chaos from run to run, scaled to be unbiased in variance
-  Eigen::MatrixXd terms;         ///< simulations x terms
+  Eigen::MatrixXd
+      residuals;  ///< simulations x features, chaos from run to run, scaled to be unbiased in variance
+  Eigen::MatrixXd terms;           ///< simulations x terms
   Eigen::MatrixXd inverse_normal;  ///< terms x terms, (X'X)^-1: error of a prediction
 
   /// The coefficients without every `blocks`-th simulation from `block` on.
   Eigen::MatrixXd coefficients_without(Eigen::Index block, Eigen::Index blocks) const;
 };
 
-/// Terms of the regression at z (one entry a knob): 1, z, then squares and products of the curved ones, then cubes.
+/// Terms of the regression at z (one entry a knob): 1, z, then squares and products of the curved ones, then
+/// cubes.
 Eigen::VectorXd regression_terms(const std::vector<Knob>& knobs, const Eigen::VectorXd& z);
 
 /// Sets every key of the knob to its centre.
 void set_knob(Setup& setup, const Knob& knob, std::span<const EffectRecord* const> known);
 
 /// The setup with the knobs at z.
-Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::VectorXd& z, std::span<const EffectRecord* const> known);
+Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::VectorXd& z,
+               std::span<const EffectRecord* const> known);
 
-/// One emulator for each measured run from `count` simulations (of each different setup) scattered over the knobs' box, and those in the
-/// workshop's pool that lie in it; knobs of no width: all at the centre, the mean and the chaos of one ensemble. first_run addresses the random numbers of the new ones. A knob with `sparse` < 1 is moved in that fraction of the simulations only.
-std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, int count, int first_run,
-                              const Workshop& workshop, double sparse = 1);
+/// One emulator for each measured run from `count` simulations (of each different setup) scattered over the
+/// knobs' box, and those in the workshop's pool that lie in it; knobs of no width: all at the centre, the
+/// mean and the chaos of one ensemble. first_run addresses the random numbers of the new ones. A knob with
+/// `sparse` < 1 is moved in that fraction of the simulations only.
+std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
+                              int count, int first_run, const Workshop& workshop, double sparse = 1);
 
 }  // namespace shakedown

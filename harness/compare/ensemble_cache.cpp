@@ -5,7 +5,8 @@
 
 namespace shakedown {
 
-std::shared_ptr<const Recording> EnsembleCache::recording(const Setup& setup, int run, const std::function<Recording()>& simulate) {
+std::shared_ptr<const Recording> EnsembleCache::recording(const Setup& setup, int run,
+                                                          const std::function<Recording()>& simulate) {
   Setup timeless = setup;
   timeless.run.duration = 1;  // a longer run begins like a shorter one
   const std::string key = digest(timeless) + ' ' + std::to_string(run);

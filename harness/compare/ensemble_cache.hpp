@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recordings kept by the digest of setup and run: diagnoses of many experiments that begin with one setup simulate its ensemble once.
-// What a diagnosis answers does not depend on what is kept.
+// Recordings kept by the digest of setup and run: diagnoses of many experiments that begin with one setup
+// simulate its ensemble once. What a diagnosis answers does not depend on what is kept.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -16,9 +16,10 @@ namespace shakedown {
 
 class EnsembleCache {
  public:
-  /// The recording of run `run` of the setup, from what is kept or from `simulate`; at least as long as the setup's duration. May be called
-  /// from many threads.
-  std::shared_ptr<const Recording> recording(const Setup& setup, int run, const std::function<Recording()>& simulate);
+  /// The recording of run `run` of the setup, from what is kept or from `simulate`; at least as long as the
+  /// setup's duration. May be called from many threads.
+  std::shared_ptr<const Recording> recording(const Setup& setup, int run,
+                                             const std::function<Recording()>& simulate);
 
   std::int64_t reused() const { return reused_; }
 

@@ -35,7 +35,8 @@ struct Swing {
   }
   /// 0 at the release side's turning point, growing with time, in (-pi, pi].
   double phase(double t, double period) const {
-    const double speed = (at(t + period / 16) - at(t - period / 16)) / (period / 8) * period / (2 * std::numbers::pi);
+    const double speed =
+        (at(t + period / 16) - at(t - period / 16)) / (period / 8) * period / (2 * std::numbers::pi);
     return std::atan2(-speed, at(t));
   }
 };
@@ -51,12 +52,21 @@ Swing swing_of(const MeasuredFeatures& m) {
 }
 
 std::string amplitude_word(double amplitude) {
-  return amplitude > 0.06 ? "amplitude above 60 mm" : amplitude > 0.03 ? "amplitude 30 to 60 mm" : amplitude > 0.01 ? "amplitude 10 to 30 mm" : "amplitude below 10 mm";
+  return amplitude > 0.06   ? "amplitude above 60 mm"
+         : amplitude > 0.03 ? "amplitude 30 to 60 mm"
+         : amplitude > 0.01 ? "amplitude 10 to 30 mm"
+                            : "amplitude below 10 mm";
 }
 
 std::string phase_word(double phase) {
-  static const std::array<const char*, 8> words{"turning point on the release side", "leaving the release side", "mid-stroke inwards", "nearing the far side",
-                                                "turning point on the far side",     "leaving the far side",     "mid-stroke outwards", "nearing the release side"};
+  static const std::array<const char*, 8> words{"turning point on the release side",
+                                                "leaving the release side",
+                                                "mid-stroke inwards",
+                                                "nearing the far side",
+                                                "turning point on the far side",
+                                                "leaving the far side",
+                                                "mid-stroke outwards",
+                                                "nearing the release side"};
   const double octant = std::round(phase / (std::numbers::pi / 4));
   return std::string("phase: ") + words[static_cast<std::size_t>(static_cast<int>(octant) + 8) % 8];
 }
@@ -73,7 +83,8 @@ std::vector<Cell> cells_of(const std::vector<MeasuredFeatures>& measured) {
     std::map<std::pair<int, int>, Cell> of_run;  // observable; stretch, -1: whole
     std::map<double, double> centre;
     for (std::size_t f = 0; f < m.plan.features.size(); ++f)
-      if (m.plan.features[f].observable == Observable::centre) centre[m.plan.features[f].time] = m.values[static_cast<Eigen::Index>(f)];
+      if (m.plan.features[f].observable == Observable::centre)
+        centre[m.plan.features[f].time] = m.values[static_cast<Eigen::Index>(f)];
     double farthest = 0;
     if (swing.time.size() > 3)
       for (const auto& [time, x] : centre) farthest = std::max(farthest, std::abs(x - swing.at(time)));
@@ -82,16 +93,23 @@ std::vector<Cell> cells_of(const std::vector<MeasuredFeatures>& measured) {
       const std::pair<std::size_t, Eigen::Index> place{r, static_cast<Eigen::Index>(f)};
       const std::string observable = name_of(feature.observable);
       const int slot = static_cast<int>(feature.time / stretch), which = static_cast<int>(feature.observable);
-      of_run.try_emplace({which, -1}, Cell{m.run, observable, "whole run", 0, m.plan.end, {}}).first->second.features.push_back(place);
-      of_run.try_emplace({which, slot}, Cell{m.run, observable, "time", slot * stretch, (slot + 1) * stretch, {}}).first->second.features.push_back(place);
+      of_run.try_emplace({which, -1}, Cell{m.run, observable, "whole run", 0, m.plan.end, {}})
+          .first->second.features.push_back(place);
+      of_run
+          .try_emplace({which, slot},
+                       Cell{m.run, observable, "time", slot * stretch, (slot + 1) * stretch, {}})
+          .first->second.features.push_back(place);
       const auto in_all = [&](const std::string& what) {
-        of_all.try_emplace({observable, what}, Cell{"", observable, what, 0, 0, {}}).first->second.features.push_back(place);
+        of_all.try_emplace({observable, what}, Cell{"", observable, what, 0, 0, {}})
+            .first->second.features.push_back(place);
       };
       if (swing.time.size() <= 3) continue;
       in_all(amplitude_word(swing.amplitude(feature.time, period)));
       in_all(phase_word(swing.phase(feature.time, period)));
       if (const auto there = centre.find(feature.time); there != centre.end())
-        in_all(std::abs(there->second - swing.at(feature.time)) > 0.75 * farthest ? "landing (grains at an end wall)" : "flight (grains between the end walls)");
+        in_all(std::abs(there->second - swing.at(feature.time)) > 0.75 * farthest
+                   ? "landing (grains at an end wall)"
+                   : "flight (grains between the end walls)");
     }
     for (auto& [key, cell] : of_run) cells.push_back(std::move(cell));
   }
@@ -100,30 +118,45 @@ std::vector<Cell> cells_of(const std::vector<MeasuredFeatures>& measured) {
   return cells;
 }
 
-Eigen::VectorXd cell_sums(const std::vector<Cell>& cells, const std::vector<Eigen::VectorXd>& residuals, const std::vector<Eigen::VectorXd>& spreads) {
+Eigen::VectorXd cell_sums(const std::vector<Cell>& cells, const std::vector<Eigen::VectorXd>& residuals,
+                          const std::vector<Eigen::VectorXd>& spreads) {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(cells.size()));
   for (std::size_t c = 0; c < cells.size(); ++c)
-    for (const auto& [run, f] : cells[c].features) sums[static_cast<Eigen::Index>(c)] += std::pow(residuals[run][f] / spreads[run][f], 2);
+    for (const auto& [run, f] : cells[c].features)
+      sums[static_cast<Eigen::Index>(c)] += std::pow(residuals[run][f] / spreads[run][f], 2);
   return sums;
 }
 
-std::vector<FailureCell> judge_cells(const std::vector<Cell>& cells, const std::vector<Eigen::VectorXd>& residuals,
-                                     const std::vector<Eigen::VectorXd>& spreads, const Eigen::MatrixXd& pseudo) {
+std::vector<FailureCell> judge_cells(const std::vector<Cell>& cells,
+                                     const std::vector<Eigen::VectorXd>& residuals,
+                                     const std::vector<Eigen::VectorXd>& spreads,
+                                     const Eigen::MatrixXd& pseudo) {
   const Eigen::VectorXd sums = cell_sums(cells, residuals, spreads);
   const Eigen::RowVectorXd mean = pseudo.colwise().mean();
-  const Eigen::RowVectorXd deviation = ((pseudo.rowwise() - mean).colwise().squaredNorm() / std::max<double>(1, static_cast<double>(pseudo.rows() - 1))).cwiseSqrt();
-  const Eigen::VectorXd worst = ((pseudo.rowwise() - mean).array().rowwise() / deviation.array().max(1e-12)).rowwise().maxCoeff();
+  const Eigen::RowVectorXd deviation = ((pseudo.rowwise() - mean).colwise().squaredNorm() /
+                                        std::max<double>(1, static_cast<double>(pseudo.rows() - 1)))
+                                           .cwiseSqrt();
+  const Eigen::VectorXd worst =
+      ((pseudo.rowwise() - mean).array().rowwise() / deviation.array().max(1e-12)).rowwise().maxCoeff();
   std::vector<FailureCell> list;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const auto i = static_cast<Eigen::Index>(c);
     double squares = 0;
     for (const auto& [run, f] : cells[c].features) squares += std::pow(residuals[run][f], 2);
-    FailureCell cell{cells[c].run, cells[c].observable, cells[c].what, cells[c].from, cells[c].to,
-                     std::sqrt(squares / static_cast<double>(cells[c].features.size())), (sums[i] - mean[i]) / std::max(1e-12, deviation[i]), 1};
-    cell.p_value = static_cast<double>(1 + (worst.array() >= cell.sigmas).count()) / static_cast<double>(1 + pseudo.rows());
+    FailureCell cell{cells[c].run,
+                     cells[c].observable,
+                     cells[c].what,
+                     cells[c].from,
+                     cells[c].to,
+                     std::sqrt(squares / static_cast<double>(cells[c].features.size())),
+                     (sums[i] - mean[i]) / std::max(1e-12, deviation[i]),
+                     1};
+    cell.p_value = static_cast<double>(1 + (worst.array() >= cell.sigmas).count()) /
+                   static_cast<double>(1 + pseudo.rows());
     list.push_back(std::move(cell));
   }
-  std::stable_sort(list.begin(), list.end(), [](const FailureCell& a, const FailureCell& b) { return a.sigmas > b.sigmas; });
+  std::stable_sort(list.begin(), list.end(),
+                   [](const FailureCell& a, const FailureCell& b) { return a.sigmas > b.sigmas; });
   return list;
 }
 

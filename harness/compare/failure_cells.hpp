@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where a model fails: parts of an experiment (a stretch of time of one run, a phase of the swing, a range of amplitudes, landings) whose
-// residuals are larger than chaos and camera noise make them, with the number of parts looked at allowed for.
+// Where a model fails: parts of an experiment (a stretch of time of one run, a phase of the swing, a range of
+// amplitudes, landings) whose residuals are larger than chaos and camera noise make them, with the number of
+// parts looked at allowed for.
 #pragma once
 #include <string>
 #include <utility>
@@ -14,13 +15,15 @@ namespace shakedown {
 struct Cell {
   std::string run;         ///< empty: all runs
   std::string observable;  ///< "box" or "grain centre"
-  std::string what;        ///< "time", "phase", "amplitude", "landing", "flight" or "whole run", with its range in words
+  std::string
+      what;  ///< "time", "phase", "amplitude", "landing", "flight" or "whole run", with its range in words
   double from = 0, to = 0;  ///< s; 0 and 0 where the cell is no stretch of time
   std::vector<std::pair<std::size_t, Eigen::Index>> features;  ///< run and place in its features
 };
 
-/// Every cell with four features at least: each run whole and in stretches of 2 s, octants of the swing's phase, amplitudes above 60, 30, 10
-/// and below 10 mm, grains near an end wall (landing) or on their way (flight).
+/// Every cell with four features at least: each run whole and in stretches of 2 s, octants of the swing's
+/// phase, amplitudes above 60, 30, 10 and below 10 mm, grains near an end wall (landing) or on their way
+/// (flight).
 std::vector<Cell> cells_of(const std::vector<MeasuredFeatures>& measured);
 
 /// A cell and how badly the model fails there.
@@ -28,15 +31,19 @@ struct FailureCell {
   std::string run, observable, what;
   double from = 0, to = 0;  ///< s
   double error = 0;         ///< m, rms
-  double sigmas = 0;        ///< excess of its squares over their mean, in standard deviations, both from pseudo-experiments
-  double p_value = 1;       ///< family-wise: share of pseudo-experiments with any cell that bad
+  double sigmas =
+      0;  ///< excess of its squares over their mean, in standard deviations, both from pseudo-experiments
+  double p_value = 1;  ///< family-wise: share of pseudo-experiments with any cell that bad
 };
 
 /// Sum of squares of residual over spread in each cell; one residual and one spread for each run.
-Eigen::VectorXd cell_sums(const std::vector<Cell>& cells, const std::vector<Eigen::VectorXd>& residuals, const std::vector<Eigen::VectorXd>& spreads);
+Eigen::VectorXd cell_sums(const std::vector<Cell>& cells, const std::vector<Eigen::VectorXd>& residuals,
+                          const std::vector<Eigen::VectorXd>& spreads);
 
 /// The cells judged, worst first. `pseudo`: cell sums of pseudo-experiments, one row each.
-std::vector<FailureCell> judge_cells(const std::vector<Cell>& cells, const std::vector<Eigen::VectorXd>& residuals,
-                                     const std::vector<Eigen::VectorXd>& spreads, const Eigen::MatrixXd& pseudo);
+std::vector<FailureCell> judge_cells(const std::vector<Cell>& cells,
+                                     const std::vector<Eigen::VectorXd>& residuals,
+                                     const std::vector<Eigen::VectorXd>& spreads,
+                                     const Eigen::MatrixXd& pseudo);
 
 }  // namespace shakedown

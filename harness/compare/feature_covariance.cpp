@@ -3,7 +3,8 @@
 
 namespace shakedown {
 
-Eigen::MatrixXd feature_covariance(const Eigen::MatrixXd& residuals, const FeaturePlan& plan, double model_error) {
+Eigen::MatrixXd feature_covariance(const Eigen::MatrixXd& residuals, const FeaturePlan& plan,
+                                   double model_error) {
   constexpr double shrinkage = 0.4;
   Eigen::MatrixXd covariance = residuals.transpose() * residuals / static_cast<double>(residuals.rows());
   const Eigen::VectorXd variance = covariance.diagonal();

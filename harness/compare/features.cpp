@@ -33,8 +33,9 @@ std::vector<double> level_weights(const std::vector<double>& time, double middle
   return {weight.data(), weight.data() + weight.size()};
 }
 
-/// Until when a run tells something: the last frame farther than `rest` from where the box ends up, or one and a half times as far as it
-/// still swings there (a layer pressed on one wall by a steady force swings on without loss).
+/// Until when a run tells something: the last frame farther than `rest` from where the box ends up, or one
+/// and a half times as far as it still swings there (a layer pressed on one wall by a steady force swings on
+/// without loss).
 double end_of_motion(const MeasuredRun& run, const std::vector<double>& x_box, double rest) {
   std::vector<double> late;
   for (std::size_t i = 0; i < run.time.size(); ++i)
@@ -48,15 +49,17 @@ double end_of_motion(const MeasuredRun& run, const std::vector<double>& x_box, d
   return std::min(end + 1.0, run.time.back());
 }
 
-void add_features(Observable observable, const std::vector<double>& time, const std::vector<double>& x, const NoiseFound& noise, double end,
-                  double bin, std::size_t frames_of_a_bin, FeaturePlan& plan) {
+void add_features(Observable observable, const std::vector<double>& time, const std::vector<double>& x,
+                  const NoiseFound& noise, double end, double bin, std::size_t frames_of_a_bin,
+                  FeaturePlan& plan) {
   std::size_t i = 0;
   for (int k = 0; (k + 1) * bin <= end + 1e-9; ++k) {
     const double middle = (k + 0.5) * bin;
     FeaturePlan::Reading reading;
     for (; i < time.size() && time[i] < (k + 1) * bin - 1e-9; ++i)
       if (time[i] >= k * bin - 1e-9 && std::isfinite(x[i])) reading.time.push_back(time[i]);
-    const bool spans = !reading.time.empty() && reading.time.front() < middle - bin / 5 && reading.time.back() > middle + bin / 5;
+    const bool spans = !reading.time.empty() && reading.time.front() < middle - bin / 5 &&
+                       reading.time.back() > middle + bin / 5;
     if (reading.time.size() < std::max<std::size_t>(4, frames_of_a_bin / 2) || !spans) continue;
     reading.weight = level_weights(reading.time, middle);
     plan.features.push_back({observable, middle, noise_of(reading, noise)});
@@ -74,7 +77,8 @@ FeaturePlan plan_features(const MeasuredRun& run, const RunAudit& audit, double 
   const double width = std::max(bin, 8 * interval);
   const auto frames = static_cast<std::size_t>(width / interval);
   add_features(Observable::box, run.time, audit.x_box, audit.box, plan.end, width, frames, plan);
-  if (run.has_com()) add_features(Observable::centre, run.time, audit.x_com, audit.com, plan.end, width, frames, plan);
+  if (run.has_com())
+    add_features(Observable::centre, run.time, audit.x_com, audit.com, plan.end, width, frames, plan);
   return plan;
 }
 
@@ -83,7 +87,8 @@ Eigen::VectorXd measured_features(const FeaturePlan& plan, const RunAudit& audit
   for (std::size_t f = 0; f < plan.features.size(); ++f) {
     const std::vector<double>& x = plan.features[f].observable == Observable::box ? audit.x_box : audit.x_com;
     const FeaturePlan::Reading& reading = plan.readings[f];
-    std::size_t frame = static_cast<std::size_t>(std::lower_bound(run.time.begin(), run.time.end(), reading.time.front()) - run.time.begin());
+    std::size_t frame = static_cast<std::size_t>(
+        std::lower_bound(run.time.begin(), run.time.end(), reading.time.front()) - run.time.begin());
     double sum = 0;
     for (std::size_t i = 0; i < reading.time.size(); ++i) {
       while (run.time[frame] < reading.time[i]) ++frame;
@@ -99,11 +104,13 @@ Eigen::VectorXd simulated_features(const FeaturePlan& plan, const Recording& rec
   const double start = recording.time.front();
   const double rate = static_cast<double>(recording.time.size() - 1) / (recording.time.back() - start);
   for (std::size_t f = 0; f < plan.features.size(); ++f) {
-    const std::vector<double>& x = plan.features[f].observable == Observable::box ? recording.x_box : recording.x_com;
+    const std::vector<double>& x =
+        plan.features[f].observable == Observable::box ? recording.x_box : recording.x_com;
     const FeaturePlan::Reading& reading = plan.readings[f];
     double sum = 0;
     for (std::size_t i = 0; i < reading.time.size(); ++i) {
-      const double place = std::clamp((reading.time[i] - start) * rate, 0.0, static_cast<double>(x.size() - 1));
+      const double place =
+          std::clamp((reading.time[i] - start) * rate, 0.0, static_cast<double>(x.size() - 1));
       const auto k = std::min(static_cast<std::size_t>(place), x.size() - 2);
       const double part = place - static_cast<double>(k);
       sum += reading.weight[i] * (part == 0 ? x[k] : x[k] + part * (x[k + 1] - x[k]));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What of a recorded run is compared with a model: both positions in bins of 0.1 s. A bin's value is its level at the middle of the
-// bin, by a parabola through its frames, so that lost frames do not shift it; simulated series are read at the very same frames.
+// What of a recorded run is compared with a model: both positions in bins of 0.1 s. A bin's value is its
+// level at the middle of the bin, by a parabola through its frames, so that lost frames do not shift it;
+// simulated series are read at the very same frames.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -31,7 +32,8 @@ struct FeaturePlan {
 };
 
 /// Bins from release to the end of what still moves: the last peak above `rest` (m), and one second more.
-FeaturePlan plan_features(const MeasuredRun& run, const RunAudit& audit, double rest = 4e-3, double bin = 0.1);
+FeaturePlan plan_features(const MeasuredRun& run, const RunAudit& audit, double rest = 4e-3,
+                          double bin = 0.1);
 
 /// The features of the measured run itself.
 Eigen::VectorXd measured_features(const FeaturePlan& plan, const RunAudit& audit, const MeasuredRun& run);

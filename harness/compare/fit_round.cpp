@@ -16,18 +16,24 @@ constexpr int pseudo_experiments = 400;
 
 }  // namespace
 
-FitRound::FitRound(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, std::vector<Emulator> emulators,
-                   const RefitOptions& options, MethodFault fault)
-    : measured_(measured), knobs_(knobs), in_sample_(fault == MethodFault::in_sample), emulators_(std::move(emulators)) {
+FitRound::FitRound(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
+                   std::vector<Emulator> emulators, const RefitOptions& options, MethodFault fault)
+    : measured_(measured),
+      knobs_(knobs),
+      in_sample_(fault == MethodFault::in_sample),
+      emulators_(std::move(emulators)) {
   for (std::size_t r = 0; r < measured.size(); ++r) {
     const Eigen::MatrixXd& residuals = emulators_[r].residuals;
     const Eigen::MatrixXd covariance =
-        feature_covariance(residuals.topRows(in_sample_ ? residuals.rows() : residuals.rows() / 2), measured[r].plan, options.model_error * measured[r].setup.release.displacement);
+        feature_covariance(residuals.topRows(in_sample_ ? residuals.rows() : residuals.rows() / 2),
+                           measured[r].plan, options.model_error * measured[r].setup.release.displacement);
     Whitened w{Eigen::LLT<Eigen::MatrixXd>(covariance), {}, covariance.diagonal().cwiseSqrt()};
     w.model = w.root.matrixL().solve(emulators_[r].coefficients.transpose());
-    w.chaos = w.root.matrixL().solve(unseen(r).transpose()).squaredNorm() / static_cast<double>(unseen(r).rows());
+    w.chaos =
+        w.root.matrixL().solve(unseen(r).transpose()).squaredNorm() / static_cast<double>(unseen(r).rows());
     Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(covariance.rows(), covariance.cols());
-    for (Eigen::Index f = 0; f < noise.rows(); ++f) noise(f, f) = measured[r].plan.features[static_cast<std::size_t>(f)].noise;
+    for (Eigen::Index f = 0; f < noise.rows(); ++f)
+      noise(f, f) = measured[r].plan.features[static_cast<std::size_t>(f)].noise;
     w.expected = w.chaos + w.root.matrixL().solve(noise).squaredNorm();
     whitened_.push_back(std::move(w));
   }
@@ -70,7 +76,8 @@ void FitRound::calibrate(const Eigen::VectorXd& z, double observed, Refit& resul
     for (std::size_t r = 0; r < measured_.size(); ++r) {
       const auto row = static_cast<Eigen::Index>(random.uniform() * static_cast<double>(unseen(r).rows()));
       Eigen::VectorXd value = model(r, z) + unseen(r).row(row).transpose();
-      for (Eigen::Index f = 0; f < value.size(); ++f) value[f] += measured_[r].plan.features[static_cast<std::size_t>(f)].noise * random.normal();
+      for (Eigen::Index f = 0; f < value.size(); ++f)
+        value[f] += measured_[r].plan.features[static_cast<std::size_t>(f)].noise * random.normal();
       values.push_back(std::move(value));
     }
     const Objective pseudo = objective_of(values, false);
@@ -92,8 +99,10 @@ void FitRound::calibrate(const Eigen::VectorXd& z, double observed, Refit& resul
 void FitRound::hold_out(Refit& result, const std::vector<Rule>& rules) const {
   std::vector<double> lengths;
   for (const MeasuredFeatures& m : measured_)
-    if (std::find(lengths.begin(), lengths.end(), m.setup.box.length) == lengths.end()) lengths.push_back(m.setup.box.length);
-  result.held_out_error_box = result.held_out_error_centre = result.held_out_chi2 = result.judged_held_out_chi2 = std::nan("");
+    if (std::find(lengths.begin(), lengths.end(), m.setup.box.length) == lengths.end())
+      lengths.push_back(m.setup.box.length);
+  result.held_out_error_box = result.held_out_error_centre = result.held_out_chi2 =
+      result.judged_held_out_chi2 = std::nan("");
   if (lengths.size() < 2) return;
   double box = 0, centre = 0, chi2 = 0, judged = 0;
   for (const double length : lengths) {
@@ -130,7 +139,8 @@ Eigen::MatrixXd FitRound::covariance_at(const Eigen::VectorXd& z, double open) c
     const Eigen::MatrixXd chaos = unseen(r) * weights;
     gradient += inflation * chaos.transpose() * chaos / static_cast<double>(chaos.rows());
     for (Eigen::Index f = 0; f < weights.rows(); ++f)
-      gradient += std::pow(measured_[r].plan.features[static_cast<std::size_t>(f)].noise, 2) * weights.row(f).transpose() * weights.row(f);
+      gradient += std::pow(measured_[r].plan.features[static_cast<std::size_t>(f)].noise, 2) *
+                  weights.row(f).transpose() * weights.row(f);
   }
   for (Eigen::Index a = 0; a < n; ++a) {
     const Knob& knob = knobs_[static_cast<std::size_t>(a)];
@@ -140,7 +150,9 @@ Eigen::MatrixXd FitRound::covariance_at(const Eigen::VectorXd& z, double open) c
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(information);
   const Eigen::VectorXd inverse = axes.eigenvalues().array().max(1 / (open * open)).inverse().matrix();
-  Eigen::MatrixXd covariance = inverse.asDiagonal() * (axes.eigenvectors().transpose() * gradient * axes.eigenvectors()) * inverse.asDiagonal();
+  Eigen::MatrixXd covariance = inverse.asDiagonal() *
+                               (axes.eigenvectors().transpose() * gradient * axes.eigenvectors()) *
+                               inverse.asDiagonal();
   const Eigen::VectorXd within = (open / covariance.diagonal().array().sqrt()).min(1.0).matrix();
   covariance = within.asDiagonal() * covariance * within.asDiagonal();
   return axes.eigenvectors() * covariance * axes.eigenvectors().transpose();
@@ -154,7 +166,8 @@ Eigen::MatrixXd FitRound::emulator_scatter(const Eigen::VectorXd& z) const {
     objective.square.setZero();
     objective.cross.setZero();
     for (std::size_t r = 0; r < measured_.size(); ++r) {
-      const Eigen::MatrixXd model = whitened_[r].root.matrixL().solve(emulators_[r].coefficients_without(block, blocks).transpose());
+      const Eigen::MatrixXd model =
+          whitened_[r].root.matrixL().solve(emulators_[r].coefficients_without(block, blocks).transpose());
       objective.square += model.transpose() * model;
       objective.cross += model.transpose() * whitened_[r].root.matrixL().solve(measured_[r].values);
     }
@@ -166,9 +179,11 @@ Eigen::MatrixXd FitRound::emulator_scatter(const Eigen::VectorXd& z) const {
 
 double FitRound::judged_chi2(std::size_t r, const Eigen::VectorXd& z, const Rule& rule) const {
   const Eigen::VectorXd phi = regression_terms(knobs_, z);
-  const double error = phi.dot(emulators_[r].inverse_normal * phi) / static_cast<double>(emulators_[r].residuals.rows());
+  const double error =
+      phi.dot(emulators_[r].inverse_normal * phi) / static_cast<double>(emulators_[r].residuals.rows());
   const double wrong = rule.root.matrixL().solve(emulators_[r].residuals.transpose()).squaredNorm() * error;
-  return rule.root.matrixL().solve(measured_[r].values - model(r, z)).squaredNorm() * rule.expected / (rule.expected + wrong);
+  return rule.root.matrixL().solve(measured_[r].values - model(r, z)).squaredNorm() * rule.expected /
+         (rule.expected + wrong);
 }
 
 std::vector<Rule> FitRound::rules_of(const Refit* other) const {
@@ -202,7 +217,8 @@ std::vector<Eigen::VectorXd> FitRound::measured_values() const {
   return values;
 }
 
-Objective FitRound::objective_of(const std::vector<Eigen::VectorXd>& values, bool measured, const std::vector<char>& used) const {
+Objective FitRound::objective_of(const std::vector<Eigen::VectorXd>& values, bool measured,
+                                 const std::vector<char>& used) const {
   const Eigen::Index terms = emulators_.front().coefficients.rows();
   Objective objective{&knobs_, Eigen::MatrixXd::Zero(terms, terms), Eigen::VectorXd::Zero(terms), 0, 0};
   if (measured) objective.error = Eigen::MatrixXd::Zero(terms, terms);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One round of a fit: what a batch of scattered simulations tells of the measured runs, and what can be asked of it.
+// One round of a fit: what a batch of scattered simulations tells of the measured runs, and what can be asked
+// of it.
 #pragma once
 #include <Eigen/Cholesky>
 #include <vector>
@@ -17,7 +18,8 @@ struct Whitened {
   Eigen::LLT<Eigen::MatrixXd> root;
   Eigen::MatrixXd model;  ///< L^-1 times the emulator's coefficients, features x terms
   Eigen::VectorXd spread;
-  double chaos = 0;     ///< mean square of a simulation's whitened chaos, from simulations that the covariance has not seen
+  double chaos =
+      0;  ///< mean square of a simulation's whitened chaos, from simulations that the covariance has not seen
   double expected = 0;  ///< of the whitened sum: chaos and camera noise
 };
 
@@ -30,30 +32,34 @@ struct Rule {
 class FitRound {
  public:
   /// `measured` and `knobs` must outlive it. The first half of each emulator's simulations gives the weights.
-  FitRound(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, std::vector<Emulator> emulators,
-           const RefitOptions& options, MethodFault fault = MethodFault::none);
+  FitRound(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
+           std::vector<Emulator> emulators, const RefitOptions& options,
+           MethodFault fault = MethodFault::none);
 
   const Objective& objective() const { return objective_; }
 
-  /// Linear emulators about z, of simulations made there (regressions on nothing) and this round's slopes, by one width of each knob.
+  /// Linear emulators about z, of simulations made there (regressions on nothing) and this round's slopes, by
+  /// one width of each knob.
   std::vector<Emulator> recentred(const Eigen::VectorXd& z, std::vector<Emulator> there) const;
   Eigen::VectorXd model(std::size_t r, const Eigen::VectorXd& z) const;
 
-  /// The smallest sum over pseudo-experiments: the model at z, a simulation that the covariance has not seen for each run, and camera
-  /// noise.
+  /// The smallest sum over pseudo-experiments: the model at z, a simulation that the covariance has not seen
+  /// for each run, and camera noise.
   void calibrate(const Eigen::VectorXd& z, double observed, Refit& result) const;
 
   /// Predicts each box length from the others, with the same simulations.
   void hold_out(Refit& result, const std::vector<Rule>& rules) const;
 
-  /// Covariance of the fitted z, the sandwich A^-1 B A^-1. A: the sensitivities' square less what the emulator's error adds to it (second
-  /// derivatives times residuals are mostly noise of the emulator). B: what chaos that the weights have not seen, camera noise and the
-  /// emulator's error make of the gradient; weights that are far from the best make B larger than A. A direction that the data leave
-  /// open gets the size of the searched box.
+  /// Covariance of the fitted z, the sandwich A^-1 B A^-1. A: the sensitivities' square less what the
+  /// emulator's error adds to it (second derivatives times residuals are mostly noise of the emulator). B:
+  /// what chaos that the weights have not seen, camera noise and the emulator's error make of the gradient;
+  /// weights that are far from the best make B larger than A. A direction that the data leave open gets the
+  /// size of the searched box.
   Eigen::MatrixXd covariance_at(const Eigen::VectorXd& z, double open) const;
 
-  /// Covariance of the fitted z from the emulators' own noise, by the jackknife: what simulations left out do to the minimum near z. To first
-  /// order covariance_at() has it; along a valley, where noise makes the slope, it is more.
+  /// Covariance of the fitted z from the emulators' own noise, by the jackknife: what simulations left out do
+  /// to the minimum near z. To first order covariance_at() has it; along a valley, where noise makes the
+  /// slope, it is more.
   Eigen::MatrixXd emulator_scatter(const Eigen::VectorXd& z) const;
 
   /// A run's chi2 by another fit's rule, the emulator's own error taken off.
@@ -70,7 +76,8 @@ class FitRound {
   std::vector<Eigen::VectorXd> measured_values() const;
 
   /// `measured`: allows for the emulator's own error, which values that it has made itself do not have.
-  Objective objective_of(const std::vector<Eigen::VectorXd>& values, bool measured, const std::vector<char>& used = {}) const;
+  Objective objective_of(const std::vector<Eigen::VectorXd>& values, bool measured,
+                         const std::vector<char>& used = {}) const;
 
   /// The rows of a run's residuals that the weights have not seen.
   auto unseen(std::size_t r) const {

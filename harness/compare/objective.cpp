@@ -35,7 +35,8 @@ double Objective::disbelief(const Eigen::VectorXd& z) const {
   double sum = 0;
   for (std::size_t k = 0; k < knobs->size(); ++k) {
     const Knob& knob = (*knobs)[k];
-    if (knob.believed_error > 0) sum += std::pow((knob.at(z[static_cast<Eigen::Index>(k)]) - knob.believed) / knob.believed_error, 2);
+    if (knob.believed_error > 0)
+      sum += std::pow((knob.at(z[static_cast<Eigen::Index>(k)]) - knob.believed) / knob.believed_error, 2);
   }
   return sum;
 }
@@ -59,7 +60,10 @@ Minimum minimum_of(const Objective& objective, double farthest, int starts, cons
     Random random(17, static_cast<std::uint64_t>(start), Stream::other);
     std::vector<double> z;
     for (std::size_t k = 0; k < knobs.size(); ++k)
-      z.push_back(std::clamp(start > 0 ? 1.6 * random.uniform() - 0.8 : first.size() > 0 ? first[static_cast<Eigen::Index>(k)] : 0.0, low[k], high[k]));
+      z.push_back(std::clamp(start > 0          ? 1.6 * random.uniform() - 0.8
+                             : first.size() > 0 ? first[static_cast<Eigen::Index>(k)]
+                                                : 0.0,
+                             low[k], high[k]));
     nlopt::opt search(nlopt::LD_SLSQP, static_cast<unsigned>(knobs.size()));
     search.set_lower_bounds(low);
     search.set_upper_bounds(high);
@@ -73,7 +77,8 @@ Minimum minimum_of(const Objective& objective, double farthest, int starts, cons
       std::vector<double> none;
       value = evaluate(z, none, const_cast<Objective*>(&objective));
     }
-    if (start == 0 || value < best.value) best = {Eigen::Map<Eigen::VectorXd>(z.data(), static_cast<Eigen::Index>(z.size())), value};
+    if (start == 0 || value < best.value)
+      best = {Eigen::Map<Eigen::VectorXd>(z.data(), static_cast<Eigen::Index>(z.size())), value};
   }
   return best;
 }

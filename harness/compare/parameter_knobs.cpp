@@ -13,11 +13,16 @@ std::vector<Knob> as_given(const Setup& setup) {
 }
 
 std::vector<Knob> free_parameters(const Setup& setup, double frequency, double width) {
-  const auto restitution = [](const char* key, double value) { return Knob{key, value, 0.15, 0.3, 0.999, true, value, believed_restitution}; };
-  return {restitution("restitution.grain_grain", setup.restitution.grain_grain), restitution("restitution.grain_wall", setup.restitution.grain_wall),
+  const auto restitution = [](const char* key, double value) {
+    return Knob{key, value, 0.15, 0.3, 0.999, true, value, believed_restitution};
+  };
+  return {restitution("restitution.grain_grain", setup.restitution.grain_grain),
+          restitution("restitution.grain_wall", setup.restitution.grain_wall),
           {"spring.frequency", frequency, width, 0.5 * frequency, 2 * frequency, true}};
 }
 
-std::vector<Knob> free_parameters(const Setup& setup) { return free_parameters(setup, setup.spring.frequency, 0.01 * setup.spring.frequency); }
+std::vector<Knob> free_parameters(const Setup& setup) {
+  return free_parameters(setup, setup.spring.frequency, 0.01 * setup.spring.frequency);
+}
 
 }  // namespace shakedown

@@ -7,18 +7,20 @@
 
 namespace shakedown {
 
-/// How far restitutions (absolute) and the spring's frequency (relative) of two codes of the same physics may lie apart before their
-/// motions do: contacts of 0.3 ms instead of none move the slope of the decay by 0.7 %, as much as 0.004 in both restitutions.
+/// How far restitutions (absolute) and the spring's frequency (relative) of two codes of the same physics may
+/// lie apart before their motions do: contacts of 0.3 ms instead of none move the slope of the decay by 0.7
+/// %, as much as 0.004 in both restitutions.
 constexpr double code_restitution = 0.004, code_frequency = 1e-4;
 
-/// What the user's restitutions are worth beforehand: it decides only along valleys that the data leave open. Restitutions of .42 and .94
-/// imitate friction of .3 between grains of .75 and .76 to within 3 % of chi2.
+/// What the user's restitutions are worth beforehand: it decides only along valleys that the data leave open.
+/// Restitutions of .42 and .94 imitate friction of .3 between grains of .75 and .76 to within 3 % of chi2.
 constexpr double believed_restitution = 0.1;
 
 /// The parameters as given, as far as two codes of the same physics agree on what they mean.
 std::vector<Knob> as_given(const Setup& setup);
 
-/// What a user may refit, about the setup's values; the spring's about `frequency` (Hz), which the momentum balance may know better, within
+/// What a user may refit, about the setup's values; the spring's about `frequency` (Hz), which the momentum
+/// balance may know better, within
 /// +- width (Hz).
 std::vector<Knob> free_parameters(const Setup& setup, double frequency, double width);
 std::vector<Knob> free_parameters(const Setup& setup);

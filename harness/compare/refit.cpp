@@ -14,8 +14,8 @@ namespace shakedown {
 namespace {
 
 constexpr int most_looks = 2;
-/// How far (in boxes) the regression's slopes are trusted about simulations at one point, and the share of chi2 that a step must promise to be worth
-/// simulations of its own at its end.
+/// How far (in boxes) the regression's slopes are trusted about simulations at one point, and the share of
+/// chi2 that a step must promise to be worth simulations of its own at its end.
 constexpr double nearby = 0.5, step_gain = 0.1;
 /// Scatter that no other place along a valley mends.
 constexpr double beyond_a_valley = 2;
@@ -52,23 +52,27 @@ std::vector<Knob> centred_at(const Eigen::VectorXd& z, std::vector<Knob> knobs) 
   return knobs;
 }
 
-std::vector<Emulator> simulated(std::vector<Knob> knobs, int count, int first_run, const std::vector<MeasuredFeatures>& measured, const Workshop& workshop) {
+std::vector<Emulator> simulated(std::vector<Knob> knobs, int count, int first_run,
+                                const std::vector<MeasuredFeatures>& measured, const Workshop& workshop) {
   for (Knob& knob : knobs) knob.width = 0;
   return emulate(measured, knobs, count, first_run, workshop);
 }
 
-/// Simulations at one point, and what the regression's slopes make of their mean: the regression itself, led by what it cannot follow, may miss the
-/// minimum near by.
+/// Simulations at one point, and what the regression's slopes make of their mean: the regression itself, led
+/// by what it cannot follow, may miss the minimum near by.
 struct Confirmed {
   std::vector<Knob> about;
   FitRound round;
   Eigen::VectorXd minimum;
   double chi2_here, chi2_there;
 
-  Confirmed(const Eigen::VectorXd& z, int first_run, const FitRound& emulated, const std::vector<MeasuredFeatures>& measured, const Workshop& workshop,
+  Confirmed(const Eigen::VectorXd& z, int first_run, const FitRound& emulated,
+            const std::vector<MeasuredFeatures>& measured, const Workshop& workshop,
             const RefitOptions& options, const std::vector<Knob>& knobs)
       : about(centred_at(z, knobs)),
-        round(measured, about, emulated.recentred(z, simulated(about, options.confirming, first_run, measured, workshop)), options, workshop.fault),
+        round(measured, about,
+              emulated.recentred(z, simulated(about, options.confirming, first_run, measured, workshop)),
+              options, workshop.fault),
         minimum(minimum_of(round.objective(), nearby, 1).z),
         chi2_here(round.objective().chi2(Eigen::VectorXd::Zero(z.size()))),
         chi2_there(round.objective().chi2(minimum)) {}
@@ -77,20 +81,24 @@ struct Confirmed {
 
   bool worth_a_step() const { return chi2_there < (1 - step_gain) * chi2_here; }
   /// A minimum that promises much is not believed before simulations have seen it.
-  Eigen::VectorXd solution() const { return worth_a_step() ? Eigen::VectorXd::Zero(minimum.size()).eval() : minimum; }
+  Eigen::VectorXd solution() const {
+    return worth_a_step() ? Eigen::VectorXd::Zero(minimum.size()).eval() : minimum;
+  }
   double chi2() const { return worth_a_step() ? chi2_here : chi2_there; }
 };
 
 /// Simulations at the solution judge it, and move it (a step of Gauss and Newton).
-void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& measured, const Workshop& workshop, const RefitOptions& options,
-             const Eigen::VectorXd& z, Refit& result) {
+void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& measured,
+             const Workshop& workshop, const RefitOptions& options, const Eigen::VectorXd& z, Refit& result) {
   result.promised_scatter = result.scatter;
   result.promised_chi2 = result.judged_chi2;
   const int first_run = options.first_run + 9000;
   const Confirmed first(z, first_run, emulated, measured, workshop, options, result.knobs);
   std::optional<Confirmed> second;
-  if (first.worth_a_step()) second.emplace(z + first.minimum, first_run + 250, emulated, measured, workshop, options, result.knobs);
-  const Confirmed& best = second && second->chi2() < first.chi2() ? *second : first;  // what the slopes promised may not be there
+  if (first.worth_a_step())
+    second.emplace(z + first.minimum, first_run + 250, emulated, measured, workshop, options, result.knobs);
+  // what the slopes promised may not be there
+  const Confirmed& best = second && second->chi2() < first.chi2() ? *second : first;
   const Eigen::VectorXd solution = best.solution();
   judge_at(best.round, measured.size(), solution, result);
   for (std::size_t k = 0; k < best.about.size(); ++k)
@@ -98,11 +106,13 @@ void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& meas
   result.covariances = best.round.covariances();
   const std::vector<Rule> rules = best.round.rules_of(options.judged_by);
   result.judged_chi2 = 0;
-  for (std::size_t r = 0; r < measured.size(); ++r) result.judged_chi2 += best.round.judged_chi2(r, solution, rules[r]);
+  for (std::size_t r = 0; r < measured.size(); ++r)
+    result.judged_chi2 += best.round.judged_chi2(r, solution, rules[r]);
 }
 
-Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const Minimum& minimum,
-                const Workshop& workshop, const RefitOptions& options) {
+Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& measured,
+                const std::vector<Knob>& knobs, const Minimum& minimum, const Workshop& workshop,
+                const RefitOptions& options) {
   Refit result;
   result.knobs = knobs;
   judge_at(round, measured.size(), minimum.z, result);
@@ -118,38 +128,46 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(covariance);  // in units of the box
     const Eigen::Index least = covariance.rows() - 1;
     result.least_known = axes.eigenvectors().col(least) * std::sqrt(std::max(0.0, axes.eigenvalues()[least]));
-    for (std::size_t k = 0; k < knobs.size(); ++k) result.least_known[static_cast<Eigen::Index>(k)] *= knobs[k].width;
+    for (std::size_t k = 0; k < knobs.size(); ++k)
+      result.least_known[static_cast<Eigen::Index>(k)] *= knobs[k].width;
   }
   const std::vector<Rule> own = round.rules_of(options.judged_by);
-  for (std::size_t r = 0; r < measured.size(); ++r) result.judged_chi2 += round.judged_chi2(r, minimum.z, own[r]);
+  for (std::size_t r = 0; r < measured.size(); ++r)
+    result.judged_chi2 += round.judged_chi2(r, minimum.z, own[r]);
   result.covariances = round.covariances();
-  if (options.confirming > 0 && !knobs.empty()) confirm(round, measured, workshop, options, minimum.z, result);
+  if (options.confirming > 0 && !knobs.empty())
+    confirm(round, measured, workshop, options, minimum.z, result);
   // Lengths left out are fitted anew, which only the emulators can do.
   round.hold_out(result, round.rules_of(options.judged_by ? options.judged_by : &result));
   return result;
 }
 
-/// The box for the next round: about the solution, as wide as what is still open, so that a long valley is seen whole.
-/// Never much wider than the first one allowed: a regression over more than it can follow takes its own misfit for chaos.
-std::vector<Knob> next_box(std::vector<Knob> knobs, const Minimum& minimum, const Eigen::MatrixXd& covariance, const std::vector<Knob>& first) {
+/// The box for the next round: about the solution, as wide as what is still open, so that a long valley is
+/// seen whole. Never much wider than the first one allowed: a regression over more than it can follow takes
+/// its own misfit for chaos.
+std::vector<Knob> next_box(std::vector<Knob> knobs, const Minimum& minimum, const Eigen::MatrixXd& covariance,
+                           const std::vector<Knob>& first) {
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     const double z = minimum.z[i], open = 2 * std::sqrt(covariance(i, i));
     knobs[k].centre = knobs[k].at(z);
-    knobs[k].width = std::min(knobs[k].width * std::clamp(open, std::abs(z) < 0.8 ? 0.25 : 1.0, 1.5), 0.6 * first[k].width);
+    knobs[k].width = std::min(knobs[k].width * std::clamp(open, std::abs(z) < 0.8 ? 0.25 : 1.0, 1.5),
+                              0.6 * first[k].width);
   }
   return knobs;
 }
 
-/// Where to look next, about the best solution so far: nearer where the emulator was misled; along a valley 1.5 standard errors to one side,
-/// then to the other. Empty: no need.
-std::vector<Knob> next_look(const Refit& latest, const Refit& best, const std::vector<Knob>& last, const RefitOptions& options, int looks) {
+/// Where to look next, about the best solution so far: nearer where the emulator was misled; along a
+/// valley 1.5 standard errors to one side, then to the other. Empty: no need.
+std::vector<Knob> next_look(const Refit& latest, const Refit& best, const std::vector<Knob>& last,
+                            const RefitOptions& options, int looks) {
   const bool nearer = misled(latest) && latest.promised_chi2 < options.look_again_below;
   const bool beside_it = best.p_value <= options.look_beside_below && best.scatter < beyond_a_valley;
   if (options.confirming == 0 || last.empty() || looks >= most_looks || !(nearer || beside_it)) return {};
   std::vector<Knob> knobs = last;
   for (std::size_t k = 0; k < knobs.size(); ++k) {
-    const double beside = nearer ? 0 : (looks % 2 == 0 ? 1.5 : -1.5) * best.least_known[static_cast<Eigen::Index>(k)];
+    const double beside =
+        nearer ? 0 : (looks % 2 == 0 ? 1.5 : -1.5) * best.least_known[static_cast<Eigen::Index>(k)];
     knobs[k].centre = std::clamp(best.values[k].value + beside, knobs[k].low, knobs[k].high);
     if (nearer) knobs[k].width *= 0.5;
   }
@@ -166,7 +184,9 @@ void set_errors(RunComparison& run, const FeaturePlan& plan) {
     spread[observable] += run.spread[f] * run.spread[f];
     ++count[observable];
   }
-  const auto root = [&](double sum, std::size_t which) { return count[which] > 0 ? std::sqrt(sum / count[which]) : 0.0; };
+  const auto root = [&](double sum, std::size_t which) {
+    return count[which] > 0 ? std::sqrt(sum / count[which]) : 0.0;
+  };
   run.error_box = root(squares[0], 0), run.error_centre = root(squares[1], 1);
   run.floor_box = root(spread[0], 0), run.floor_centre = root(spread[1], 1);
 }
@@ -176,7 +196,8 @@ double Refit::error_centre() const { return root_mean_square(runs, &RunCompariso
 double Refit::floor_box() const { return root_mean_square(runs, &RunComparison::floor_box); }
 double Refit::floor_centre() const { return root_mean_square(runs, &RunComparison::floor_centre); }
 
-Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs, const Workshop& workshop, const RefitOptions& options) {
+Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs, const Workshop& workshop,
+            const RefitOptions& options) {
   const std::vector<Knob> first = knobs;
   SimulationPool of_this_fit;
   Workshop pooling = workshop;
@@ -185,9 +206,13 @@ Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> kno
   int looks = 0;
   for (int number = 1;; ++number) {
     const std::vector<Knob> here = knobs;
-    // Rounds that only find the way, or look again where many were made, need fewer simulations than the one that judges.
-    const int count = knobs.empty() || (number >= options.rounds && !best) ? options.count : std::max(64, options.count / 2);
-    const FitRound round(measured, here, emulate(measured, here, count, options.first_run + 10000 * number, pooling), options, workshop.fault);
+    // Rounds that only find the way, or look again where many were made, need fewer simulations than the one
+    // that judges.
+    const int count = knobs.empty() || (number >= options.rounds && !best) ? options.count
+                                                                           : std::max(64, options.count / 2);
+    const FitRound round(measured, here,
+                         emulate(measured, here, count, options.first_run + 10000 * number, pooling), options,
+                         workshop.fault);
     const Minimum minimum = minimum_of(round.objective(), reach, knobs.empty() ? 1 : 6);
     bool left_the_box = false;
     for (std::size_t k = 0; k < knobs.size(); ++k) {
@@ -195,7 +220,8 @@ Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> kno
       const bool inner = here[k].at(z) > here[k].low && here[k].at(z) < here[k].high;
       left_the_box = left_the_box || (std::abs(z) > 1.05 && inner);
     }
-    const bool last = knobs.empty() || number >= options.most_rounds || (number >= options.rounds && !left_the_box);
+    const bool last =
+        knobs.empty() || number >= options.most_rounds || (number >= options.rounds && !left_the_box);
     if (!last) {
       knobs = next_box(here, minimum, round.covariance_at(minimum.z, reach), first);
       continue;
@@ -207,9 +233,12 @@ Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> kno
   }
 }
 
-Refit compare_at(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const Workshop& workshop, const RefitOptions& options) {
+Refit compare_at(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
+                 const Workshop& workshop, const RefitOptions& options) {
   std::vector<MeasuredFeatures> fixed = measured;
-  for (MeasuredFeatures& m : fixed) m.setup = setup_at(m.setup, knobs, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs.size())), workshop.known);
+  for (MeasuredFeatures& m : fixed)
+    m.setup = setup_at(m.setup, knobs, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs.size())),
+                       workshop.known);
   return refit(fixed, {}, workshop, options);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Parameters of a model from an experiment, through emulators: generalised least squares with the covariance of the chaos, the camera's
-// noise and the emulator's own error. Whether what remains is within the model's spread is told by pseudo-experiments drawn from
-// simulations that the covariance has not seen.
+// Parameters of a model from an experiment, through emulators: generalised least squares with the covariance
+// of the chaos, the camera's noise and the emulator's own error. Whether what remains is within the model's
+// spread is told by pseudo-experiments drawn from simulations that the covariance has not seen.
 #pragma once
 #include <limits>
 #include <vector>
@@ -23,8 +23,8 @@ struct RunComparison {
   double error_box = 0, error_centre = 0;  ///< m, rms of measured less mean of the model
   double floor_box = 0, floor_centre = 0;  ///< m, what noise and chaos from run to run make
   double chi2 = 0;
-  Eigen::VectorXd residual;                ///< m, each feature
-  Eigen::VectorXd spread;                  ///< m, its expected standard deviation
+  Eigen::VectorXd residual;  ///< m, each feature
+  Eigen::VectorXd spread;    ///< m, its expected standard deviation
 };
 
 /// Fills in errors and floors, rms over the features of each observable, from residual and spread.
@@ -32,19 +32,23 @@ void set_errors(RunComparison& run, const FeaturePlan& plan);
 
 struct Refit {
   std::vector<Knob> knobs;
-  Eigen::VectorXd least_known;  ///< a standard error along the direction in which the knobs are known least, in their units
-  std::vector<Eigen::MatrixXd> covariances;  ///< m^2, of each measured run's features: chaos, camera noise and model error
+  Eigen::VectorXd least_known;  ///< a standard error along the direction in which the knobs are known least,
+                                ///< in their units
+  std::vector<Eigen::MatrixXd>
+      covariances;  ///< m^2, of each measured run's features: chaos, camera noise and model error
   std::vector<FittedValue> values;
   double chi2 = 0, degrees = 0;
   double p_value = 1;  ///< share of pseudo-experiments that, refitted, fit no better
-  double scatter = 1;        ///< chi2 over the median of the pseudo-experiments'
+  double scatter = 1;  ///< chi2 over the median of the pseudo-experiments'
   std::vector<RunComparison> runs;
   std::vector<FailureCell> cells;  ///< worst first
   /// Each box length predicted from a fit to the others, rms, m; NaN with one length only.
   double held_out_error_box = 0, held_out_error_centre = 0;
-  double held_out_chi2 = 0;  ///< sum over the lengths left out
-  double promised_scatter = 1, promised_chi2 = 0;  ///< `scatter` and `judged_chi2` by the emulator, where simulations at the solution have judged
-  /// chi2 and held_out_chi2 in the covariances of RefitOptions::judged_by, so that rivals are measured with one rule.
+  double held_out_chi2 = 0;                        ///< sum over the lengths left out
+  double promised_scatter = 1, promised_chi2 = 0;  ///< `scatter` and `judged_chi2` by the emulator, where
+                                                   ///< simulations at the solution have judged
+  /// chi2 and held_out_chi2 in the covariances of RefitOptions::judged_by, so that rivals are measured with
+  /// one rule.
   double judged_chi2 = 0, judged_held_out_chi2 = 0;
   double error_box() const;
   double error_centre() const;
@@ -53,28 +57,32 @@ struct Refit {
 };
 
 struct RefitOptions {
-  int count = 192;       ///< simulations of each different setup in the last round, half as many before
-  int rounds = 2;        ///< re-centrings
-  int most_rounds = 4;   ///< when the solution keeps leaving the box
+  int count = 192;      ///< simulations of each different setup in the last round, half as many before
+  int rounds = 2;       ///< re-centrings
+  int most_rounds = 4;  ///< when the solution keeps leaving the box
   int first_run = 1000;
-  double model_error = 0.002;  ///< of the release: how well two codes of the same physics agree (soft contacts of finite duration ...)
+  double model_error = 0.002;        ///< of the release: how well two codes of the same physics agree (soft
+                                     ///< contacts of finite duration ...)
   const Refit* judged_by = nullptr;  ///< a fit to the same measured runs; null: by itself
-  /// Simulations of each different setup at the solution, which then move it to the minimum that they and the emulator's slopes show, and judge it:
-  /// its chi2, errors, p-value and cells. An emulator that cannot follow the model takes its own misfit for chaos, and where the model is
-  /// wrong it promises too much. 0: the emulator judges.
+  /// Simulations of each different setup at the solution, which then move it to the minimum that they and the
+  /// emulator's slopes show, and judge it: its chi2, errors, p-value and cells. An emulator that cannot
+  /// follow the model takes its own misfit for chaos, and where the model is wrong it promises too much. 0:
+  /// the emulator judges.
   int confirming = 0;
-  /// Where it promised much more than the simulations at the solution confirm, it looks again in a narrower box, if what it promised is below
-  /// this judged_chi2.
+  /// Where it promised much more than the simulations at the solution confirm, it looks again in a narrower
+  /// box, if what it promised is below this judged_chi2.
   double look_again_below = std::numeric_limits<double>::infinity();
-  /// Below this p-value, where the misfit is not gross, it looks again on both sides along the direction that is known least, and keeps the best: a
-  /// valley's emulator is noisy.
+  /// Below this p-value, where the misfit is not gross, it looks again on both sides along the direction that
+  /// is known least, and keeps the best: a valley's emulator is noisy.
   double look_beside_below = 0;
 };
 
 /// Fits the knobs (none: the setup as it is). `measured` may leave runs out; compare_at() then judges them.
-Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs, const Workshop& workshop, const RefitOptions& options);
+Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs, const Workshop& workshop,
+            const RefitOptions& options);
 
 /// The same measured runs (or others) against the model with the knobs at the given values, nothing fitted.
-Refit compare_at(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const Workshop& workshop, const RefitOptions& options);
+Refit compare_at(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
+                 const Workshop& workshop, const RefitOptions& options);
 
 }  // namespace shakedown

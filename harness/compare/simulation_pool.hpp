@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Simulations that were made already: rounds of a fit, and later fits of the same model, learn from all of them. Where parameters are known
-// only together (the two restitutions), the solution of a single round is left to its emulators' noise.
+// Simulations that were made already: rounds of a fit, and later fits of the same model, learn from all of
+// them. Where parameters are known only together (the two restitutions), the solution of a single round is
+// left to its emulators' noise.
 #pragma once
 #include <Eigen/Core>
 #include <map>

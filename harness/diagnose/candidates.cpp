@@ -9,39 +9,54 @@ namespace shakedown {
 
 namespace {
 
-/// A knob of an effect's parameter, from its record: bounds, and one typical strength about its neutral value.
+/// A knob of an effect's parameter, from its record: bounds, and one typical strength about its neutral
+/// value.
 Knob knob_of(const EffectRecord& effect, const Parameter& parameter, std::string_view component = "") {
-  const std::string key = std::string(effect.name) + "." + std::string(parameter.name) + std::string(component);
+  const std::string key =
+      std::string(effect.name) + "." + std::string(parameter.name) + std::string(component);
   return {key, 0.0, parameter.typical, parameter.low, parameter.high, true};
 }
 
-/// Friction as an impulse differs from a tangential spring (at mu = 0.3 by 0.1 mm/s in the slope of the decay): about this much chi2 of
-/// a true friction is left, which no rival may claim.
+/// Friction as an impulse differs from a tangential spring (at mu = 0.3 by 0.1 mm/s in the slope of the
+/// decay): about this much chi2 of a true friction is left, which no rival may claim.
 constexpr double impulsive_friction = -10;
 
 std::vector<Candidate> all_candidates(const Setup& setup, std::span<const EffectRecord* const> known) {
   std::vector<Candidate> list;
-  const auto add = [&](std::string_view name, std::string_view parameter, bool momentum, std::string_view component = "") {
+  const auto add = [&](std::string_view name, std::string_view parameter, bool momentum,
+                       std::string_view component = "") {
     for (const EffectRecord* effect : known)
-      if (effect->name == name) list.push_back({std::string(name), {knob_of(*effect, *effect->find(parameter), component)}, {}, momentum});
+      if (effect->name == name)
+        list.push_back(
+            {std::string(name), {knob_of(*effect, *effect->find(parameter), component)}, {}, momentum});
   };
-  // The first tenth of friction does as much as the next two, and more than .25 dissipates less again (fitted restitutions of frictional
-  // runs): no parabola.
+  // The first tenth of friction does as much as the next two, and more than .25 dissipates less again (fitted
+  // restitutions of frictional runs): no parabola.
   Knob friction{"grain_friction.grain_grain&grain_friction.grain_wall", 0, 0.2, 0, 1, true};
   friction.cubic = true;
   list.push_back({"grain_friction", {friction}, {}, false, impulsive_friction, true, true});
   add("velocity_dependent_restitution", "exponent", false);
   list.back().always = true;
-  // What matters to moving grains is force times range. Ranges beyond the gaps of the packing let the hard engine's wells hold the layer at
-  // the wall for good, and so do stronger forces.
-  list.push_back({"grain_cohesion", {{"grain_cohesion.force", 0, 8e-3, 0, 2e-2, true}}, {{"grain_cohesion.range", 2e-5}}, false, 4, true});
-  list.push_back({"side_wall_restitution", {{"side_wall_restitution.restitution", setup.restitution.grain_wall, 0.2, 0.05, 0.999, true}}, {}, false});
+  // What matters to moving grains is force times range. Ranges beyond the gaps of the packing let the hard
+  // engine's wells hold the layer at the wall for good, and so do stronger forces.
+  list.push_back({"grain_cohesion",
+                  {{"grain_cohesion.force", 0, 8e-3, 0, 2e-2, true}},
+                  {{"grain_cohesion.range", 2e-5}},
+                  false,
+                  4,
+                  true});
+  list.push_back(
+      {"side_wall_restitution",
+       {{"side_wall_restitution.restitution", setup.restitution.grain_wall, 0.2, 0.05, 0.999, true}},
+       {},
+       false});
   add("grain_polydispersity", "relative_deviation", false);
   add("grain_air_drag", "linear", false);
   list.back().dear = true;
   list.back().doubt = 10;  // air of 1 bar drags a grain some hundred times less than such data can show
   for (const char* axis : {".y", ".z"}) {
-    // Across the axis both signs do the same: nothing is linear about zero, so it is looked for about a strength.
+    // Across the axis both signs do the same: nothing is linear about zero, so it is looked for about a
+    // strength.
     add("constant_acceleration", "acceleration", false, axis);
     list.back().slow = true;
     Knob& knob = list.back().knobs[0];
@@ -66,12 +81,14 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
 }
 
 bool has(const Setup& setup, std::string_view effect) {
-  return std::any_of(setup.effects.begin(), setup.effects.end(), [&](const EffectChoice& choice) { return choice.record->name == effect; });
+  return std::any_of(setup.effects.begin(), setup.effects.end(),
+                     [&](const EffectChoice& choice) { return choice.record->name == effect; });
 }
 
 }  // namespace
 
-std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std::string>& only, std::span<const EffectRecord* const> known) {
+std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std::string>& only,
+                                      std::span<const EffectRecord* const> known) {
   std::vector<Candidate> list = all_candidates(setup, known);
   std::erase_if(list, [&](const Candidate& candidate) {
     if (!only.empty() && std::find(only.begin(), only.end(), candidate.effect) == only.end()) return true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a diagnosis says in the end: the sentence, the parameters, the formula of an unknown force and the experiment to do next.
+// What a diagnosis says in the end: the sentence, the parameters, the formula of an unknown force and the
+// experiment to do next.
 #include <algorithm>
 #include <cmath>
 
@@ -15,29 +16,37 @@ void Pipeline::advise_experiments() {
   std::vector<std::string>& list = result_.next_experiments;
   for (const FoundTerm& term : result_.momentum.terms)
     if (!term.look_alikes.empty())
-      list.push_back("the box alone, grains.count = 0, ringing down: tells " + term.effect + " from " + term.look_alikes.front() + " without any grains");
+      list.push_back("the box alone, grains.count = 0, ringing down: tells " + term.effect + " from " +
+                     term.look_alikes.front() + " without any grains");
   if (result_.verdict == Verdict::unknown)
-    list.push_back(result_.force_formula.empty() ? "the same box with half the grains and with none: what stays acts on the box, what goes lies in the contacts"
-                                                 : "the box alone, grains.count = 0, ringing down: shows whether the force acts on the box or on the grains");
+    list.push_back(result_.force_formula.empty() ? "the same box with half the grains and with none: what "
+                                                   "stays acts on the box, what goes lies in the contacts"
+                                                 : "the box alone, grains.count = 0, ringing down: shows "
+                                                   "whether the force acts on the box or on the grains");
   for (const FittedValue& value : final_.values)
     if (refitted_ && value.key.starts_with("restitution") && value.error > 0.03) {
-      list.push_back("N = 20, L = 40 mm: tells the two restitutions apart, which these runs know only together (" + value.key + " +- " +
-                     write_number(std::round(value.error * 1e3) / 1e3) + ")");
+      list.push_back(
+          "N = 20, L = 40 mm: tells the two restitutions apart, which these runs know only together (" +
+          value.key + " +- " + write_number(std::round(value.error * 1e3) / 1e3) + ")");
       break;
     }
   if (result_.verdict != Verdict::missing || !runner_up_ || chosen_.empty()) return;
   stage_ = "which experiment would decide";
   std::vector<Knob> found = chosen_;
-  std::erase_if(found, [&](const Knob& knob) { return effect_of(knob.key) != effect_of(chosen_.back().key); });
+  std::erase_if(found,
+                [&](const Knob& knob) { return effect_of(knob.key) != effect_of(chosen_.back().key); });
   const RunAudit& camera = audit_.runs.front();
   std::vector<Design> designs = possible_designs(result_.amended);
   const std::string effect = effect_of(found.front().key);
-  for (Design& design : designs) std::erase_if(design.setup.effects, [&](const EffectChoice& choice) { return choice.record->name == runner_up_->effect; });
+  for (Design& design : designs)
+    std::erase_if(design.setup.effects,
+                  [&](const EffectChoice& choice) { return choice.record->name == runner_up_->effect; });
   const int count = dear_ ? 48 : 96;
-  for (const Advice& advice : advise(designs, theta_, found, *runner_up_, camera.box.standard_deviation, camera.com.standard_deviation, workshop_, count,
-                                     100000 * ++batch_))
+  for (const Advice& advice : advise(designs, theta_, found, *runner_up_, camera.box.standard_deviation,
+                                     camera.com.standard_deviation, workshop_, count, 100000 * ++batch_))
     if (list.size() < 4 && advice.sigmas > 1)
-      list.push_back(advice.words + ": tells " + effect + " from " + runner_up_->effect + " at " + write_number(std::round(advice.sigmas * 10) / 10) + " sigma a run");
+      list.push_back(advice.words + ": tells " + effect + " from " + runner_up_->effect + " at " +
+                     write_number(std::round(advice.sigmas * 10) / 10) + " sigma a run");
 }
 
 void Pipeline::conclude_unknown() {
@@ -48,32 +57,41 @@ void Pipeline::conclude_unknown() {
   std::string constants;
   for (const FormulaConstant& c : found.constants)
     constants += (constants.empty() ? "" : ", ") + c.name + " = \"" + write_quantity(c.value, c.unit) + "\"";
-  result_.force_formula = "[[effect]]\nname = \"user_force\"\non = \"box\"\nforce = \"" + found.formula + "\"\nconstants = {" + constants + "}\n";
-  for (const std::string& alike : found.look_alikes) result_.notes.push_back("the force could as well be " + alike);
+  result_.force_formula = "[[effect]]\nname = \"user_force\"\non = \"box\"\nforce = \"" + found.formula +
+                          "\"\nconstants = {" + constants + "}\n";
+  for (const std::string& alike : found.look_alikes)
+    result_.notes.push_back("the force could as well be " + alike);
 }
 
 /// What was found first, then by gain.
 void Pipeline::sort_ranking() {
-  const auto place = [&](const RankedEffect& ranked) { return std::find(result_.missing.begin(), result_.missing.end(), ranked.effect) - result_.missing.begin(); };
-  std::stable_sort(result_.ranking.begin(), result_.ranking.end(), [&](const RankedEffect& a, const RankedEffect& b) {
-    return place(a) != place(b) ? place(a) < place(b) : a.gain > b.gain;
-  });
+  const auto place = [&](const RankedEffect& ranked) {
+    return std::find(result_.missing.begin(), result_.missing.end(), ranked.effect) - result_.missing.begin();
+  };
+  std::stable_sort(result_.ranking.begin(), result_.ranking.end(),
+                   [&](const RankedEffect& a, const RankedEffect& b) {
+                     return place(a) != place(b) ? place(a) < place(b) : a.gain > b.gain;
+                   });
 }
 
-/// Data may be of either engine's kind: the strength of an effect in which the engines differ is uncertain by that much more.
+/// Data may be of either engine's kind: the strength of an effect in which the engines differ is uncertain by
+/// that much more.
 FittedValue Pipeline::allowing_for_engines(FittedValue value) {
   const std::string effect = effect_of(value.key);
-  const auto here = std::find_if(first_boxes_.begin(), first_boxes_.end(), [&](const Knob& knob) { return knob.key == value.key; });
+  const auto here = std::find_if(first_boxes_.begin(), first_boxes_.end(),
+                                 [&](const Knob& knob) { return knob.key == value.key; });
   const double relative = options_.strength_uncertainty ? options_.strength_uncertainty(effect) : 0;
   if (here == first_boxes_.end() || relative == 0) return value;
   const double absent = effect == "side_wall_restitution" ? base_.restitution.grain_wall : 0;
   const double more = 1.96 * relative * std::abs(value.value - absent);
   value.low = std::max(here->low, value.value - std::hypot(value.value - value.low, more));
   value.high = std::min(here->high, value.value + std::hypot(value.high - value.value, more));
-  const std::string note = "the interval of " + effect + " allows for " + write_number(std::round(100 * relative)) +
-                           " % by which hard impulses and soft contacts differ in it (shakedown effects " + effect + ")";
+  const std::string note =
+      "the interval of " + effect + " allows for " + write_number(std::round(100 * relative)) +
+      " % by which hard impulses and soft contacts differ in it (shakedown effects " + effect + ")";
   // Once for all the strengths of an effect.
-  if (std::find(result_.notes.begin(), result_.notes.end(), note) == result_.notes.end()) result_.notes.push_back(note);
+  if (std::find(result_.notes.begin(), result_.notes.end(), note) == result_.notes.end())
+    result_.notes.push_back(note);
   return value;
 }
 
@@ -85,7 +103,8 @@ void Pipeline::finish() {
     if (!refitted_) break;  // as given, within what codes differ by: nothing to change
     const FittedValue value = allowing_for_engines(fitted);
     for (const std::string& key : joined_keys(value.key)) {
-      result_.parameters.push_back({key, value.value, value.low, value.high, unit_of_key(key, options_.known), ""});
+      result_.parameters.push_back(
+          {key, value.value, value.low, value.high, unit_of_key(key, options_.known), ""});
       set_number(result_.amended, key, value.value, options_.known);
     }
   }
@@ -93,17 +112,22 @@ void Pipeline::finish() {
   const auto percent = [](double p) { return std::to_string(static_cast<int>(std::round(100 * p))) + " %"; };
   switch (result_.verdict) {
     case Verdict::adequate:
-      result_.sentence = "The model holds as given: what remains is within camera noise and the spread from run to run (" +
-                         percent(final_.p_value) + " of the model's own runs fit no better).";
+      result_.sentence =
+          "The model holds as given: what remains is within camera noise and the spread from run to run (" +
+          percent(final_.p_value) + " of the model's own runs fit no better).";
       break;
-    case Verdict::refit: result_.sentence = "No effect is missing: other values of the parameters explain the measurements."; break;
+    case Verdict::refit:
+      result_.sentence = "No effect is missing: other values of the parameters explain the measurements.";
+      break;
     case Verdict::missing: {
       std::string names;
       for (const std::string& effect : result_.missing) names += (names.empty() ? "" : " and ") + effect;
-      result_.sentence = "Missing in the model: " + names + ". With it the rms error of the box falls from " +
-                         std::to_string(result_.ladder.front().error_box * 1e3).substr(0, 4) + " to " +
-                         std::to_string(final_.error_box() * 1e3).substr(0, 4) + " mm (noise and run-to-run spread: " +
-                         std::to_string(final_.floor_box() * 1e3).substr(0, 4) + " mm).";
+      result_.sentence =
+          "Missing in the model: " + names + ". With it the rms error of the box falls from " +
+          std::to_string(result_.ladder.front().error_box * 1e3).substr(0, 4) + " to " +
+          std::to_string(final_.error_box() * 1e3).substr(0, 4) +
+          " mm (noise and run-to-run spread: " + std::to_string(final_.floor_box() * 1e3).substr(0, 4) +
+          " mm).";
       for (const auto& [named, other] : twins_)
         if (std::find(result_.missing.begin(), result_.missing.end(), named) != result_.missing.end())
           result_.sentence += " These measurements cannot tell " + named + " from " + other + ".";
@@ -111,8 +135,10 @@ void Pipeline::finish() {
     }
     case Verdict::unknown:
       result_.sentence = result_.momentum.unexplained || result_.momentum.unlisted
-                             ? "Something that is not in the library acts on the box: no known force brings the momentum balance into order."
-                             : "None of the known effects explains the measurements; momentum is in order, so it lies inside the contacts.";
+                             ? "Something that is not in the library acts on the box: no known force brings "
+                               "the momentum balance into order."
+                             : "None of the known effects explains the measurements; momentum is in order, "
+                               "so it lies inside the contacts.";
       break;
   }
 }

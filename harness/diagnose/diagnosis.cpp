@@ -29,12 +29,19 @@ Audit audited(const Experiment& experiment, MethodFault fault) {
 
 }  // namespace
 
-Pipeline::Pipeline(const Setup& setup, const Experiment& experiment, const Engine& engine, const DiagnoseOptions& options)
-    : user_(setup), base_(setup), experiment_(experiment), options_(options), audit_(audited(experiment, options.fault)) {
-  workshop_ = {&engine, options.known, options.threads, options.stop, {}, &result_.runs_simulated, &pool_, options.fault};
+Pipeline::Pipeline(const Setup& setup, const Experiment& experiment, const Engine& engine,
+                   const DiagnoseOptions& options)
+    : user_(setup),
+      base_(setup),
+      experiment_(experiment),
+      options_(options),
+      audit_(audited(experiment, options.fault)) {
+  workshop_ = {&engine, options.known,           options.threads, options.stop,
+               {},      &result_.runs_simulated, &pool_,          options.fault};
   workshop_.done = [this](int) {
     if (options_.progress && result_.runs_simulated % 64 == 0)
-      options_.progress(stage_, static_cast<double>(result_.runs_simulated) / static_cast<double>(options_.budget));
+      options_.progress(stage_,
+                        static_cast<double>(result_.runs_simulated) / static_cast<double>(options_.budget));
   };
 }
 
@@ -58,13 +65,17 @@ void Pipeline::choose_packing() {
   if (packing == user_.release.packing) return;
   base_.release.packing = packing;
   result_.parameters.push_back({"release.packing", 0, 0, 0, "", std::string(name_of(packing))});
-  result_.notes.push_back("before release the grains' centre lies where packing '" + std::string(name_of(packing)) + "' has it, not '" +
+  result_.notes.push_back("before release the grains' centre lies where packing '" +
+                          std::string(name_of(packing)) + "' has it, not '" +
                           std::string(name_of(user_.release.packing)) + "'");
 }
 
-Refit Pipeline::fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by, double look_again_below) {
+Refit Pipeline::fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort,
+                    const Refit* judged_by, double look_again_below) {
   stage_ = step;
-  if (dear_) effort.count = std::min(effort.count, most_when_dear), effort.confirming = std::min(effort.confirming, most_when_dear);
+  if (dear_)
+    effort.count = std::min(effort.count, most_when_dear),
+    effort.confirming = std::min(effort.confirming, most_when_dear);
   RefitOptions options;
   options.rounds = effort.rounds;
   options.count = effort.count;
@@ -90,7 +101,14 @@ void Pipeline::keep(const Refit& refit) {
 }
 
 LadderStep step_of(const std::string& name, const Refit& fit) {
-  return {name, fit.error_box(), fit.error_centre(), fit.held_out_error_box, fit.floor_box(), fit.floor_centre(), fit.p_value, fit.scatter};
+  return {name,
+          fit.error_box(),
+          fit.error_centre(),
+          fit.held_out_error_box,
+          fit.floor_box(),
+          fit.floor_centre(),
+          fit.p_value,
+          fit.scatter};
 }
 
 std::vector<Knob> together(const std::vector<Knob>& a, const std::vector<Knob>& b) {
@@ -102,16 +120,18 @@ std::vector<Knob> together(const std::vector<Knob>& a, const std::vector<Knob>& 
 bool Pipeline::possible(const FoundTerm& term) const {
   const EffectRecord* record = record_of(term.effect, options_.known);
   const Parameter* parameter = record ? record->find(term.parameter) : nullptr;
-  return parameter == nullptr || term.effect == "oscillating_acceleration" || (term.value >= parameter->low && term.value <= parameter->high);
+  return parameter == nullptr || term.effect == "oscillating_acceleration" ||
+         (term.value >= parameter->low && term.value <= parameter->high);
 }
 
-/// A sine is known to its error in all three: over a run of length T a relative error of the amplitude goes with sqrt(6) / (pi T) as much
-/// in the frequency, and twice as much in the phase at the release (rad).
+/// A sine is known to its error in all three: over a run of length T a relative error of the amplitude goes
+/// with sqrt(6) / (pi T) as much in the frequency, and twice as much in the phase at the release (rad).
 void Pipeline::add_sine(const FoundTerm& term) {
   double longest = 0;
   for (const MeasuredRun& run : experiment_.runs)
     if (!run.time.empty()) longest = std::max(longest, run.time.back() - run.time.front());
-  const double error = std::max((term.high - term.low) / 3.92, 0.01 * std::abs(term.value)), relative = std::min(1.0, error / std::abs(term.value));
+  const double error = std::max((term.high - term.low) / 3.92, 0.01 * std::abs(term.value)),
+               relative = std::min(1.0, error / std::abs(term.value));
   const auto knob = [&](const char* key, double value, double width) {
     set_number(base_, key, value, options_.known);
     chosen_.push_back({key, value, width, value - 10 * width, value + 10 * width, false});
@@ -127,9 +147,14 @@ void Pipeline::add_momentum_terms() {
   for (const FoundTerm& term : terms) {
     // A drag that pushes, a mass below zero: no such effect, though the balance takes it.
     if (!possible(term)) continue;
-    if (!options_.effects.empty() && std::find(options_.effects.begin(), options_.effects.end(), term.effect) == options_.effects.end()) continue;
+    if (!options_.effects.empty() &&
+        std::find(options_.effects.begin(), options_.effects.end(), term.effect) == options_.effects.end())
+      continue;
     // Of several sines the strongest.
-    if (std::any_of(terms.begin(), terms.end(), [&](const FoundTerm& other) { return other.effect == term.effect && other.gain > term.gain; })) continue;
+    if (std::any_of(terms.begin(), terms.end(), [&](const FoundTerm& other) {
+          return other.effect == term.effect && other.gain > term.gain;
+        }))
+      continue;
     result_.missing.push_back(term.effect);
     const std::string component = term.effect == "constant_acceleration" ? ".x" : "";
     if (term.effect == "oscillating_acceleration") {
@@ -140,9 +165,12 @@ void Pipeline::add_momentum_terms() {
     set_number(base_, key, term.value, options_.known);
     const EffectRecord* record = record_of(term.effect, options_.known);
     const Parameter* parameter = record ? record->find(term.parameter) : nullptr;
-    if (parameter == nullptr || (parameter->kind != ParameterKind::number && parameter->kind != ParameterKind::vector)) continue;
+    if (parameter == nullptr ||
+        (parameter->kind != ParameterKind::number && parameter->kind != ParameterKind::vector))
+      continue;
     const double error = (term.high - term.low) / 3.92;
-    chosen_.push_back({key, term.value, std::max(4 * error, 0.05 * std::abs(term.value)), parameter->low, parameter->high, true});
+    chosen_.push_back({key, term.value, std::max(4 * error, 0.05 * std::abs(term.value)), parameter->low,
+                       parameter->high, true});
   }
 }
 
@@ -171,9 +199,13 @@ void Pipeline::judge() {
   refitted_ = true;
   theta_ = free_parameters(base_, frequency, (result_.momentum.possible ? 0.004 : 0.01) * frequency);
   if (options_.fault == MethodFault::no_refit) theta_.clear();
-  std::erase_if(theta_, [&](const Knob& knob) { return std::find(options_.fixed.begin(), options_.fixed.end(), knob.key) != options_.fixed.end(); });
+  std::erase_if(theta_, [&](const Knob& knob) {
+    return std::find(options_.fixed.begin(), options_.fixed.end(), knob.key) != options_.fixed.end();
+  });
   add_momentum_terms();
-  Refit best = fit(chosen_.empty() && result_.missing.empty() ? "refitting the parameters" : "refitting with the forces that the momentum balance convicts",
+  Refit best = fit(chosen_.empty() && result_.missing.empty()
+                       ? "refitting the parameters"
+                       : "refitting with the forces that the momentum balance convicts",
                    together(theta_, chosen_), to_refit);
   std::string step = "refitted";
   for (const std::string& effect : result_.missing) step += " + " + effect;
@@ -181,8 +213,8 @@ void Pipeline::judge() {
   keep(best);
   if (result_.missing.empty()) note_failures(best);  // else those of the model as given stay
   for (bool looked = false, searched = false;;) {
-    // An accepted model is searched once: chi2 of hundreds of features does not see what a single effect would take away. Beside what makes every
-    // run dear only a model that is rejected is searched on.
+    // An accepted model is searched once: chi2 of hundreds of features does not see what a single effect
+    // would take away. Beside what makes every run dear only a model that is rejected is searched on.
     const auto lacking = [&] { return best.p_value <= (dear_ ? rejected : doubtful); };
     while ((!looked || lacking()) && static_cast<int>(result_.missing.size()) < most_effects) {
       looked = true;
@@ -199,15 +231,17 @@ void Pipeline::judge() {
   }
   if (result_.missing.empty() && adequate) return accept_as_given(given);
   if (result_.missing.empty()) {
-    result_.verdict = best.p_value > rejected || best.scatter < codes_differ ? Verdict::refit : Verdict::unknown;
+    result_.verdict =
+        best.p_value > rejected || best.scatter < codes_differ ? Verdict::refit : Verdict::unknown;
     if (result_.verdict == Verdict::refit && best.p_value <= rejected)
-      result_.notes.push_back("a small misfit remains, as between two codes of the same physics; no known effect explains it");
-  }
-  else result_.verdict = Verdict::missing;
+      result_.notes.push_back(
+          "a small misfit remains, as between two codes of the same physics; no known effect explains it");
+  } else
+    result_.verdict = Verdict::missing;
   // An effect that leaves most of the misfit is no explanation.
   const double before = result_.ladder.size() > 1 ? result_.ladder[1].scatter : 1;
-  if (result_.verdict == Verdict::missing && result_.momentum.terms.empty() && best.p_value <= rejected && best.scatter > 2.5 &&
-      best.scatter > 0.6 * before)
+  if (result_.verdict == Verdict::missing && result_.momentum.terms.empty() && best.p_value <= rejected &&
+      best.scatter > 2.5 && best.scatter > 0.6 * before)
     return conclude_unknown();
   if (result_.verdict == Verdict::unknown) conclude_unknown();
 }
@@ -228,7 +262,8 @@ std::string_view name_of(Verdict verdict) {
   return "";
 }
 
-Diagnosis diagnose(const Setup& setup, const Experiment& experiment, const Engine& engine, const DiagnoseOptions& options) {
+Diagnosis diagnose(const Setup& setup, const Experiment& experiment, const Engine& engine,
+                   const DiagnoseOptions& options) {
   return Pipeline(setup, experiment, engine, options).run();
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// From measurements to the missing effect. Two channels: the momentum balance (no simulation) convicts forces from outside, ensembles of
-// the hard engine judge everything inside the contacts. Then: is the model as given within its spread? Does refitting suffice? Which
-// effect, added and fitted, brings the error down, and does anything remain?
+// From measurements to the missing effect. Two channels: the momentum balance (no simulation) convicts forces
+// from outside, ensembles of the hard engine judge everything inside the contacts. Then: is the model as
+// given within its spread? Does refitting suffice? Which effect, added and fitted, brings the error down, and
+// does anything remain?
 #pragma once
 #include <functional>
 #include <string>
@@ -24,8 +25,9 @@ struct DiagnosedParameter {
 
 struct RankedEffect {
   std::string effect;
-  double gain = 0;            ///< fall of chi2 when it joins, everything else refitted
-  double held_out_gain = 0;   ///< fall of the chi2 of box lengths left out of the fit; NaN: linear estimate only
+  double gain = 0;  ///< fall of chi2 when it joins, everything else refitted
+  double held_out_gain =
+      0;  ///< fall of the chi2 of box lengths left out of the fit; NaN: linear estimate only
   double standard_error = 0;  ///< of held_out_gain
   double value = 0;           ///< its strength
   std::vector<std::string> look_alikes{};
@@ -64,15 +66,18 @@ struct DiagnoseOptions {
   const std::atomic<bool>* stop = nullptr;
   /// Told of the stage in words and the fraction of the budget used; may be empty.
   std::function<void(const std::string& stage, double fraction)> progress;
-  std::vector<std::string> fixed{};  ///< of the restitutions and the spring's frequency: those known otherwise (a drop test), not refitted
-  /// Relative uncertainty of an effect's strength because data may be of the other engine's kind (effects/engine_differences.hpp); null: none.
+  std::vector<std::string> fixed{};  ///< of the restitutions and the spring's frequency: those known
+                                     ///< otherwise (a drop test), not refitted
+  /// Relative uncertainty of an effect's strength because data may be of the other engine's kind
+  /// (effects/engine_differences.hpp); null: none.
   double (*strength_uncertainty)(std::string_view effect) = nullptr;
   MethodFault fault = MethodFault::none;
   EnsembleCache* ensembles = nullptr;  ///< shared by diagnoses of one setup; may be null
 };
 
 /// Throws InputError when the setup does not fit the experiment, Interrupted when stopped.
-Diagnosis diagnose(const Setup& setup, const Experiment& experiment, const Engine& engine, const DiagnoseOptions& options);
+Diagnosis diagnose(const Setup& setup, const Experiment& experiment, const Engine& engine,
+                   const DiagnoseOptions& options);
 
 std::string_view name_of(Verdict verdict);
 

@@ -16,11 +16,22 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 Json momentum_json(const MomentumAudit& audit) {
   Json terms = Json::array();
   for (const FoundTerm& term : audit.terms)
-    terms.push_back({{"effect", term.effect}, {"parameter", term.parameter}, {"value", number(term.value)}, {"low", number(term.low)},
-                     {"high", number(term.high)}, {"unit", term.unit}, {"gain", number(term.gain)}, {"look_alikes", term.look_alikes}});
-  return {{"possible", audit.possible}, {"chi2_per_dof", number(audit.as_given.chi2_per_degree())}, {"p_value", number(audit.as_given.p_value)},
-          {"chi2_per_dof_final", number(audit.final_fit.chi2_per_degree())}, {"p_value_final", number(audit.final_fit.p_value)},
-          {"unexplained", audit.unexplained}, {"terms", terms}, {"notes", audit.notes}};
+    terms.push_back({{"effect", term.effect},
+                     {"parameter", term.parameter},
+                     {"value", number(term.value)},
+                     {"low", number(term.low)},
+                     {"high", number(term.high)},
+                     {"unit", term.unit},
+                     {"gain", number(term.gain)},
+                     {"look_alikes", term.look_alikes}});
+  return {{"possible", audit.possible},
+          {"chi2_per_dof", number(audit.as_given.chi2_per_degree())},
+          {"p_value", number(audit.as_given.p_value)},
+          {"chi2_per_dof_final", number(audit.final_fit.chi2_per_degree())},
+          {"p_value_final", number(audit.final_fit.p_value)},
+          {"unexplained", audit.unexplained},
+          {"terms", terms},
+          {"notes", audit.notes}};
 }
 
 }  // namespace
@@ -28,17 +39,35 @@ Json momentum_json(const MomentumAudit& audit) {
 std::string diagnosis_json(const Diagnosis& d) {
   Json parameters = Json::object(), ranking = Json::array(), ladder = Json::array(), where = Json::array();
   for (const DiagnosedParameter& p : d.parameters)
-    parameters[p.name] = p.word.empty() ? Json{{"value", number(p.value)}, {"low", number(p.low)}, {"high", number(p.high)}, {"unit", p.unit}}
-                                        : Json{{"value", p.word}, {"low", nullptr}, {"high", nullptr}, {"unit", ""}};
+    parameters[p.name] = p.word.empty()
+                             ? Json{{"value", number(p.value)},
+                                    {"low", number(p.low)},
+                                    {"high", number(p.high)},
+                                    {"unit", p.unit}}
+                             : Json{{"value", p.word}, {"low", nullptr}, {"high", nullptr}, {"unit", ""}};
   for (const RankedEffect& r : d.ranking)
-    ranking.push_back({{"effect", r.effect}, {"gain", number(r.gain)}, {"held_out_gain", number(r.held_out_gain)},
-                       {"standard_error", number(r.standard_error)}, {"value", number(r.value)}, {"look_alikes", r.look_alikes}});
+    ranking.push_back({{"effect", r.effect},
+                       {"gain", number(r.gain)},
+                       {"held_out_gain", number(r.held_out_gain)},
+                       {"standard_error", number(r.standard_error)},
+                       {"value", number(r.value)},
+                       {"look_alikes", r.look_alikes}});
   for (const LadderStep& s : d.ladder)
-    ladder.push_back({{"step", s.step}, {"error_box_mm", number(s.error_box * 1e3)}, {"error_com_mm", number(s.error_centre * 1e3)},
-                      {"held_out_error_box_mm", number(s.held_out_error_box * 1e3)}, {"p_value", number(s.p_value)}, {"scatter", number(s.scatter)}});
+    ladder.push_back({{"step", s.step},
+                      {"error_box_mm", number(s.error_box * 1e3)},
+                      {"error_com_mm", number(s.error_centre * 1e3)},
+                      {"held_out_error_box_mm", number(s.held_out_error_box * 1e3)},
+                      {"p_value", number(s.p_value)},
+                      {"scatter", number(s.scatter)}});
   for (const FailureCell& c : d.where)
-    where.push_back({{"run", c.run.empty() ? Json(nullptr) : Json(c.run)}, {"observable", c.observable}, {"what", c.what}, {"from_s", c.from}, {"to_s", c.to},
-                     {"error_mm", number(c.error * 1e3)}, {"sigmas", number(c.sigmas)}, {"p_value", number(c.p_value)}});
+    where.push_back({{"run", c.run.empty() ? Json(nullptr) : Json(c.run)},
+                     {"observable", c.observable},
+                     {"what", c.what},
+                     {"from_s", c.from},
+                     {"to_s", c.to},
+                     {"error_mm", number(c.error * 1e3)},
+                     {"sigmas", number(c.sigmas)},
+                     {"p_value", number(c.p_value)}});
   const LadderStep last = d.ladder.empty() ? LadderStep{} : d.ladder.back();
   const Json all{{"schema_version", 1},
                  {"verdict", std::string(name_of(d.verdict))},
@@ -47,7 +76,8 @@ std::string diagnosis_json(const Diagnosis& d) {
                  {"parameters", parameters},
                  {"ranking", ranking},
                  {"ladder", ladder},
-                 {"noise_floor", {{"box_mm", number(last.floor_box * 1e3)}, {"com_mm", number(last.floor_centre * 1e3)}}},
+                 {"noise_floor",
+                  {{"box_mm", number(last.floor_box * 1e3)}, {"com_mm", number(last.floor_centre * 1e3)}}},
                  {"where", where},
                  {"momentum", momentum_json(d.momentum)},
                  {"force_formula", d.force_formula.empty() ? Json(nullptr) : Json(d.force_formula)},

@@ -9,43 +9,48 @@ namespace shakedown {
 
 std::string line_of(const FailureCell& cell) {
   const std::string when = cell.to > cell.from ? fmt::format(" {:.0f} to {:.1f} s", cell.from, cell.to) : "";
-  return fmt::format("    {:<12} {:<13} {:<42} {:>7.3f} mm rms, {:>5.1f} sigma, p = {:.3f}\n", cell.run.empty() ? "all runs" : cell.run, cell.observable, cell.what + when,
+  return fmt::format("    {:<12} {:<13} {:<42} {:>7.3f} mm rms, {:>5.1f} sigma, p = {:.3f}\n",
+                     cell.run.empty() ? "all runs" : cell.run, cell.observable, cell.what + when,
                      cell.error * 1e3, cell.sigmas, cell.p_value);
 }
 
 std::string diagnosis_text(const Diagnosis& d) {
   std::string text = d.sentence + "\n\n";
-  text += fmt::format("  {:<58} {:>10} {:>10} {:>12} {:>8}\n", "error, mm", "box", "centre", "box held out", "p");
+  text +=
+      fmt::format("  {:<58} {:>10} {:>10} {:>12} {:>8}\n", "error, mm", "box", "centre", "box held out", "p");
   for (const LadderStep& s : d.ladder)
-    text += fmt::format("  {:<58} {:>10.3f} {:>10.3f} {:>12.3f} {:>8.3f}\n", s.step, s.error_box * 1e3, s.error_centre * 1e3,
-                        s.held_out_error_box * 1e3, s.p_value);
+    text += fmt::format("  {:<58} {:>10.3f} {:>10.3f} {:>12.3f} {:>8.3f}\n", s.step, s.error_box * 1e3,
+                        s.error_centre * 1e3, s.held_out_error_box * 1e3, s.p_value);
   if (!d.ladder.empty())
-    text += fmt::format("  {:<58} {:>10.3f} {:>10.3f}\n", "noise and run-to-run spread", d.ladder.back().floor_box * 1e3,
-                        d.ladder.back().floor_centre * 1e3);
+    text += fmt::format("  {:<58} {:>10.3f} {:>10.3f}\n", "noise and run-to-run spread",
+                        d.ladder.back().floor_box * 1e3, d.ladder.back().floor_centre * 1e3);
   if (!d.parameters.empty()) {
     text += "\n  values (95 % interval)\n";
     for (const DiagnosedParameter& p : d.parameters)
-      text += p.word.empty() ? fmt::format("    {:<44} {:.6g} ({:.6g} to {:.6g}) {}\n", p.name, p.value, p.low, p.high, p.unit)
+      text += p.word.empty() ? fmt::format("    {:<44} {:.6g} ({:.6g} to {:.6g}) {}\n", p.name, p.value,
+                                           p.low, p.high, p.unit)
                              : fmt::format("    {:<44} {}\n", p.name, p.word);
   }
   if (d.momentum.possible)
-    text += fmt::format("\n  momentum balance: chi2 per degree of freedom {:.3g} as given, {:.3g} with what was found\n",
-                        d.momentum.as_given.chi2_per_degree(), d.momentum.final_fit.chi2_per_degree());
-  else text += "\n  momentum balance: not possible (" + d.momentum.why_not + ")\n";
+    text += fmt::format(
+        "\n  momentum balance: chi2 per degree of freedom {:.3g} as given, {:.3g} with what was found\n",
+        d.momentum.as_given.chi2_per_degree(), d.momentum.final_fit.chi2_per_degree());
+  else
+    text += "\n  momentum balance: not possible (" + d.momentum.why_not + ")\n";
   if (!d.ranking.empty()) {
     text += "\n  suspects                                 gain  held-out gain   look-alikes\n";
     for (std::size_t i = 0; i < d.ranking.size() && i < 12; ++i) {
       const RankedEffect& r = d.ranking[i];
       std::string alike;
       for (const std::string& name : r.look_alikes) alike += (alike.empty() ? "" : ", ") + name;
-      text += fmt::format("    {:<34} {:>10.1f} {:>14} {}\n", r.effect, r.gain,
-                          std::isfinite(r.held_out_gain) ? fmt::format("{:.1f}", r.held_out_gain) : "(linear)", alike);
+      text += fmt::format(
+          "    {:<34} {:>10.1f} {:>14} {}\n", r.effect, r.gain,
+          std::isfinite(r.held_out_gain) ? fmt::format("{:.1f}", r.held_out_gain) : "(linear)", alike);
     }
   }
   if (!d.where.empty()) {
     text += "\n  where it fails\n";
-    for (const FailureCell& c : d.where)
-      text += line_of(c);
+    for (const FailureCell& c : d.where) text += line_of(c);
   }
   if (!d.force_formula.empty()) text += "\n  force to try: " + d.force_formula + "\n";
   for (const std::string& next : d.next_experiments) text += "  next: " + next + "\n";

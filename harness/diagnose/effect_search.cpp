@@ -12,11 +12,14 @@ namespace shakedown {
 
 namespace {
 
-/// A rival has explained so much more (chi2) that another start of this one will not catch up; the two minima of friction differ by less.
+/// A rival has explained so much more (chi2) that another start of this one will not catch up; the two minima
+/// of friction differ by less.
 constexpr double hopelessly_behind = 60;
-/// Share of the misfit that a linear estimate must promise to be tried before what is tried in any case; of what costs ten times as much.
+/// Share of the misfit that a linear estimate must promise to be tried before what is tried in any case; of
+/// what costs ten times as much.
 constexpr double goes_first = 0.25, goes_first_when_dear = 0.5;
-/// Gain (chi2) that no emulator's noise makes; strengths along curved valleys may have errors as large as themselves all the same.
+/// Gain (chi2) that no emulator's noise makes; strengths along curved valleys may have errors as large as
+/// themselves all the same.
 constexpr double beyond_noise = 100;
 /// Share of the best one's gain that makes a rival one from which an experiment should tell it.
 constexpr double contends = 0.5;
@@ -50,19 +53,24 @@ std::vector<Knob> second_start(const Refit& fit, const std::vector<Knob>& first_
   return start;
 }
 
-/// One of the strengths is at least two standard errors from zero; what replaces a parameter, or is on or off, has no zero and passes.
+/// One of the strengths is at least two standard errors from zero; what replaces a parameter, or is on or
+/// off, has no zero and passes.
 bool stands_out(const Refit& fit, const std::vector<Knob>& knobs) {
   return knobs.empty() || std::any_of(knobs.begin(), knobs.end(), [&](const Knob& knob) {
-           return knob.low > 0 || std::any_of(fit.values.begin(), fit.values.end(), [&](const FittedValue& value) {
+           return knob.low > 0 ||
+                  std::any_of(fit.values.begin(), fit.values.end(), [&](const FittedValue& value) {
                     return value.key == knob.key && std::abs(value.value) > 2 * value.error;
                   });
          });
 }
 
-/// A parameter had to go far from what the user believes: effects inside the contacts hide in the restitutions.
+/// A parameter had to go far from what the user believes: effects inside the contacts hide in the
+/// restitutions.
 bool has_strayed(const Refit& fit) {
   for (std::size_t k = 0; k < fit.values.size(); ++k)
-    if (fit.knobs[k].believed_error > 0 && std::abs(fit.values[k].value - fit.knobs[k].believed) > 1.5 * fit.knobs[k].believed_error) return true;
+    if (fit.knobs[k].believed_error > 0 &&
+        std::abs(fit.values[k].value - fit.knobs[k].believed) > 1.5 * fit.knobs[k].believed_error)
+      return true;
   return false;
 }
 
@@ -84,7 +92,8 @@ std::vector<Knob> taken_apart(const std::vector<Knob>& knobs) {
 std::vector<Candidate> Pipeline::open_candidates() const {
   std::vector<Candidate> candidates = candidates_for(base_, options_.effects, options_.known);
   const auto judged_already = [&](const Candidate& candidate) {
-    // What the momentum balance sees better it has judged; what showed nothing before is not looked for again, where a linear estimate can show it.
+    // What the momentum balance sees better it has judged; what showed nothing before is not looked for
+    // again, where a linear estimate can show it.
     if (result_.momentum.possible && candidate.seen_by_momentum) return true;
     bool seen = false, promising = false;
     for (const RankedEffect& ranked : result_.ranking)
@@ -96,23 +105,33 @@ std::vector<Candidate> Pipeline::open_candidates() const {
   return candidates;
 }
 
-/// The most promising candidates with everything refitted, best first; the first two closer when they are too close to call.
-std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>& candidates, const Refit& best) {
+/// The most promising candidates with everything refitted, best first; the first two closer when they are too
+/// close to call.
+std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>& candidates,
+                                                    const Refit& best) {
   stage_ = "ranking the effects";
   const std::vector<Knob> fitted = together(theta_, chosen_);
   const bool accepted = best.p_value > doubtful, strayed = has_strayed(best);
-  std::vector<ScreenedEffect> screened =
-      screen(features(), fitted, candidates, workshop_, dear_ ? ranked_when_dear : to_rank, 100000 * ++batch_);
-  for (const ScreenedEffect& effect : screened) result_.ranking.push_back({effect.effect, effect.gain, std::nan(""), std::nan(""), effect.value, effect.look_alikes});
-  const auto promise = [&](const ScreenedEffect& effect) { return effect.gain - candidates[effect.candidate].doubt; };
+  std::vector<ScreenedEffect> screened = screen(features(), fitted, candidates, workshop_,
+                                                dear_ ? ranked_when_dear : to_rank, 100000 * ++batch_);
+  for (const ScreenedEffect& effect : screened)
+    result_.ranking.push_back(
+        {effect.effect, effect.gain, std::nan(""), std::nan(""), effect.value, effect.look_alikes});
+  const auto promise = [&](const ScreenedEffect& effect) {
+    return effect.gain - candidates[effect.candidate].doubt;
+  };
   const auto always = [&](const ScreenedEffect& effect) { return candidates[effect.candidate].always; };
-  std::stable_sort(screened.begin(), screened.end(), [&](const ScreenedEffect& a, const ScreenedEffect& b) { return promise(a) > promise(b); });
+  std::stable_sort(screened.begin(), screened.end(),
+                   [&](const ScreenedEffect& a, const ScreenedEffect& b) { return promise(a) > promise(b); });
   std::stable_partition(screened.begin(), screened.end(), always);
   const auto others = std::find_if_not(screened.begin(), screened.end(), always);
   const double most_promised = others == screened.end() ? 0 : promise(*others);
-  // What promises to explain a good part of the misfit goes first: it may make closer looks at the others needless.
-  const double share = others != screened.end() && candidates[others->candidate].dear ? goes_first_when_dear : goes_first;
-  if (most_promised > std::max(2 * least_gain, share * (best.judged_chi2 - best.degrees))) std::rotate(screened.begin(), others, others + 1);
+  // What promises to explain a good part of the misfit goes first: it may make closer looks at the others
+  // needless.
+  const double share =
+      others != screened.end() && candidates[others->candidate].dear ? goes_first_when_dear : goes_first;
+  if (most_promised > std::max(2 * least_gain, share * (best.judged_chi2 - best.degrees)))
+    std::rotate(screened.begin(), others, others + 1);
   const Setup before = base_;
   std::vector<Rival> rivals;
   double best_score = 0, lowest = best.judged_chi2;
@@ -120,12 +139,16 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   for (const ScreenedEffect& effect : screened) {
     if (rivals.size() >= most_tried || result_.runs_simulated > options_.budget) break;
     const bool silent = accepted && promise(effect) < speaks_up && !(always(effect) && strayed);
-    if (silent || (always(effect) && explained)) {  // nothing that acts otherwise takes up so much and leaves noise alone
+    // nothing that acts otherwise takes up so much and leaves noise alone
+    if (silent || (always(effect) && explained)) {
       // Friction has no linear estimate: untried, nothing is known of it.
-      std::erase_if(result_.ranking, [&](const RankedEffect& ranked) { return always(effect) && ranked.effect == effect.effect && ranked.gain == 0; });
+      std::erase_if(result_.ranking, [&](const RankedEffect& ranked) {
+        return always(effect) && ranked.effect == effect.effect && ranked.gain == 0;
+      });
       continue;
     }
-    // Linear gains rank well enough to leave out what promises half of what another has already brought, less where none explains.
+    // Linear gains rank well enough to leave out what promises half of what another has already brought, less
+    // where none explains.
     const double bar = std::max(0.25 * most_promised, (mended ? 0.5 : 0.25) * best_score);
     if (!always(effect) && (effect.gain < least_gain / 2 || promise(effect) < bar)) continue;
     try {
@@ -141,7 +164,8 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   }
   const auto better = [](const Rival& a, const Rival& b) { return a.score() > b.score(); };
   std::stable_sort(rivals.begin(), rivals.end(), better);
-  if (rivals.size() > 1 && rivals[0].score() - rivals[1].score() < too_close && rivals[0].score() > least_gain) {
+  if (rivals.size() > 1 && rivals[0].score() - rivals[1].score() < too_close &&
+      rivals[0].score() > least_gain) {
     rivals.resize(2);
     for (Rival& rival : rivals) rival = decide(rival, best);
     std::stable_sort(rivals.begin(), rivals.end(), better);
@@ -150,26 +174,34 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   return rivals;
 }
 
-/// A model that is rejected must be mended; one that is merely doubtful needs a better reason, or lengths left out that say the same; an accepted one
-/// a reason that lengths left out do not deny. Beside friction, whose two models leave a difference, a better one too.
+/// A model that is rejected must be mended; one that is merely doubtful needs a better reason, or lengths
+/// left out that say the same; an accepted one a reason that lengths left out do not deny. Beside friction,
+/// whose two models leave a difference, a better one too.
 bool Pipeline::pays(const Rival& rival, const Refit& best) const {
-  const bool beside_friction = std::find(result_.missing.begin(), result_.missing.end(), "grain_friction") != result_.missing.end();
+  const bool beside_friction =
+      std::find(result_.missing.begin(), result_.missing.end(), "grain_friction") != result_.missing.end();
   const bool confirmed = std::isfinite(rival.held_out_gain) && rival.held_out_gain > least_gain;
   const bool denied = std::isfinite(rival.held_out_gain) && rival.held_out_gain < 0;
   const double noisy = std::max(1.0, rival.fit.scatter);
-  if (best.p_value > doubtful) return rival.gain >= (denied || beside_friction ? 2 * least_gain : speaks_up) * noisy + std::max(0.0, rival.doubt);
+  if (best.p_value > doubtful)
+    return rival.gain >=
+           (denied || beside_friction ? 2 * least_gain : speaks_up) * noisy + std::max(0.0, rival.doubt);
   // What leaves a model that is rejected, and is denied, may merely imitate a part of what is missing.
-  if (denied && rival.fit.p_value <= rejected && rival.gain < 0.5 * (best.judged_chi2 - best.degrees)) return false;
-  const double least = beside_friction || (best.p_value > rejected && !confirmed) ? 2 * least_gain : least_gain;
-  // Restitutions far from the user's imitate friction to within a few per cent of the misfit; lengths left out tell.
+  if (denied && rival.fit.p_value <= rejected && rival.gain < 0.5 * (best.judged_chi2 - best.degrees))
+    return false;
+  const double least =
+      beside_friction || (best.p_value > rejected && !confirmed) ? 2 * least_gain : least_gain;
+  // Restitutions far from the user's imitate friction to within a few per cent of the misfit; lengths left
+  // out tell.
   const double share = confirmed ? 0 : least_share;
   return rival.gain >= least * noisy + rival.doubt && rival.gain >= share * best.judged_chi2;
 }
 
-/// What was added, fitted with full effort. Strengths that were looked for as one (friction of grains and of walls) are fitted by themselves: each may
-/// be anything that the data allow.
+/// What was added, fitted with full effort. Strengths that were looked for as one (friction of grains and of
+/// walls) are fitted by themselves: each may be anything that the data allow.
 Refit Pipeline::conclude(const std::string& step, const Refit& so_far) {
-  if (std::none_of(chosen_.begin(), chosen_.end(), is_joint)) return fit(step, together(theta_, chosen_), to_conclude);
+  if (std::none_of(chosen_.begin(), chosen_.end(), is_joint))
+    return fit(step, together(theta_, chosen_), to_conclude);
   std::vector<Knob> parts = taken_apart(chosen_);
   const std::vector<Knob> boxes = taken_apart(first_boxes_);
   for (Knob& part : parts) {
@@ -177,29 +209,35 @@ Refit Pipeline::conclude(const std::string& step, const Refit& so_far) {
     const auto box = std::find_if(boxes.begin(), boxes.end(), same);
     if (box == boxes.end() || std::any_of(chosen_.begin(), chosen_.end(), same)) continue;
     part.width = 0.6 * box->width;
-    part.centre = std::max(part.centre, part.low + part.width);  // one may be far from what both were together
+    // one may be far from what both were together
+    part.centre = std::max(part.centre, part.low + part.width);
   }
   const Refit apart = fit(step, together(theta_, parts), to_tell_apart);
-  if ((apart.scatter - so_far.scatter) * apart.degrees > too_close) return fit(step, together(theta_, chosen_), to_conclude);  // too many to follow
+  // too many to follow
+  if ((apart.scatter - so_far.scatter) * apart.degrees > too_close)
+    return fit(step, together(theta_, chosen_), to_conclude);
   chosen_ = parts;
   first_boxes_ = boxes;
   return apart;
 }
 
-/// Adds an effect and fits it with full effort. False, and all as before: it neither explains nor differs from nothing, so that its gain was the
-/// emulators' noise.
+/// Adds an effect and fits it with full effort. False, and all as before: it neither explains nor differs
+/// from nothing, so that its gain was the emulators' noise.
 bool Pipeline::take(const Rival& winner, Refit& best) {
   const auto before = std::tuple(base_, theta_, chosen_, first_boxes_, final_, result_.missing, dear_);
   base_ = winner.setup;
-  for (std::vector<Knob>* list : {&chosen_, &first_boxes_}) list->insert(list->end(), winner.knobs.begin(), winner.knobs.end());
+  for (std::vector<Knob>* list : {&chosen_, &first_boxes_})
+    list->insert(list->end(), winner.knobs.begin(), winner.knobs.end());
   result_.missing.push_back(winner.effect);
   dear_ = dear_ || winner.dear;
   keep(winner.fit);
-  for (const Knob& knob : chosen_) set_knob(base_, knob, options_.known);  // present from now on, so that it is no candidate again
+  // present from now on, so that it is no candidate again
+  for (const Knob& knob : chosen_) set_knob(base_, knob, options_.known);
   const Refit closer = winner.decided ? winner.fit : conclude("refitting with " + winner.effect, winner.fit);
   // Of two strengths that were one neither may stand out where the one did.
   const bool one = std::none_of(winner.knobs.begin(), winner.knobs.end(), is_joint);
-  const bool in_question = winner.gain < beyond_noise && (closer.p_value <= doubtful || best.p_value > doubtful);
+  const bool in_question =
+      winner.gain < beyond_noise && (closer.p_value <= doubtful || best.p_value > doubtful);
   if (in_question && !stands_out(one ? closer : winner.fit, winner.knobs)) {
     std::tie(base_, theta_, chosen_, first_boxes_, final_, result_.missing, dear_) = before;
     return false;
@@ -217,15 +255,18 @@ bool Pipeline::take(const Rival& winner, Refit& best) {
 bool Pipeline::add_best_candidate(Refit& best) {
   std::vector<Candidate> candidates = open_candidates();
   // Beside a model that is accepted, dear ones would cost more than all else.
-  if (best.p_value > doubtful) std::erase_if(candidates, [](const Candidate& candidate) { return candidate.dear && !candidate.always; });
+  if (best.p_value > doubtful)
+    std::erase_if(candidates, [](const Candidate& candidate) { return candidate.dear && !candidate.always; });
   const std::vector<Rival> rivals = rivals_among(candidates, best);
   if (rivals.empty() || !pays(rivals.front(), best) || !take(rivals.front(), best)) return false;
   const Rival& winner = rivals.front();
   runner_up_.reset();
   if (rivals.size() == 1) return true;
   const Rival& second = rivals[1];
-  // Lengths left out may rank what the fits do not, but their gains are too noisy to say that one of two alike is not the truth.
-  const bool alike = winner.gain - second.gain < too_close || (second.decided && winner.score() - second.score() < too_close);
+  // Lengths left out may rank what the fits do not, but their gains are too noisy to say that one of two
+  // alike is not the truth.
+  const bool alike = winner.gain - second.gain < too_close ||
+                     (second.decided && winner.score() - second.score() < too_close);
   if (alike && second.gain > 0.8 * winner.gain) call_twins(winner.effect, second.effect);
   if (second.score() > 0 && second.gain > contends * winner.gain)
     for (const Candidate& candidate : candidates)
@@ -234,7 +275,8 @@ bool Pipeline::add_best_candidate(Refit& best) {
 }
 
 /// One candidate with everything refitted.
-Pipeline::Rival Pipeline::try_candidate(const ScreenedEffect& effect, const Candidate& candidate, const Setup& before, const std::vector<Knob>& fitted,
+Pipeline::Rival Pipeline::try_candidate(const ScreenedEffect& effect, const Candidate& candidate,
+                                        const Setup& before, const std::vector<Knob>& fitted,
                                         const Refit& best, double lowest) {
   base_ = prepared(before, candidate, options_.known);
   std::vector<Knob> added = candidate.fitted_knobs();
@@ -251,12 +293,22 @@ Pipeline::Rival Pipeline::try_candidate(const ScreenedEffect& effect, const Cand
   }
   const bool dear = candidate.dear && !candidate.always;
   const std::vector<Knob> knobs = together(covering_the_users_values(fitted), added);
-  Rival rival{candidate.effect, candidate.doubt, base_, added, fit("trying " + candidate.effect, knobs, dear ? to_try_dear : to_try, &best, lowest), 0, 0, false, dear};
-  // The restitutions are known well only together, and friction with them: along that valley there may be two minima (friction of .1, and of
-  // .35 with other restitutions).
-  const bool hopeless = lowest < best.judged_chi2 - 2 * least_gain && rival.fit.judged_chi2 > lowest + hopelessly_behind;
+  Rival rival{candidate.effect,
+              candidate.doubt,
+              base_,
+              added,
+              fit("trying " + candidate.effect, knobs, dear ? to_try_dear : to_try, &best, lowest),
+              0,
+              0,
+              false,
+              dear};
+  // The restitutions are known well only together, and friction with them: along that valley there may be two
+  // minima (friction of .1, and of .35 with other restitutions).
+  const bool hopeless =
+      lowest < best.judged_chi2 - 2 * least_gain && rival.fit.judged_chi2 > lowest + hopelessly_behind;
   if (!hopeless && std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; })) {
-    const Refit other = fit("trying " + candidate.effect + " from elsewhere", second_start(rival.fit, added), to_look_again, &best, std::min(lowest, rival.fit.judged_chi2));
+    const Refit other = fit("trying " + candidate.effect + " from elsewhere", second_start(rival.fit, added),
+                            to_look_again, &best, std::min(lowest, rival.fit.judged_chi2));
     if (other.judged_chi2 < rival.fit.judged_chi2) rival.fit = other;
   }
   rank(rival, best);
@@ -281,7 +333,8 @@ void Pipeline::call_twins(const std::string& named, const std::string& other) {
   twins_.emplace_back(named, other);
   for (RankedEffect& ranked : result_.ranking)
     for (const auto& [here, there] : {std::pair(named, other), std::pair(other, named)})
-      if (ranked.effect == here && std::find(ranked.look_alikes.begin(), ranked.look_alikes.end(), there) == ranked.look_alikes.end())
+      if (ranked.effect == here &&
+          std::find(ranked.look_alikes.begin(), ranked.look_alikes.end(), there) == ranked.look_alikes.end())
         ranked.look_alikes.push_back(there);
 }
 
@@ -305,7 +358,9 @@ void Pipeline::prune(Refit& best) {
   if (result_.missing.size() < 2) return;
   for (std::size_t i = 0; i + 1 < result_.missing.size(); ++i) {
     const std::string effect = result_.missing[i];
-    if (std::any_of(result_.momentum.terms.begin(), result_.momentum.terms.end(), [&](const FoundTerm& t) { return t.effect == effect; })) continue;
+    if (std::any_of(result_.momentum.terms.begin(), result_.momentum.terms.end(),
+                    [&](const FoundTerm& t) { return t.effect == effect; }))
+      continue;
     const Setup before = base_;
     std::erase_if(base_.effects, [&](const EffectChoice& choice) { return choice.record->name == effect; });
     std::vector<Knob> rest = chosen_;

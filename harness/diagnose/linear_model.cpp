@@ -3,7 +3,8 @@
 
 namespace shakedown {
 
-LinearModel linear_model(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators, std::size_t knobs, const Weigh& weigh) {
+LinearModel linear_model(const std::vector<MeasuredFeatures>& measured,
+                         const std::vector<Emulator>& emulators, std::size_t knobs, const Weigh& weigh) {
   const auto n = static_cast<Eigen::Index>(knobs);
   Eigen::Index total = 0, at = 0;
   for (const MeasuredFeatures& m : measured) total += m.values.size();
@@ -22,8 +23,9 @@ LinearModel linear_model(const std::vector<MeasuredFeatures>& measured, const st
   return model;
 }
 
-BesideFitted beside_fitted(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
-                           const std::vector<std::size_t>& members, std::span<const EffectRecord* const> known) {
+BesideFitted beside_fitted(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
+                           const std::vector<Candidate>& candidates, const std::vector<std::size_t>& members,
+                           std::span<const EffectRecord* const> known) {
   BesideFitted beside{straight(fitted, 0.5), {}, measured};
   for (const std::size_t c : members) {
     for (const Knob& knob : straight(candidates[c].knobs, 1)) {
@@ -35,9 +37,11 @@ BesideFitted beside_fitted(const std::vector<MeasuredFeatures>& measured, const 
   return beside;
 }
 
-Eigen::VectorXd residual_without(const LinearModel& model, const std::vector<Knob>& knobs, std::size_t fitted) {
+Eigen::VectorXd residual_without(const LinearModel& model, const std::vector<Knob>& knobs,
+                                 std::size_t fitted) {
   Eigen::VectorXd residual = model.residual;
-  for (std::size_t k = fitted; k < knobs.size(); ++k) residual -= model.columns.col(static_cast<Eigen::Index>(k)) * knobs[k].z_of(when_absent(knobs[k]));
+  for (std::size_t k = fitted; k < knobs.size(); ++k)
+    residual -= model.columns.col(static_cast<Eigen::Index>(k)) * knobs[k].z_of(when_absent(knobs[k]));
   return residual;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Measured less modelled, and what each knob does to it: the linear regression that ranks effects, whatever the weights.
+// Measured less modelled, and what each knob does to it: the linear regression that ranks effects, whatever
+// the weights.
 #pragma once
 #include <functional>
 #include <vector>
@@ -18,19 +19,22 @@ struct LinearModel {
 using Weigh = std::function<void(std::size_t r, Eigen::MatrixXd& block)>;
 
 /// The linear terms of the emulators, one of each measured run. No `weigh`: metres.
-LinearModel linear_model(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators, std::size_t knobs, const Weigh& weigh = {});
+LinearModel linear_model(const std::vector<MeasuredFeatures>& measured,
+                         const std::vector<Emulator>& emulators, std::size_t knobs, const Weigh& weigh = {});
 
 /// The fitted parameters and some candidates, to be scattered together.
 struct BesideFitted {
-  std::vector<Knob> knobs;                  ///< the fitted ones, then the candidates', all straight
-  std::vector<std::size_t> candidate_of;    ///< of each knob after the fitted ones
-  std::vector<MeasuredFeatures> measured;   ///< with what the candidates need besides
+  std::vector<Knob> knobs;                 ///< the fitted ones, then the candidates', all straight
+  std::vector<std::size_t> candidate_of;   ///< of each knob after the fitted ones
+  std::vector<MeasuredFeatures> measured;  ///< with what the candidates need besides
 };
-BesideFitted beside_fitted(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
-                           const std::vector<std::size_t>& members, std::span<const EffectRecord* const> known);
+BesideFitted beside_fitted(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
+                           const std::vector<Candidate>& candidates, const std::vector<std::size_t>& members,
+                           std::span<const EffectRecord* const> known);
 
 /// The residual of the model in which every knob from the number `fitted` on is at its absence.
-Eigen::VectorXd residual_without(const LinearModel& model, const std::vector<Knob>& knobs, std::size_t fitted);
+Eigen::VectorXd residual_without(const LinearModel& model, const std::vector<Knob>& knobs,
+                                 std::size_t fitted);
 
 /// The knobs with no curvature, `widths` times as wide.
 std::vector<Knob> straight(std::vector<Knob> knobs, double widths);

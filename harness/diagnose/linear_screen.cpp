@@ -18,12 +18,15 @@ using Roots = std::vector<Eigen::LLT<Eigen::MatrixXd>>;
 /// Of each run's chaos and camera noise.
 Roots roots_of(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators) {
   Roots roots;
-  for (std::size_t r = 0; r < measured.size(); ++r) roots.emplace_back(feature_covariance(emulators[r].residuals, measured[r].plan, 0));
+  for (std::size_t r = 0; r < measured.size(); ++r)
+    roots.emplace_back(feature_covariance(emulators[r].residuals, measured[r].plan, 0));
   return roots;
 }
 
-LinearModel whitened(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators, std::size_t knobs, const Roots& roots) {
-  return linear_model(measured, emulators, knobs, [&](std::size_t r, Eigen::MatrixXd& block) { roots[r].matrixL().solveInPlace(block); });
+LinearModel whitened(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators,
+                     std::size_t knobs, const Roots& roots) {
+  return linear_model(measured, emulators, knobs,
+                      [&](std::size_t r, Eigen::MatrixXd& block) { roots[r].matrixL().solveInPlace(block); });
 }
 
 /// What the regression's own error adds to a whitened square: a term's share of each feature.
@@ -38,8 +41,11 @@ double own_error(const std::vector<Emulator>& emulators) {
 class Outside {
  public:
   explicit Outside(const Eigen::MatrixXd& free)
-      : free_(free), normal_(free.transpose() * free + 1e-9 * Eigen::MatrixXd::Identity(free.cols(), free.cols())) {}
-  Eigen::VectorXd operator()(const Eigen::VectorXd& column) const { return column - free_ * normal_.solve(free_.transpose() * column); }
+      : free_(free),
+        normal_(free.transpose() * free + 1e-9 * Eigen::MatrixXd::Identity(free.cols(), free.cols())) {}
+  Eigen::VectorXd operator()(const Eigen::VectorXd& column) const {
+    return column - free_ * normal_.solve(free_.transpose() * column);
+  }
 
  private:
   Eigen::MatrixXd free_;
@@ -49,7 +55,8 @@ class Outside {
 struct Screening {
   std::vector<ScreenedEffect> list;
   Roots roots;                              ///< one metric for all, of the first and largest regression
-  std::vector<Eigen::VectorXd> signatures;  ///< of each in the list, whitened, with the fitted parameters projected out; empty: on or off
+  std::vector<Eigen::VectorXd> signatures;  ///< of each in the list, whitened, with the fitted parameters
+                                            ///< projected out; empty: on or off
 };
 
 /// What the fitted parameters alone leave.
@@ -58,12 +65,14 @@ struct Left {
   Eigen::VectorXd residual;
 };
 
-/// Candidates with knobs, scattered together in `count` runs, judged by what the fitted parameters leave without them: of these runs, or, where they
-/// are few and what is scattered is far from linear, of others.
-Left screen_together(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
-                     const std::vector<std::size_t>& members, const Workshop& workshop, int count, int first_run, Screening& screening,
+/// Candidates with knobs, scattered together in `count` runs, judged by what the fitted parameters leave
+/// without them: of these runs, or, where they are few and what is scattered is far from linear, of others.
+Left screen_together(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
+                     const std::vector<Candidate>& candidates, const std::vector<std::size_t>& members,
+                     const Workshop& workshop, int count, int first_run, Screening& screening,
                      const Left* without = nullptr) {
-  const auto [knobs, candidate_of, with] = beside_fitted(measured, fitted, candidates, members, workshop.known);
+  const auto [knobs, candidate_of, with] =
+      beside_fitted(measured, fitted, candidates, members, workshop.known);
   const auto n_fitted = static_cast<Eigen::Index>(fitted.size());
   const std::vector<Emulator> emulators = emulate(with, knobs, count, first_run, workshop);
   if (screening.roots.empty()) screening.roots = roots_of(with, emulators);
@@ -80,47 +89,63 @@ Left screen_together(const std::vector<MeasuredFeatures>& measured, const std::v
     const double square = signature.squaredNorm(), by = square > 0 ? signature.dot(residual) / square : 0;
     const double z = knob.z_of(when_absent(knob)) + by;
     const bool allowed = by == 0 || knob.at(z) != when_absent(knob);  // a drag cannot push
-    screening.list.push_back({candidate_of[k], candidates[candidate_of[k]].effect, allowed ? by * by * square : 0, knob.at(z), {}});
+    screening.list.push_back({candidate_of[k],
+                              candidates[candidate_of[k]].effect,
+                              allowed ? by * by * square : 0,
+                              knob.at(z),
+                              {}});
     screening.signatures.push_back(signature);
   }
   return *without;
 }
 
-/// On or off: the model with it, beside the model without. The difference is its signature at the strength that it is prepared with; what is fixed of
-/// it is a length, and its strength goes with the curvature.
-void screen_switch(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
-                   std::size_t c, const Workshop& workshop, int count, int first_run, const Left& without, Screening& screening) {
+/// On or off: the model with it, beside the model without. The difference is its signature at the strength
+/// that it is prepared with; what is fixed of it is a length, and its strength goes with the curvature.
+void screen_switch(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
+                   const std::vector<Candidate>& candidates, std::size_t c, const Workshop& workshop,
+                   int count, int first_run, const Left& without, Screening& screening) {
   std::vector<MeasuredFeatures> with = measured;
   for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidates[c], workshop.known);
   const std::vector<Emulator> emulators = emulate(with, straight(fitted, 0.5), count, first_run, workshop);
-  const Eigen::VectorXd signature = without.residual - without.outside(whitened(with, emulators, fitted.size(), screening.roots).residual);
-  const double square = std::max(0.0, signature.squaredNorm() - own_error(emulators)), along = signature.dot(without.residual);
+  const Eigen::VectorXd signature =
+      without.residual - without.outside(whitened(with, emulators, fitted.size(), screening.roots).residual);
+  const double square = std::max(0.0, signature.squaredNorm() - own_error(emulators)),
+               along = signature.dot(without.residual);
   const bool seen = square > 0 && along > 0;
-  screening.list.push_back({c, candidates[c].effect, seen ? along * along / signature.squaredNorm() : 0,
-                            candidates[c].fixed.front().second * (seen ? square / along : 1), {}});
+  screening.list.push_back({c,
+                            candidates[c].effect,
+                            seen ? along * along / signature.squaredNorm() : 0,
+                            candidates[c].fixed.front().second * (seen ? square / along : 1),
+                            {}});
   screening.signatures.push_back(signature);
 }
 
 }  // namespace
 
-std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
-                                   const std::vector<Candidate>& candidates, const Workshop& workshop, int count, int first_run) {
+std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured,
+                                   const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
+                                   const Workshop& workshop, int count, int first_run) {
   Screening screening;
   std::vector<std::size_t> cheap, slow;
   for (std::size_t c = 0; c < candidates.size(); ++c)
     if (!candidates[c].dear && !candidates[c].knobs.empty()) (candidates[c].slow ? slow : cheap).push_back(c);
   int batch = 0;
   const auto next = [&] { return first_run + 5000 * batch++; };
-  const Left without = screen_together(measured, fitted, candidates, cheap, workshop, count, next(), screening);
-  if (!slow.empty()) screen_together(measured, fitted, candidates, slow, workshop, std::max(64, count / 4), next(), screening, &without);
-  const int few = std::max(40, count / 8), fewest = std::max(24, few / 2);  // what is dear has a strong signature
+  const Left without =
+      screen_together(measured, fitted, candidates, cheap, workshop, count, next(), screening);
+  if (!slow.empty())
+    screen_together(measured, fitted, candidates, slow, workshop, std::max(64, count / 4), next(), screening,
+                    &without);
+  // what is dear has a strong signature
+  const int few = std::max(40, count / 8), fewest = std::max(24, few / 2);
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (candidates[c].dear && candidates[c].always) {
       screening.list.push_back({c, candidates[c].effect, 0, candidates[c].knobs.front().centre, {}});
       screening.signatures.emplace_back();
       continue;
     }
-    if (candidates[c].dear) screen_together(measured, fitted, candidates, {c}, workshop, fewest, next(), screening, &without);
+    if (candidates[c].dear)
+      screen_together(measured, fitted, candidates, {c}, workshop, fewest, next(), screening, &without);
     if (!candidates[c].knobs.empty()) continue;
     screen_switch(measured, fitted, candidates, c, workshop, few, next(), without, screening);
   }
@@ -128,11 +153,15 @@ std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured
   const std::vector<Eigen::VectorXd>& signatures = screening.signatures;
   for (std::size_t a = 0; a < list.size(); ++a)
     for (std::size_t b = 0; b < list.size(); ++b) {
-      if (a == b || list[a].effect == list[b].effect || signatures[a].size() == 0 || signatures[b].size() == 0) continue;
-      const double cosine = signatures[a].dot(signatures[b]) / std::max(1e-300, signatures[a].norm() * signatures[b].norm());
+      if (a == b || list[a].effect == list[b].effect || signatures[a].size() == 0 ||
+          signatures[b].size() == 0)
+        continue;
+      const double cosine =
+          signatures[a].dot(signatures[b]) / std::max(1e-300, signatures[a].norm() * signatures[b].norm());
       if (std::abs(cosine) > 0.9) list[a].look_alikes.push_back(list[b].effect);
     }
-  std::stable_sort(list.begin(), list.end(), [](const ScreenedEffect& a, const ScreenedEffect& b) { return a.gain > b.gain; });
+  std::stable_sort(list.begin(), list.end(),
+                   [](const ScreenedEffect& a, const ScreenedEffect& b) { return a.gain > b.gain; });
   return list;
 }
 

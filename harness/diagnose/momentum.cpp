@@ -204,7 +204,8 @@ MomentumAudit audit_momentum(const std::vector<MomentumRun>& runs, const Plateau
     audit.why_not = "no run has both the box's and the grains' position over more than a few periods";
     return audit;
   }
-  // A box that sticks obeys no sgn v: judge it only where it moves by 30 standard deviations of the camera's noise.
+  // A box that sticks obeys no sgn v: judge it only where it moves by 30 standard deviations of the camera's
+  // noise.
   const auto only_moving = [&] {
     double noise = 0;
     for (const MomentumRun& run : runs) noise = std::max(noise, run.box_noise.standard_deviation);
@@ -214,7 +215,8 @@ MomentumAudit audit_momentum(const std::vector<MomentumRun>& runs, const Plateau
     p = std::move(moving);
     audit.only_moving = true;
   };
-  if (std::any_of(runs.begin(), runs.end(), [](const MomentumRun& run) { return run.dry_friction; })) only_moving();
+  if (std::any_of(runs.begin(), runs.end(), [](const MomentumRun& run) { return run.dry_friction; }))
+    only_moving();
   for (std::size_t run = 0; run < p.problem.runs(); ++run) audit.runs.push_back(run_as_given(p.problem, run));
   audit.as_given = balance_of(regress(p.problem.impulse(), Eigen::MatrixXd(p.problem.size(), 0)));
   const Selection refitted = fit_terms(p, {{0, 0}});
@@ -223,7 +225,8 @@ MomentumAudit audit_momentum(const std::vector<MomentumRun>& runs, const Plateau
 
   Selection selection = select_terms(p, options);
   const SingleTerm& first = audit.ranking.front();
-  if (!audit.only_moving && (has_dry_friction(selection) || (first.effect == "clamp_dry_friction" && first.gain > 20))) {
+  if (!audit.only_moving &&
+      (has_dry_friction(selection) || (first.effect == "clamp_dry_friction" && first.gain > 20))) {
     only_moving();
     if (audit.only_moving) selection = select_terms(p, options);
   }
@@ -239,11 +242,13 @@ MomentumAudit audit_momentum(const std::vector<MomentumRun>& runs, const Plateau
     Selection all = fit_terms(fast, selection.chosen);
     while (drop_needless(fast, all)) {
     }
-    std::erase_if(all.chosen, [&](const ChosenTerm& c) { return c.term < 0 && c.frequency == sine->frequency; });
+    std::erase_if(all.chosen,
+                  [&](const ChosenTerm& c) { return c.term < 0 && c.frequency == sine->frequency; });
     all.chosen.push_back({-1, sine->frequency});  // last, whatever the order
     selection = fit_terms(p, all.chosen);
   }
-  if (options.formulas && (selection.chosen.size() > 1 || balance_of(selection.fit).p_value < options.accept_p)) {
+  if (options.formulas &&
+      (selection.chosen.size() > 1 || balance_of(selection.fit).p_value < options.accept_p)) {
     // Known terms have the advantage: a formula must be better by more than the price of its parameters.
     FormulaFit formulas = fit_formulas(p, options);
     audit.unlisted =

@@ -89,10 +89,11 @@ struct MomentumOptions {
   double window_periods = 0.6;  ///< length of a window in periods of the empty box (0.5 s at 1.23 Hz)
   double hop = 0.25;            ///< of a window
   double accept_p = 0.01;       ///< below: formulas are looked for
-  double reject_p = 1e-3;       ///< below: not explained; one experiment in a hundred lies below 0.01 by chance, and "unknown" is a grave word
+  double reject_p = 1e-3;  ///< below: not explained; one experiment in a hundred lies below 0.01 by chance,
+                           ///< and "unknown" is a grave word
   int most_terms = 6;
   int most_sines = 2;
-  bool formulas = true;  ///< false: known terms alone
+  bool formulas = true;                                   ///< false: known terms alone
   double lowest_frequency = 0.1, highest_frequency = 10;  ///< Hz, scan for forcing
 };
 

@@ -206,7 +206,8 @@ bool drop_needless(SelectionProblem& p, Selection& selection) {
     double gain = 0;
     for (const Eigen::Index last = column + (sine ? 2 : 1); column < last; ++column)
       gain += std::pow(selection.fit.strength[column] / std::max(selection.fit.error[column], 1e-300), 2);
-    const bool forbidden = !sine && p.terms[static_cast<std::size_t>(c.term)].never_negative && selection.fit.strength[column - 1] < 0;
+    const bool forbidden = !sine && p.terms[static_cast<std::size_t>(c.term)].never_negative &&
+                           selection.fit.strength[column - 1] < 0;
     // When the balance is not closed the noise is not the whole error.
     const double error = std::max(1.0, selection.fit.chi2 / selection.fit.degrees);
     if (gain > error * ((sine ? 2 : 1) * bits + price_of_a_term) && !forbidden) continue;

@@ -21,7 +21,8 @@ struct Selection {
   double objective = 0;            ///< -2 ln likelihood: chi2 and the noise that the fitted forces let in
 };
 
-/// A term that could take another's place with chi2 no more than this higher, three standard deviations, is called its look-alike.
+/// A term that could take another's place with chi2 no more than this higher, three standard deviations, is
+/// called its look-alike.
 constexpr double as_good = 9;
 
 /// What the selection works on; the covariance of `problem` follows the fit.

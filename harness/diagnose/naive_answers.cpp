@@ -16,12 +16,14 @@ namespace shakedown {
 
 namespace {
 
-/// The emulators that two single simulations would give: each coefficient has the chaos of one, as if the mean of many were not known.
+/// The emulators that two single simulations would give: each coefficient has the chaos of one, as if the
+/// mean of many were not known.
 std::vector<Emulator> of_one_seed(std::vector<Emulator> emulators, std::size_t knobs) {
   for (Emulator& e : emulators) {
     const Eigen::RowVectorXd chaos = e.residuals.row(0);
     e.coefficients.row(0) += chaos;
-    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(knobs); ++k) e.coefficients.row(1 + k) += e.residuals.row(1 + k % (e.residuals.rows() - 1)) - chaos;
+    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(knobs); ++k)
+      e.coefficients.row(1 + k) += e.residuals.row(1 + k % (e.residuals.rows() - 1)) - chaos;
   }
   return emulators;
 }
@@ -30,12 +32,14 @@ std::vector<Emulator> of_one_seed(std::vector<Emulator> emulators, std::size_t k
 Eigen::VectorXd weights_of(const std::vector<MeasuredFeatures>& measured, bool by_noise) {
   std::vector<double> weights;
   for (const MeasuredFeatures& m : measured)
-    for (const Feature& feature : m.plan.features) weights.push_back(by_noise ? 1 / feature.noise : feature.observable == Observable::box ? 1.0 : 0.0);
+    for (const Feature& feature : m.plan.features)
+      weights.push_back(by_noise ? 1 / feature.noise : feature.observable == Observable::box ? 1.0 : 0.0);
   return Eigen::Map<Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()));
 }
 
 /// Weighted square that the columns leave.
-double left_by(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns, const Eigen::VectorXd& weights) {
+double left_by(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
+               const Eigen::VectorXd& weights) {
   const Eigen::VectorXd values = weights.asDiagonal() * residual;
   if (columns.cols() == 0) return values.squaredNorm();
   const Eigen::MatrixXd weighted = weights.asDiagonal() * columns;
@@ -53,7 +57,11 @@ struct Best {
 class Naive {
  public:
   Naive(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> theta, const Workshop& workshop)
-      : measured_(measured), theta_(std::move(theta)), workshop_(workshop), box_(weights_of(measured, false)), noise_(weights_of(measured, true)) {}
+      : measured_(measured),
+        theta_(std::move(theta)),
+        workshop_(workshop),
+        box_(weights_of(measured, false)),
+        noise_(weights_of(measured, true)) {}
 
   NaiveAnswers answers() {
     const std::vector<Candidate> candidates = candidates_for(measured_.front().setup, {}, workshop_.known);
@@ -66,13 +74,15 @@ class Naive {
  private:
   static constexpr int few = 48, many = 224;
 
-  std::vector<Emulator> emulators_of(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, int count) {
+  std::vector<Emulator> emulators_of(const std::vector<MeasuredFeatures>& measured,
+                                     const std::vector<Knob>& knobs, int count) {
     return emulate(measured, knobs, count, 100000 * ++batch_, workshop_);
   }
 
   void offer(const std::string& effect, const LinearModel& mean, const LinearModel& single) {
     least_error_.offer(effect, left_by(mean.residual, mean.columns, box_));
-    akaike_.offer(effect, left_by(mean.residual, mean.columns, noise_) + 2 * static_cast<double>(mean.columns.cols()));
+    akaike_.offer(
+        effect, left_by(mean.residual, mean.columns, noise_) + 2 * static_cast<double>(mean.columns.cols()));
     one_seed_.offer(effect, left_by(single.residual, single.columns, box_));
   }
 
@@ -80,7 +90,8 @@ class Naive {
     std::vector<MeasuredFeatures> with = measured_;
     for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidate, workshop_.known);
     const std::vector<Emulator> emulators = emulators_of(with, straight(theta_, 0.5), few);
-    offer(candidate.effect, linear_model(with, emulators, theta_.size()), linear_model(with, of_one_seed(emulators, theta_.size()), theta_.size()));
+    offer(candidate.effect, linear_model(with, emulators, theta_.size()),
+          linear_model(with, of_one_seed(emulators, theta_.size()), theta_.size()));
   }
 
   /// All strengths scattered at once; each is then fitted beside the parameters with the others absent.
@@ -88,10 +99,12 @@ class Naive {
     std::vector<std::size_t> members;
     for (std::size_t c = 0; c < candidates.size(); ++c)
       if (!candidates[c].knobs.empty()) members.push_back(c);
-    const auto [knobs, candidate_of, with] = beside_fitted(measured_, theta_, candidates, members, workshop_.known);
+    const auto [knobs, candidate_of, with] =
+        beside_fitted(measured_, theta_, candidates, members, workshop_.known);
     const std::vector<Emulator> emulators = emulators_of(with, knobs, many);
     const std::size_t n = theta_.size();
-    LinearModel mean = linear_model(with, emulators, knobs.size()), single = linear_model(with, of_one_seed(emulators, knobs.size()), knobs.size());
+    LinearModel mean = linear_model(with, emulators, knobs.size()),
+                single = linear_model(with, of_one_seed(emulators, knobs.size()), knobs.size());
     for (LinearModel* model : {&mean, &single}) model->residual = residual_without(*model, knobs, n);
     const auto beside_theta = [&](const LinearModel& model, std::size_t k) {
       const auto fitted = static_cast<Eigen::Index>(n);
@@ -99,8 +112,10 @@ class Naive {
       one.columns << model.columns.leftCols(fitted), model.columns.col(fitted + static_cast<Eigen::Index>(k));
       return one;
     };
-    akaike_.offer("", left_by(mean.residual, mean.columns.leftCols(static_cast<Eigen::Index>(n)), noise_) + 2 * static_cast<double>(n));
-    for (std::size_t k = 0; k < candidate_of.size(); ++k) offer(candidates[candidate_of[k]].effect, beside_theta(mean, k), beside_theta(single, k));
+    akaike_.offer("", left_by(mean.residual, mean.columns.leftCols(static_cast<Eigen::Index>(n)), noise_) +
+                          2 * static_cast<double>(n));
+    for (std::size_t k = 0; k < candidate_of.size(); ++k)
+      offer(candidates[candidate_of[k]].effect, beside_theta(mean, k), beside_theta(single, k));
   }
 
   const std::vector<MeasuredFeatures>& measured_;
@@ -114,7 +129,8 @@ class Naive {
 }  // namespace
 
 NaiveAnswers naive_answers(const Setup& setup, const Experiment& experiment, const Workshop& workshop) {
-  const std::vector<MeasuredFeatures> measured = features_of(experiment, audit(experiment), setups_of_runs(setup, experiment, workshop.known));
+  const std::vector<MeasuredFeatures> measured =
+      features_of(experiment, audit(experiment), setups_of_runs(setup, experiment, workshop.known));
   std::vector<Knob> theta = free_parameters(setup);
   RefitOptions options;
   options.count = 96;

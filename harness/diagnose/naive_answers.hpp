@@ -10,12 +10,13 @@ namespace shakedown {
 /// Effect ids; empty: nothing named.
 struct NaiveAnswers {
   std::string least_error;  ///< whose refit leaves the smallest rms error of the box
-  std::string white_noise;  ///< whose refit has the smallest of Akaike's criterion, the camera's white noise taken for all there is
-  std::string one_seed;     ///< least_error against one simulation of each model instead of an ensemble's mean
+  std::string white_noise;  ///< whose refit has the smallest of Akaike's criterion, the camera's white noise
+                            ///< taken for all there is
+  std::string one_seed;  ///< least_error against one simulation of each model instead of an ensemble's mean
 };
 
-/// Refits the parameters to the experiment, then every known effect beside them, linearly. Throws InputError when the setup does not fit the
-/// experiment, Interrupted.
+/// Refits the parameters to the experiment, then every known effect beside them, linearly. Throws InputError
+/// when the setup does not fit the experiment, Interrupted.
 NaiveAnswers naive_answers(const Setup& setup, const Experiment& experiment, const Workshop& workshop);
 
 }  // namespace shakedown

@@ -43,13 +43,17 @@ MeasuredFeatures seen(const Design& design, double noise_box, double noise_centr
 }
 
 /// Length of the found effect's signature, in standard errors, outside what the other columns can imitate.
-double standing_out(const Emulator& emulator, const FeaturePlan& plan, Eigen::Index others, const Eigen::VectorXd& strengths) {
+double standing_out(const Emulator& emulator, const FeaturePlan& plan, Eigen::Index others,
+                    const Eigen::VectorXd& strengths) {
   const Eigen::LLT<Eigen::MatrixXd> root(feature_covariance(emulator.residuals, plan, 0));
   const Eigen::MatrixXd free = root.matrixL().solve(emulator.coefficients.middleRows(1, others).transpose());
-  const Eigen::VectorXd effect = root.matrixL().solve(emulator.coefficients.middleRows(1 + others, strengths.size()).transpose() * strengths);
-  const Eigen::VectorXd left = effect - free * (free.transpose() * free).ldlt().solve(free.transpose() * effect);
+  const Eigen::VectorXd effect = root.matrixL().solve(
+      emulator.coefficients.middleRows(1 + others, strengths.size()).transpose() * strengths);
+  const Eigen::VectorXd left =
+      effect - free * (free.transpose() * free).ldlt().solve(free.transpose() * effect);
   // The emulator's noise makes a signature of its own, whose square is known.
-  const double noise = strengths.squaredNorm() * emulator.inverse_normal(1 + others, 1 + others) * static_cast<double>(effect.size());
+  const double noise = strengths.squaredNorm() * emulator.inverse_normal(1 + others, 1 + others) *
+                       static_cast<double>(effect.size());
   return std::sqrt(std::max(0.0, left.squaredNorm() - noise));
 }
 
@@ -62,7 +66,9 @@ std::vector<Design> possible_designs(const Setup& setup) {
     changed.grains.count = grains;
     changed.box.length = length;
     changed.release.displacement = release;
-    designs.push_back({"N = " + std::to_string(grains) + ", L = " + write_quantity(length, "mm") + ", release " + write_quantity(release, "mm"), changed});
+    designs.push_back({"N = " + std::to_string(grains) + ", L = " + write_quantity(length, "mm") +
+                           ", release " + write_quantity(release, "mm"),
+                       changed});
   };
   const int grains = setup.grains.count;
   const double release = setup.release.displacement;
@@ -73,8 +79,9 @@ std::vector<Design> possible_designs(const Setup& setup) {
   return designs;
 }
 
-std::vector<Advice> advise(const std::vector<Design>& designs, const std::vector<Knob>& parameters, const std::vector<Knob>& found,
-                           const Candidate& rival, double noise_box, double noise_centre, const Workshop& workshop, int count, int first_run) {
+std::vector<Advice> advise(const std::vector<Design>& designs, const std::vector<Knob>& parameters,
+                           const std::vector<Knob>& found, const Candidate& rival, double noise_box,
+                           double noise_centre, const Workshop& workshop, int count, int first_run) {
   std::vector<Knob> knobs = parameters;
   for (Knob& knob : knobs) knob.width = std::min(knob.width, 0.05);
   knobs.insert(knobs.end(), rival.fitted_knobs().begin(), rival.fitted_knobs().end());
@@ -82,7 +89,8 @@ std::vector<Advice> advise(const std::vector<Design>& designs, const std::vector
   Eigen::VectorXd strengths(static_cast<Eigen::Index>(found.size()));
   for (std::size_t k = 0; k < found.size(); ++k) {
     Knob knob = found[k];
-    knob.width = std::max(0.5 * std::abs(knob.centre), 1e-9);  // scattered about the fitted strength, which is two widths
+    // scattered about the fitted strength, which is two widths
+    knob.width = std::max(0.5 * std::abs(knob.centre), 1e-9);
     strengths[static_cast<Eigen::Index>(k)] = 2;
     knobs.push_back(knob);
   }
@@ -93,12 +101,14 @@ std::vector<Advice> advise(const std::vector<Design>& designs, const std::vector
     design.setup = prepared(design.setup, rival, workshop.known);
     try {
       const MeasuredFeatures m = seen(design, noise_box, noise_centre, workshop);
-      const std::vector<Emulator> emulators = emulate({m}, knobs, count, first_run + static_cast<int>(d) * 5000, workshop);
+      const std::vector<Emulator> emulators =
+          emulate({m}, knobs, count, first_run + static_cast<int>(d) * 5000, workshop);
       list.push_back({design.words, standing_out(emulators.front(), m.plan, others, strengths)});
     } catch (const InputError&) {  // the grains do not fit into the box: no such design
     }
   }
-  std::stable_sort(list.begin(), list.end(), [](const Advice& a, const Advice& b) { return a.sigmas > b.sigmas; });
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Advice& a, const Advice& b) { return a.sigmas > b.sigmas; });
   return list;
 }
 

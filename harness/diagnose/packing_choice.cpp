@@ -28,7 +28,8 @@ std::vector<ReleasedCentre> released_centres(const Experiment& experiment, const
     if (!run.has_com()) continue;
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < run.time.size() && run.time[i] < still; ++i)
-      if (const double apart = audit.runs[r].x_com[i] - audit.runs[r].x_box[i]; std::isfinite(apart)) sum += apart, ++count;
+      if (const double apart = audit.runs[r].x_com[i] - audit.runs[r].x_box[i]; std::isfinite(apart))
+        sum += apart, ++count;
     if (count >= 3) list.push_back({r, sum / count});
   }
   return list;
@@ -44,13 +45,15 @@ double misfit_up_to_scale(const std::vector<ReleasedCentre>& measured, const std
   }
   const double scale = high - low > 0.01 && square > 0 ? std::clamp(cross / square, 0.88, 1.1) : 1.0;
   double squares = 0;
-  for (std::size_t i = 0; i < measured.size(); ++i) squares += std::pow(measured[i].apart - scale * modelled[i], 2);
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    squares += std::pow(measured[i].apart - scale * modelled[i], 2);
   return std::sqrt(squares / static_cast<double>(measured.size()));
 }
 
 }  // namespace
 
-Packing packing_before_release(const Setup& given, const Experiment& experiment, const Audit& audit, std::span<const EffectRecord* const> known) {
+Packing packing_before_release(const Setup& given, const Experiment& experiment, const Audit& audit,
+                               std::span<const EffectRecord* const> known) {
   Packing best = given.release.packing;
   if (!given.release.initial_grains.empty() || given.grains.count == 0) return best;
   const std::vector<ReleasedCentre> measured = released_centres(experiment, audit);

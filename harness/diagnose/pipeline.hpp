@@ -12,15 +12,19 @@ namespace shakedown {
 
 /// Below this a model is rejected.
 constexpr double rejected = 0.01;
-/// Above this the model as given holds, and above the other nobody looks for what a single effect would take away.
+/// Above this the model as given holds, and above the other nobody looks for what a single effect would take
+/// away.
 constexpr double holds = 0.03, holds_well = 0.3;
-/// Misfit (chi2 over that of the model's own runs) that two codes of the same physics may have: hard and soft friction differ by 1.3.
+/// Misfit (chi2 over that of the model's own runs) that two codes of the same physics may have: hard and soft
+/// friction differ by 1.3.
 constexpr double codes_differ = 1.2;
 /// Below this an effect with a signature of its own is looked for.
 constexpr double doubtful = 0.05;
-/// A step up the ladder must bring chi2 down by this much and this share: a free parameter and the choice among some twenty effects.
+/// A step up the ladder must bring chi2 down by this much and this share: a free parameter and the choice
+/// among some twenty effects.
 constexpr double least_gain = 14, least_share = 0.06;
-/// What an effect must promise, and then bring (chi2), beside a model that is accepted. Where nothing is hidden the best of some twelve promises 3 to 9.
+/// What an effect must promise, and then bring (chi2), beside a model that is accepted. Where nothing is
+/// hidden the best of some twelve promises 3 to 9.
 constexpr double speaks_up = 17;
 constexpr int most_effects = 3;
 constexpr std::size_t most_cells = 12;
@@ -32,24 +36,30 @@ constexpr double quick_kick_interval = 1e-2;  // s
 
 inline std::string effect_of(const std::string& key) { return key.substr(0, key.find('.')); }
 
-/// Re-centrings at least, simulations of each different setup in a fit's last round, and at its solution; whether a poor one looks beside it.
+/// Re-centrings at least, simulations of each different setup in a fit's last round, and at its solution;
+/// whether a poor one looks beside it.
 struct Effort {
   int rounds, count, confirming;
   bool beside = false;
 };
-constexpr Effort only_look{1, 128, 0}, to_refit{2, 160, 128, true}, to_try{2, 128, 96}, to_try_dear{1, 72, 48}, to_look_again{2, 112, 96},
-    to_decide{1, 128, 128}, to_prune{2, 128, 96, true}, to_conclude{1, 192, 160}, to_tell_apart{2, 160, 128};
-/// Simulations of each different setup in a ranking; where an effect makes runs cost several times more, and at most in a fit with it.
+constexpr Effort only_look{1, 128, 0}, to_refit{2, 160, 128, true}, to_try{2, 128, 96},
+    to_try_dear{1, 72, 48}, to_look_again{2, 112, 96}, to_decide{1, 128, 128}, to_prune{2, 128, 96, true},
+    to_conclude{1, 192, 160}, to_tell_apart{2, 160, 128};
+/// Simulations of each different setup in a ranking; where an effect makes runs cost several times more, and
+/// at most in a fit with it.
 constexpr int to_rank = 192, ranked_when_dear = 128, most_when_dear = 80;
 
 class Pipeline {
  public:
-  Pipeline(const Setup& setup, const Experiment& experiment, const Engine& engine, const DiagnoseOptions& options);
+  Pipeline(const Setup& setup, const Experiment& experiment, const Engine& engine,
+           const DiagnoseOptions& options);
   Diagnosis run();
 
  private:
   // diagnosis.cpp: the course of it
-  bool momentum_clean() const { return !result_.momentum.possible || result_.momentum.as_given.p_value > MomentumOptions{}.reject_p; }
+  bool momentum_clean() const {
+    return !result_.momentum.possible || result_.momentum.as_given.p_value > MomentumOptions{}.reject_p;
+  }
 
   std::vector<MeasuredFeatures> features() const {
     return features_of(experiment_, audit_, setups_of_runs(base_, experiment_, options_.known));
@@ -58,7 +68,8 @@ class Pipeline {
   void choose_packing();
   void judge();
   void accept_as_given(const Refit& given);
-  Refit fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by = nullptr,
+  Refit fit(const std::string& step, const std::vector<Knob>& knobs, Effort effort,
+            const Refit* judged_by = nullptr,
             double look_again_below = std::numeric_limits<double>::infinity());
   void add_momentum_terms();
   bool possible(const FoundTerm& term) const;
@@ -77,7 +88,10 @@ class Pipeline {
     double gain, held_out_gain;
     bool decided;
     bool dear = false;  ///< its runs cost several times a plain one
-    double score() const { return gain + 0.5 * (std::isfinite(held_out_gain) ? std::clamp(held_out_gain, -gain, gain) : 0.0) - doubt; }
+    double score() const {
+      return gain + 0.5 * (std::isfinite(held_out_gain) ? std::clamp(held_out_gain, -gain, gain) : 0.0) -
+             doubt;
+    }
   };
   std::vector<Candidate> open_candidates() const;
   std::vector<Rival> rivals_among(const std::vector<Candidate>& candidates, const Refit& best);
@@ -85,8 +99,8 @@ class Pipeline {
   Refit conclude(const std::string& step, const Refit& so_far);
   bool take(const Rival& winner, Refit& best);
   bool add_best_candidate(Refit& best);
-  Rival try_candidate(const ScreenedEffect& effect, const Candidate& candidate, const Setup& before, const std::vector<Knob>& fitted, const Refit& best,
-                      double lowest);
+  Rival try_candidate(const ScreenedEffect& effect, const Candidate& candidate, const Setup& before,
+                      const std::vector<Knob>& fitted, const Refit& best, double lowest);
   Rival decide(Rival rival, const Refit& best);
   void rank(Rival& rival, const Refit& best);
   void call_twins(const std::string& named, const std::string& other);
@@ -112,8 +126,8 @@ class Pipeline {
   std::vector<Knob> theta_;        // what the user may refit, at its latest values
   Refit final_;
   bool refitted_ = false;
-  bool concluded_ = false;  // the latest fit was made with full effort
-  std::optional<Candidate> runner_up_;  // to the effect added last
+  bool concluded_ = false;                                  // the latest fit was made with full effort
+  std::optional<Candidate> runner_up_;                      // to the effect added last
   std::vector<std::pair<std::string, std::string>> twins_;  // named, and what explains the data as well
   bool dear_ = false;  // an effect was added whose runs cost several times a plain one
   int batch_ = 0;

@@ -12,7 +12,8 @@ namespace shakedown {
 
 namespace {
 
-[[noreturn]] void refuse(const SourcePlace& place, const std::string& key, const std::string& problem, const std::string& remedy) {
+[[noreturn]] void refuse(const SourcePlace& place, const std::string& key, const std::string& problem,
+                         const std::string& remedy) {
   throw InputError({{place, key, problem, remedy}});
 }
 
@@ -21,18 +22,23 @@ const EffectRecord& record_named(const std::string& name) {
   std::vector<std::string_view> names;
   for (const EffectRecord* record : all_effects()) names.push_back(record->name);
   const std::string_view near = nearest(name, names);
-  refuse({"EFFECT", 0, 0}, name, "is not an effect", (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") + "`shakedown effects` lists them");
+  refuse(
+      {"EFFECT", 0, 0}, name, "is not an effect",
+      (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") + "`shakedown effects` lists them");
 }
 
 bool has(const Setup& setup, const EffectRecord& record) {
-  return std::any_of(setup.effects.begin(), setup.effects.end(), [&](const EffectChoice& choice) { return choice.record == &record; });
+  return std::any_of(setup.effects.begin(), setup.effects.end(),
+                     [&](const EffectChoice& choice) { return choice.record == &record; });
 }
 
-/// A value of the command line as it stands in a file: numbers, lists and tables as they are, all else in quotes.
+/// A value of the command line as it stands in a file: numbers, lists and tables as they are, all else in
+/// quotes.
 std::string as_toml(const std::string& value) {
   try {
     const TomlValue parsed = parse_toml("value = " + value, "");
-    if (parsed.entries.size() == 1 && parsed.entries.front().value.kind != TomlValue::Kind::date) return value;
+    if (parsed.entries.size() == 1 && parsed.entries.front().value.kind != TomlValue::Kind::date)
+      return value;
   } catch (const InputError&) {
   }
   return toml_string(value);
@@ -60,9 +66,11 @@ std::vector<Override> parsed(const std::vector<std::string>& values) {
 }
 
 /// What the amended file must read back to.
-Setup wanted(const std::string& text, const std::filesystem::path& file, const EffectRecord& record, const std::vector<Override>& values) {
+Setup wanted(const std::string& text, const std::filesystem::path& file, const EffectRecord& record,
+             const std::vector<Override>& values) {
   if (has(parse_setup(text, file.string(), all_effects(), {}, file.parent_path()), record))
-    refuse({file.string(), 0, 0}, std::string(record.name), "is in the setup already", "change its values there");
+    refuse({file.string(), 0, 0}, std::string(record.name), "is in the setup already",
+           "change its values there");
   std::vector<Override> overrides = values;
   for (Override& override : overrides) override.key = std::string(record.name) + "." + override.key;
   if (values.empty()) {
@@ -72,23 +80,28 @@ Setup wanted(const std::string& text, const std::filesystem::path& file, const E
     return setup;
   }
   Setup setup = parse_setup(text, file.string(), all_effects(), overrides, file.parent_path());
-  if (!has(setup, record)) refuse({"key=value", 0, 0}, std::string(record.name), "does nothing at these values", "give it a strength");
+  if (!has(setup, record))
+    refuse({"key=value", 0, 0}, std::string(record.name), "does nothing at these values",
+           "give it a strength");
   return setup;
 }
 
 }  // namespace
 
-AmendedSetup with_effect_added(const std::string& text, const std::filesystem::path& file, const std::string& effect,
-                               const std::vector<std::string>& values, const std::filesystem::path& folder) {
+AmendedSetup with_effect_added(const std::string& text, const std::filesystem::path& file,
+                               const std::string& effect, const std::vector<std::string>& values,
+                               const std::filesystem::path& folder) {
   const EffectRecord& record = record_named(effect);
   const std::vector<Override> given = parsed(values);
   const Setup setup = wanted(text, file, record, given);
-  const std::string appended = text + (text.empty() || text.ends_with('\n') ? "\n" : "\n\n") + lines_of(record, given);
+  const std::string appended =
+      text + (text.empty() || text.ends_with('\n') ? "\n" : "\n\n") + lines_of(record, given);
   try {
     const Setup back = parse_setup(appended, file.string() + " with " + effect, all_effects(), {}, folder);
     if (write_setup(back) == write_setup(setup)) return {appended, back, true};
   } catch (const InputError&) {
-    if (const std::vector<Violation> wrong = violations_of(setup); !wrong.empty()) throw;  // two effects that exclude each other
+    // two effects that exclude each other
+    if (const std::vector<Violation> wrong = violations_of(setup); !wrong.empty()) throw;
   }
   // Effects in one line, or a path that counts from another folder.
   const std::string anew = write_setup(setup);

@@ -15,14 +15,23 @@ extern const EffectRecord blade_arc{
     .name = "blade_arc",
     .acts_on = ActsOn::all,
     .sentence = "The box moves on the arc of the blade's tip, which throws the grains across.",
-    .formula = "z_box = (3/5) x^2/l in the lab; transverse acceleration -(6/5)(v^2 + x a)/l of the grains in the "
-               "frame of the box",
-    .source = "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
-              "011301 (2011), neglects it; the tip of a cantilever: S. P. Timoshenko and J. M. Gere, Mechanics of "
-              "Materials",
-    .limits = "Small deflection (x << l); the tilt of the box is left out. As l grows the effect vanishes; there is "
-              "no neutral value.",
-    .parameters = {{.name = "blade_length", .unit = "m", .default_value = 0.59, .low = 0.05, .high = 1000, .typical = 0.59,
+    .formula =
+        "z_box = (3/5) x^2/l in the lab; transverse acceleration -(6/5)(v^2 + x a)/l of the grains in the "
+        "frame of the box",
+    .source =
+        "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
+        "011301 (2011), neglects it; the tip of a cantilever: S. P. Timoshenko and J. M. Gere, Mechanics of "
+        "Materials",
+    .limits =
+        "Small deflection (x << l); the tilt of the box is left out. As l grows the effect vanishes; there "
+        "is "
+        "no neutral value.",
+    .parameters = {{.name = "blade_length",
+                    .unit = "m",
+                    .default_value = 0.59,
+                    .low = 0.05,
+                    .high = 1000,
+                    .typical = 0.59,
                     .sentence = "Free length of the blade."}},
     .claims = "arc of the box",
     .hard = {Fidelity::exact},

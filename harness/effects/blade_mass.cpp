@@ -5,9 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
-  physics.box_mass += choice.number("mass");
-}
+void apply(const EffectChoice& choice, int, Physics& physics) { physics.box_mass += choice.number("mass"); }
 }  // namespace
 
 extern const EffectRecord blade_mass{
@@ -15,11 +13,20 @@ extern const EffectRecord blade_mass{
     .acts_on = ActsOn::box,
     .sentence = "Moving mass added to the box while the spring constant stays.",
     .formula = "M -> M + dM, k unchanged",
-    .source = "R. D. Blevins, Formulas for Natural Frequency and Mode Shape (1979): 33/140 of the mass of a uniform "
-              "cantilever moves with its tip",
-    .limits = "One rigid mass: higher modes of the blade are not described. When spring.frequency was measured on "
-              "the real empty box it holds the blade already.",
-    .parameters = {{.name = "mass", .unit = "kg", .required = true, .low = 0, .high = 10, .neutral = 0, .typical = 0.01,
+    .source =
+        "R. D. Blevins, Formulas for Natural Frequency and Mode Shape (1979): 33/140 of the mass of a "
+        "uniform "
+        "cantilever moves with its tip",
+    .limits =
+        "One rigid mass: higher modes of the blade are not described. When spring.frequency was measured on "
+        "the real empty box it holds the blade already.",
+    .parameters = {{.name = "mass",
+                    .unit = "kg",
+                    .required = true,
+                    .low = 0,
+                    .high = 10,
+                    .neutral = 0,
+                    .typical = 0.01,
                     .sentence = "Mass added to the box."}},
     .hard = {Fidelity::exact},
     .soft = {Fidelity::exact},

@@ -19,13 +19,21 @@ extern const EffectRecord blade_quadratic_drag{
     .sentence = "Drag of the box that grows as the square of its speed.",
     .formula = "F = -c v |v|",
     .source = "A. H. Nayfeh and D. T. Mook, Nonlinear Oscillations (Wiley, 1979), chapter 3",
-    .limits = "For air c = C_D rho A/2; a plate of 60 mm by 60 mm has about 0.0025 N s^2/m^2. An oscillating body "
-              "sheds vortices, so C_D depends on the amplitude.",
-    .parameters = {{.name = "drag", .unit = "N s^2/m^2", .required = true, .low = 0, .high = 10, .neutral = 0, .typical = 0.03,
+    .limits =
+        "For air c = C_D rho A/2; a plate of 60 mm by 60 mm has about 0.0025 N s^2/m^2. An oscillating body "
+        "sheds vortices, so C_D depends on the amplitude.",
+    .parameters = {{.name = "drag",
+                    .unit = "N s^2/m^2",
+                    .required = true,
+                    .low = 0,
+                    .high = 10,
+                    .neutral = 0,
+                    .typical = 0.03,
                     .sentence = "Force divided by the square of the speed."}},
     .dissipative = true,
     .hard = {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"},
-    .soft = {Fidelity::to_stated_error, "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
+    .soft = {Fidelity::to_stated_error,
+             "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply};
 

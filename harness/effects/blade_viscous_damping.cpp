@@ -17,13 +17,21 @@ extern const EffectRecord blade_viscous_damping{
     .sentence = "Linear damping of the box.",
     .formula = "F = -c v",
     .source = "L. D. Landau and E. M. Lifshitz, Mechanics, section 25",
-    .limits = "Linear in the speed at all speeds; damping inside a steel blade depends on amplitude rather than "
-              "frequency.",
-    .parameters = {{.name = "damping", .unit = "N s/m", .required = true, .low = 0, .high = 10, .neutral = 0, .typical = 0.05,
+    .limits =
+        "Linear in the speed at all speeds; damping inside a steel blade depends on amplitude rather than "
+        "frequency.",
+    .parameters = {{.name = "damping",
+                    .unit = "N s/m",
+                    .required = true,
+                    .low = 0,
+                    .high = 10,
+                    .neutral = 0,
+                    .typical = 0.05,
                     .sentence = "Force divided by the speed of the box."}},
     .dissipative = true,
     .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error, "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
+    .soft = {Fidelity::to_stated_error,
+             "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply};
 

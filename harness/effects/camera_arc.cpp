@@ -15,12 +15,19 @@ extern const EffectRecord camera_arc{
     .acts_on = ActsOn::camera,
     .sentence = "The recorded centre of the grains is foreshortened by the tilt of the box on its blade.",
     .formula = "x_recorded = x_box + (x_com - x_box) cos(1.5 x_box/l)",
-    .source = "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
-              "011301 (2011), its explanation of the misfit of x_COM; slope 1.5 x/l at the tip of a cantilever: S. "
-              "P. Timoshenko and J. M. Gere, Mechanics of Materials",
-    .limits = "Small deflection; the grains in the plane of the box's middle. Looks like camera_com_bias at one "
-              "amplitude. As l grows the effect vanishes; there is no neutral value.",
-    .parameters = {{.name = "blade_length", .unit = "m", .default_value = 0.59, .low = 0.05, .high = 1000, .typical = 0.59,
+    .source =
+        "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
+        "011301 (2011), its explanation of the misfit of x_COM; slope 1.5 x/l at the tip of a cantilever: S. "
+        "P. Timoshenko and J. M. Gere, Mechanics of Materials",
+    .limits =
+        "Small deflection; the grains in the plane of the box's middle. Looks like camera_com_bias at one "
+        "amplitude. As l grows the effect vanishes; there is no neutral value.",
+    .parameters = {{.name = "blade_length",
+                    .unit = "m",
+                    .default_value = 0.59,
+                    .low = 0.05,
+                    .high = 1000,
+                    .typical = 0.59,
                     .sentence = "Free length of the blade."}},
     .hard = {Fidelity::exact},
     .soft = {Fidelity::exact},

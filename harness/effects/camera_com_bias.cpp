@@ -15,10 +15,16 @@ extern const EffectRecord camera_com_bias{
     .acts_on = ActsOn::camera,
     .sentence = "The recorded centre of the grains lies too near to the middle of the box.",
     .formula = "x_recorded = x_box + (1 - b)(x_com - x_box)",
-    .source = "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
-              "011301 (2011), on its own images",
+    .source =
+        "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
+        "011301 (2011), on its own images",
     .limits = "One factor at all amplitudes; see camera_arc for a bias that grows with the displacement.",
-    .parameters = {{.name = "bias", .required = true, .low = -1, .high = 1, .neutral = 0, .typical = 0.05,
+    .parameters = {{.name = "bias",
+                    .required = true,
+                    .low = -1,
+                    .high = 1,
+                    .neutral = 0,
+                    .typical = 0.05,
                     .sentence = "Share of the distance to the middle that is lost."}},
     .hard = {Fidelity::exact},
     .soft = {Fidelity::exact},

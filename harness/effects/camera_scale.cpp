@@ -15,10 +15,16 @@ extern const EffectRecord camera_scale{
     .acts_on = ActsOn::camera,
     .sentence = "All recorded lengths are too long by a factor.",
     .formula = "x_recorded = (1 + s) x",
-    .source = "C. Tropea, A. L. Yarin and J. F. Foss (eds.), Springer Handbook of Experimental Fluid Mechanics "
-              "(2007), on the calibration of cameras",
+    .source =
+        "C. Tropea, A. L. Yarin and J. F. Foss (eds.), Springer Handbook of Experimental Fluid Mechanics "
+        "(2007), on the calibration of cameras",
     .limits = "One factor over the whole picture: no distortion by the lens.",
-    .parameters = {{.name = "scale", .required = true, .low = -0.5, .high = 0.5, .neutral = 0, .typical = 0.01,
+    .parameters = {{.name = "scale",
+                    .required = true,
+                    .low = -0.5,
+                    .high = 0.5,
+                    .neutral = 0,
+                    .typical = 0.01,
                     .sentence = "Relative error of recorded lengths."}},
     .hard = {Fidelity::exact},
     .soft = {Fidelity::exact},

@@ -59,18 +59,22 @@ std::string toml_value(const Parameter& parameter, double strength) {
 }
 
 bool is_strength(const Parameter& parameter) {
-  return parameter.kind == ParameterKind::number ? parameter.required || !std::isnan(parameter.neutral) : parameter.kind != ParameterKind::choice || parameter.required;
+  return parameter.kind == ParameterKind::number
+             ? parameter.required || !std::isnan(parameter.neutral)
+             : parameter.kind != ParameterKind::choice || parameter.required;
 }
 
-/// "at 40 mm the slope changes by -0.62 mm/s, hard minus soft by 0.01 +- 0.03"; what the effect adds to the plain model.
+/// "at 40 mm the slope changes by -0.62 mm/s, hard minus soft by 0.01 +- 0.03"; what the effect adds to the
+/// plain model.
 std::string differences_of(const EffectRecord& effect) {
   std::string text;
   for (const EngineDifference& row : engine_differences()) {
     if (row.effect != effect.name) continue;
     const AddedDifference added = *added_difference(row.effect, row.box_length);
     std::array<char, 160> part;
-    std::snprintf(part.data(), part.size(), "at %.0f mm the slope changes by %.2f mm/s, hard minus soft by %.2f +- %.2f", 1e3 * row.box_length,
-                  1e3 * added.change, 1e3 * added.added, 1e3 * added.half_width);
+    std::snprintf(part.data(), part.size(),
+                  "at %.0f mm the slope changes by %.2f mm/s, hard minus soft by %.2f +- %.2f",
+                  1e3 * row.box_length, 1e3 * added.change, 1e3 * added.added, 1e3 * added.half_width);
     text += (text.empty() ? "measured at the typical strength: " : "; ") + std::string(part.data());
   }
   return text;
@@ -102,10 +106,12 @@ std::string_view name_of(Fidelity fidelity) {
 
 std::string list_effects(std::span<const EffectRecord* const> effects) {
   const auto mark = [](const Capability& capability) { return padded(name_of(capability.fidelity), 19); };
-  std::string text = padded("effect", 32) + padded("acts on", 9) + padded("hard", 19) + padded("soft", 19) + padded("bullet", 19) + padded("hard-soft*", 14) + "what it is\n";
+  std::string text = padded("effect", 32) + padded("acts on", 9) + padded("hard", 19) + padded("soft", 19) +
+                     padded("bullet", 19) + padded("hard-soft*", 14) + "what it is\n";
   for (const EffectRecord* effect : effects)
-    text += padded(effect->name, 32) + padded(name_of(effect->acts_on), 9) + mark(effect->hard) + mark(effect->soft) + mark(effect->bullet) +
-            padded(shortly(effect->name), 14) + std::string(effect->sentence) + "\n";
+    text += padded(effect->name, 32) + padded(name_of(effect->acts_on), 9) + mark(effect->hard) +
+            mark(effect->soft) + mark(effect->bullet) + padded(shortly(effect->name), 14) +
+            std::string(effect->sentence) + "\n";
   return text + "* of the slope, added by the effect at its typical strength, L = 40 and 104 mm, mm/s\n";
 }
 
@@ -143,10 +149,14 @@ std::string describe_effect(const EffectRecord& effect) {
       facts += "; default " + std::get<std::string>(parameter.default_value) + ".";
     }
     if (const std::string bounds = bounds_of(parameter); !bounds.empty()) facts += " Bounds: " + bounds + ".";
-    if (const auto* value = std::get_if<double>(&parameter.default_value); value != nullptr && !parameter.required)
+    if (const auto* value = std::get_if<double>(&parameter.default_value);
+        value != nullptr && !parameter.required)
       facts += " Default: " + write_quantity(*value, parameter.unit) + ".";
     const bool numeric = parameter.kind == ParameterKind::number || parameter.kind == ParameterKind::vector;
-    if (numeric) facts += std::isnan(parameter.neutral) ? " No neutral value." : " Absent at " + write_quantity(parameter.neutral, parameter.unit) + ".";
+    if (numeric)
+      facts += std::isnan(parameter.neutral)
+                   ? " No neutral value."
+                   : " Absent at " + write_quantity(parameter.neutral, parameter.unit) + ".";
     text += "            " + wrapped(facts, 12) + "\n";
   }
   text += "  in a setup:\n";
@@ -163,11 +173,14 @@ std::string setup_keys_markdown() {
   std::string text = "| key | default | bounds | meaning |\n|---|---|---|---|\n";
   for (const SetupKey& key : setup_keys()) {
     std::string bounds;
-    if (is_numeric(key) && std::isfinite(key.low)) bounds = (key.low_excluded ? "> " : ">= ") + write_quantity(key.low, key.unit);
-    if (is_numeric(key) && std::isfinite(key.high)) bounds += (bounds.empty() ? "<= " : ", <= ") + write_number(key.high);
+    if (is_numeric(key) && std::isfinite(key.low))
+      bounds = (key.low_excluded ? "> " : ">= ") + write_quantity(key.low, key.unit);
+    if (is_numeric(key) && std::isfinite(key.high))
+      bounds += (bounds.empty() ? "<= " : ", <= ") + write_number(key.high);
     if (const auto choices = choices_of(key); !choices.empty())
       for (const std::string_view word : choices) (bounds += bounds.empty() ? "" : ", ") += word;
-    text += "| `" + std::string(key.path) + "` | `" + toml_of(key, Setup{}) + "` | " + bounds + " | " + std::string(key.sentence) + " |\n";
+    text += "| `" + std::string(key.path) + "` | `" + toml_of(key, Setup{}) + "` | " + bounds + " | " +
+            std::string(key.sentence) + " |\n";
   }
   return text;
 }

@@ -20,12 +20,18 @@ std::string_view name_of(ParameterKind kind) {
 
 Json json_of(const Parameter& parameter) {
   const bool numeric = parameter.kind == ParameterKind::number || parameter.kind == ParameterKind::vector;
-  Json json{{"name", parameter.name}, {"kind", name_of(parameter.kind)}, {"meaning", parameter.sentence}, {"required", parameter.required}};
+  Json json{{"name", parameter.name},
+            {"kind", name_of(parameter.kind)},
+            {"meaning", parameter.sentence},
+            {"required", parameter.required}};
   if (numeric) {
     json["unit"] = parameter.unit;
-    const auto number = [&](const char* key, double value) { json[key] = std::isfinite(value) ? Json(value) : Json(); };
+    const auto number = [&](const char* key, double value) {
+      json[key] = std::isfinite(value) ? Json(value) : Json();
+    };
     if (const auto* value = std::get_if<double>(&parameter.default_value)) number("default", *value);
-    if (const auto* vector = std::get_if<Vec3>(&parameter.default_value)) json["default"] = {vector->x(), vector->y(), vector->z()};
+    if (const auto* vector = std::get_if<Vec3>(&parameter.default_value))
+      json["default"] = {vector->x(), vector->y(), vector->z()};
     number("low", parameter.low);
     number("high", parameter.high);
     number("neutral", parameter.neutral);
@@ -38,7 +44,9 @@ Json json_of(const Parameter& parameter) {
   return json;
 }
 
-Json json_of(const Capability& capability) { return {{"fidelity", name_of(capability.fidelity)}, {"note", capability.note}}; }
+Json json_of(const Capability& capability) {
+  return {{"fidelity", name_of(capability.fidelity)}, {"note", capability.note}};
+}
 
 /// In mm/s at the typical strength, a row a box length; empty: not measured, or seen by the camera only.
 Json differences_of(const EffectRecord& effect) {
@@ -46,9 +54,13 @@ Json differences_of(const EffectRecord& effect) {
   for (const EngineDifference& row : engine_differences()) {
     if (row.effect != effect.name) continue;
     const AddedDifference added = *added_difference(row.effect, row.box_length);
-    rows.push_back({{"box_length_mm", 1e3 * row.box_length}, {"slope_mm_per_s", 1e3 * row.hard_slope}, {"hard_minus_soft_mm_per_s", 1e3 * row.hard_minus_soft},
-                    {"half_width_95_mm_per_s", 1e3 * row.half_width}, {"slope_change_mm_per_s", 1e3 * added.change},
-                    {"added_to_plain_model_mm_per_s", 1e3 * added.added}, {"added_half_width_95_mm_per_s", 1e3 * added.half_width}});
+    rows.push_back({{"box_length_mm", 1e3 * row.box_length},
+                    {"slope_mm_per_s", 1e3 * row.hard_slope},
+                    {"hard_minus_soft_mm_per_s", 1e3 * row.hard_minus_soft},
+                    {"half_width_95_mm_per_s", 1e3 * row.half_width},
+                    {"slope_change_mm_per_s", 1e3 * added.change},
+                    {"added_to_plain_model_mm_per_s", 1e3 * added.added},
+                    {"added_half_width_95_mm_per_s", 1e3 * added.half_width}});
   }
   return rows;
 }
@@ -56,28 +68,33 @@ Json differences_of(const EffectRecord& effect) {
 Json json_of(const EffectRecord& effect) {
   Json parameters = Json::array();
   for (const Parameter& parameter : effect.parameters) parameters.push_back(json_of(parameter));
-  return {{"name", effect.name},
-          {"acts_on", name_of(effect.acts_on)},
-          {"sentence", effect.sentence},
-          {"formula", effect.formula},
-          {"source", effect.source},
-          {"limits", effect.limits},
-          {"replaces", effect.claims},
-          {"dissipative", effect.dissipative},
-          {"parameters", parameters},
-          {"engines", {{"hard", json_of(effect.hard)}, {"soft", json_of(effect.soft)}, {"bullet", json_of(effect.bullet)}}},
-          {"hard_soft_difference", differences_of(effect)},
-          {"example", example_of(effect)}};
+  return {
+      {"name", effect.name},
+      {"acts_on", name_of(effect.acts_on)},
+      {"sentence", effect.sentence},
+      {"formula", effect.formula},
+      {"source", effect.source},
+      {"limits", effect.limits},
+      {"replaces", effect.claims},
+      {"dissipative", effect.dissipative},
+      {"parameters", parameters},
+      {"engines",
+       {{"hard", json_of(effect.hard)}, {"soft", json_of(effect.soft)}, {"bullet", json_of(effect.bullet)}}},
+      {"hard_soft_difference", differences_of(effect)},
+      {"example", example_of(effect)}};
 }
 
 // ---- schema ----
 
 /// A number and a unit; the two micro signs are bytes of their own.
-constexpr std::string_view quantity_pattern = "^\\s*[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?\\s*[A-Za-z%(/\u00b5\u03bc].*$";
+constexpr std::string_view quantity_pattern =
+    "^\\s*[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?\\s*[A-Za-z%(/\u00b5\u03bc].*$";
 
 Json quantity_schema(std::string_view unit, double low, double high, bool low_excluded) {
   if (!unit.empty())
-    return {{"type", "string"}, {"pattern", quantity_pattern}, {"examples", Json::array({"1 " + std::string(unit)})}};
+    return {{"type", "string"},
+            {"pattern", quantity_pattern},
+            {"examples", Json::array({"1 " + std::string(unit)})}};
   Json json{{"type", "number"}};
   if (std::isfinite(low)) json[low_excluded ? "exclusiveMinimum" : "minimum"] = low;
   if (std::isfinite(high)) json["maximum"] = high;
@@ -88,15 +105,24 @@ Json schema_of(const SetupKey& key) {
   Json json;
   const auto choices = choices_of(key);
   const Json one = quantity_schema(key.unit, key.low, key.high, key.low_excluded);
-  if (!choices.empty()) json = {{"enum", choices}};
-  else if (std::holds_alternative<Field<bool>>(key.field)) json = {{"type", "boolean"}};
-  else if (std::holds_alternative<Field<std::string>>(key.field)) json = {{"type", "string"}};
+  if (!choices.empty())
+    json = {{"enum", choices}};
+  else if (std::holds_alternative<Field<bool>>(key.field))
+    json = {{"type", "boolean"}};
+  else if (std::holds_alternative<Field<std::string>>(key.field))
+    json = {{"type", "string"}};
   else if (std::holds_alternative<Field<std::array<double, 2>>>(key.field))
-    json = {{"oneOf", Json::array({one, {{"type", "array"}, {"items", one}, {"minItems", 2}, {"maxItems", 2}}})}};
-  else json = one;
-  if (std::holds_alternative<Field<int>>(key.field) || std::holds_alternative<Field<std::uint64_t>>(key.field)) json["type"] = "integer";
-  json["description"] = std::string(key.sentence) + (key.unit.empty() ? "" : " Unit as of: " + std::string(key.unit) + ".");
-  if (key.path != "release.initial_grains") json["default"] = Json::parse(toml_of(key, Setup{}));  // these TOML values are JSON too
+    json = {
+        {"oneOf", Json::array({one, {{"type", "array"}, {"items", one}, {"minItems", 2}, {"maxItems", 2}}})}};
+  else
+    json = one;
+  if (std::holds_alternative<Field<int>>(key.field) ||
+      std::holds_alternative<Field<std::uint64_t>>(key.field))
+    json["type"] = "integer";
+  json["description"] =
+      std::string(key.sentence) + (key.unit.empty() ? "" : " Unit as of: " + std::string(key.unit) + ".");
+  // these TOML values are JSON too
+  if (key.path != "release.initial_grains") json["default"] = Json::parse(toml_of(key, Setup{}));
   return json;
 }
 
@@ -107,11 +133,15 @@ Json schema_of(const Parameter& parameter) {
     case ParameterKind::number: json = one; break;
     case ParameterKind::vector:
       json = {{"oneOf", Json::array({{{"type", "array"}, {"items", one}, {"minItems", 3}, {"maxItems", 3}},
-                                     {{"type", "object"}, {"properties", {{"x", one}, {"y", one}, {"z", one}}}, {"additionalProperties", false}}})}};
+                                     {{"type", "object"},
+                                      {"properties", {{"x", one}, {"y", one}, {"z", one}}},
+                                      {"additionalProperties", false}}})}};
       break;
     case ParameterKind::choice: json = {{"enum", parameter.choices}}; break;
     case ParameterKind::text: json = {{"type", "string"}}; break;
-    case ParameterKind::constants: json = {{"type", "object"}, {"additionalProperties", {{"type", Json::array({"string", "number"})}}}}; break;
+    case ParameterKind::constants:
+      json = {{"type", "object"}, {"additionalProperties", {{"type", Json::array({"string", "number"})}}}};
+      break;
   }
   json["description"] = parameter.sentence;
   return json;
@@ -123,7 +153,11 @@ Json schema_of(const EffectRecord& effect) {
     properties[std::string(parameter.name)] = schema_of(parameter);
     if (parameter.required) required.push_back(parameter.name);
   }
-  return {{"type", "object"}, {"description", effect.sentence}, {"properties", properties}, {"required", required}, {"additionalProperties", false}};
+  return {{"type", "object"},
+          {"description", effect.sentence},
+          {"properties", properties},
+          {"required", required},
+          {"additionalProperties", false}};
 }
 
 }  // namespace
@@ -138,7 +172,8 @@ std::string setup_schema(std::span<const EffectRecord* const> effects) {
   Json properties = Json::object(), variants = Json::array();
   for (const SetupKey& key : setup_keys()) {
     Json& section = properties[std::string(key.section())];
-    if (section.is_null()) section = {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+    if (section.is_null())
+      section = {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
     section["properties"][std::string(key.name())] = schema_of(key);
   }
   for (const EffectRecord* effect : effects) variants.push_back(schema_of(*effect));

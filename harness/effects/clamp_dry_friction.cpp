@@ -17,12 +17,20 @@ extern const EffectRecord clamp_dry_friction{
     .sentence = "Coulomb friction on the box that opposes its motion and can hold it still.",
     .formula = "F = -F0 sgn(v); at rest as much as balances spring and grains, up to F0",
     .source = "J. P. den Hartog, Trans. ASME 53, 107 (1931)",
-    .limits = "One force for rest and motion; real joints slip bit by bit and lose energy at every amplitude.",
-    .parameters = {{.name = "force", .unit = "N", .required = true, .low = 0, .high = 10, .neutral = 0, .typical = 0.02,
+    .limits =
+        "One force for rest and motion; real joints slip bit by bit and lose energy at every amplitude.",
+    .parameters = {{.name = "force",
+                    .unit = "N",
+                    .required = true,
+                    .low = 0,
+                    .high = 10,
+                    .neutral = 0,
+                    .typical = 0.02,
                     .sentence = "Friction force."}},
     .dissipative = true,
     .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error, "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
+    .soft = {Fidelity::to_stated_error,
+             "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply};
 

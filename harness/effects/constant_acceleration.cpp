@@ -19,13 +19,24 @@ extern const EffectRecord constant_acceleration{
     .acts_on = ActsOn::all,
     .sentence = "A constant acceleration of grains and box.",
     .formula = "+m a on every grain and +M a_x on the box; +x points towards the release",
-    .source = "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
-              "011301 (2011), reports a residual acceleration of up to 0.05 g",
-    .limits = "Constant over the run; across the axis it acts on the grains only because the blade holds the box.",
-    .parameters = {{.name = "acceleration", .kind = ParameterKind::vector, .unit = "m/s^2", .default_value = Vec3(0, 0, 0), .required = true, .low = -100, .high = 100, .neutral = 0, .typical = 0.1,
+    .source =
+        "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
+        "011301 (2011), reports a residual acceleration of up to 0.05 g",
+    .limits =
+        "Constant over the run; across the axis it acts on the grains only because the blade holds the box.",
+    .parameters = {{.name = "acceleration",
+                    .kind = ParameterKind::vector,
+                    .unit = "m/s^2",
+                    .default_value = Vec3(0, 0, 0),
+                    .required = true,
+                    .low = -100,
+                    .high = 100,
+                    .neutral = 0,
+                    .typical = 0.1,
                     .sentence = "Acceleration [x, y, z]."}},
     .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error, "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
+    .soft = {Fidelity::to_stated_error,
+             "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply,
     .applied_last = true};

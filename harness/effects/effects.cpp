@@ -4,30 +4,30 @@
 #include <array>
 
 // The list of effects, in the order of the documentation. A new effect is one file that defines
-// `shakedown::effect::its_name`, and one line here. An explicit list, because a linker drops what registers itself
-// from a static library.
-#define SHAKEDOWN_EFFECTS(EFFECT)       \
-  EFFECT(grain_friction)                \
+// `shakedown::effect::its_name`, and one line here. An explicit list, because a linker drops what registers
+// itself from a static library.
+#define SHAKEDOWN_EFFECTS(EFFECT)        \
+  EFFECT(grain_friction)                 \
   EFFECT(velocity_dependent_restitution) \
-  EFFECT(grain_cohesion)                \
-  EFFECT(side_wall_restitution)         \
-  EFFECT(grain_polydispersity)          \
-  EFFECT(blade_viscous_damping)         \
-  EFFECT(blade_quadratic_drag)          \
-  EFFECT(clamp_dry_friction)            \
-  EFFECT(spring_cubic)                  \
-  EFFECT(blade_mass)                    \
-  EFFECT(initial_box_velocity)          \
-  EFFECT(initial_packing)               \
-  EFFECT(constant_acceleration)         \
-  EFFECT(oscillating_acceleration)      \
-  EFFECT(grain_air_drag)                \
-  EFFECT(blade_arc)                     \
-  EFFECT(camera_com_bias)               \
-  EFFECT(camera_scale)                  \
-  EFFECT(camera_time_offset)            \
-  EFFECT(camera_drift)                  \
-  EFFECT(camera_arc)                    \
+  EFFECT(grain_cohesion)                 \
+  EFFECT(side_wall_restitution)          \
+  EFFECT(grain_polydispersity)           \
+  EFFECT(blade_viscous_damping)          \
+  EFFECT(blade_quadratic_drag)           \
+  EFFECT(clamp_dry_friction)             \
+  EFFECT(spring_cubic)                   \
+  EFFECT(blade_mass)                     \
+  EFFECT(initial_box_velocity)           \
+  EFFECT(initial_packing)                \
+  EFFECT(constant_acceleration)          \
+  EFFECT(oscillating_acceleration)       \
+  EFFECT(grain_air_drag)                 \
+  EFFECT(blade_arc)                      \
+  EFFECT(camera_com_bias)                \
+  EFFECT(camera_scale)                   \
+  EFFECT(camera_time_offset)             \
+  EFFECT(camera_drift)                   \
+  EFFECT(camera_arc)                     \
   EFFECT(user_force)
 
 namespace shakedown {

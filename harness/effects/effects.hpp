@@ -6,7 +6,8 @@
 
 namespace shakedown {
 
-/// Every effect that a setup may name, in the order of the documentation. A new effect is one file and one line in effects.cpp.
+/// Every effect that a setup may name, in the order of the documentation. A new effect is one file and one
+/// line in effects.cpp.
 std::span<const EffectRecord* const> all_effects();
 
 /// The effect of this name, or nullptr.

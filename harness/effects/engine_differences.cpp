@@ -8,8 +8,9 @@ namespace shakedown {
 
 namespace {
 
-// From effects_crosscheck with 128 soft runs (plain model at 104 mm), 96 (friction at 104 mm), 48 (constant acceleration at 104 mm), 32 (plain model, friction, cohesion,
-// both restitutions), 20 (polydispersity, viscous damping) and 8 (the others).
+// From effects_crosscheck with 128 soft runs (plain model at 104 mm), 96 (friction at 104 mm), 48 (constant
+// acceleration at 104 mm), 32 (plain model, friction, cohesion, both restitutions), 20 (polydispersity,
+// viscous damping) and 8 (the others).
 constexpr auto measured = std::to_array<EngineDifference>({
     {"", 0.040, -0.0081809, -3.33e-05, 1.75e-05},
     {"", 0.104, -0.0269969, -0.0001742, 8.99e-05},
@@ -60,7 +61,8 @@ const EngineDifference* row_of(std::string_view effect, double box_length) {
 std::span<const EngineDifference> engine_differences() { return measured; }
 
 std::optional<AddedDifference> added_difference(std::string_view effect, double box_length) {
-  const EngineDifference *plain = row_of("", box_length), *with = effect.empty() ? nullptr : row_of(effect, box_length);
+  const EngineDifference *plain = row_of("", box_length),
+                         *with = effect.empty() ? nullptr : row_of(effect, box_length);
   if (plain == nullptr || with == nullptr) return std::nullopt;
   return AddedDifference{with->hard_slope - plain->hard_slope, with->hard_minus_soft - plain->hard_minus_soft,
                          std::hypot(with->half_width, plain->half_width)};
@@ -74,7 +76,8 @@ double strength_uncertainty(std::string_view effect) {
     if (!found) continue;
     const double weight = std::pow(found->change / found->half_width, 2);
     weights += weight;
-    if (std::abs(found->added) > found->half_width) squares += weight * std::pow(found->added / found->change, 2);
+    if (std::abs(found->added) > found->half_width)
+      squares += weight * std::pow(found->added / found->change, 2);
   }
   return weights > 0 ? std::sqrt(squares / weights) : 0;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How far apart the hard and the soft engine are with each effect on, measured. What an impulse and a force make of one law is not the same
-// in layers, so the strength of an effect found with one engine in data of the other's kind is uncertain by that much.
+// How far apart the hard and the soft engine are with each effect on, measured. What an impulse and a force
+// make of one law is not the same in layers, so the strength of an effect found with one engine in data of
+// the other's kind is uncertain by that much.
 #pragma once
 #include <optional>
 #include <span>
@@ -8,20 +9,22 @@
 
 namespace shakedown {
 
-/// Slopes of |peaks| (observe/observables.hpp) of ensembles at the effect's typical strength; the paper's damper at this box length,
-/// contacts of 0.3 ms in the soft engine. Measured with tests/engines/effects_crosscheck.
+/// Slopes of |peaks| (observe/observables.hpp) of ensembles at the effect's typical strength; the paper's
+/// damper at this box length, contacts of 0.3 ms in the soft engine. Measured with
+/// tests/engines/effects_crosscheck.
 struct EngineDifference {
-  std::string_view effect;   ///< empty: the plain model
-  double box_length;         ///< m
-  double hard_slope;         ///< m/s
-  double hard_minus_soft;    ///< m/s
-  double half_width;         ///< m/s, of the 95 % interval of hard_minus_soft
+  std::string_view effect;  ///< empty: the plain model
+  double box_length;        ///< m
+  double hard_slope;        ///< m/s
+  double hard_minus_soft;   ///< m/s
+  double half_width;        ///< m/s, of the 95 % interval of hard_minus_soft
 };
 
 std::span<const EngineDifference> engine_differences();
 
-/// What the effect does to the slope, and what it adds to the difference of the engines beyond that of the plain model, all at its typical
-/// strength and in m/s. |added| / |change| is the relative uncertainty of a strength, to first order in it.
+/// What the effect does to the slope, and what it adds to the difference of the engines beyond that of the
+/// plain model, all at its typical strength and in m/s. |added| / |change| is the relative uncertainty of a
+/// strength, to first order in it.
 struct AddedDifference {
   double change;      ///< of the hard engine's slope by the effect
   double added;       ///< to hard minus soft
@@ -31,8 +34,9 @@ struct AddedDifference {
 /// Empty for an effect or a box length that was not measured (40 and 104 mm were).
 std::optional<AddedDifference> added_difference(std::string_view effect, double box_length);
 
-/// Relative uncertainty of a strength that was found with one engine in data of the other's kind: root mean square over the lengths of
-/// added / change where `added` differs from zero (else 0), weighted by how well it is known; 0 where none was looked for.
+/// Relative uncertainty of a strength that was found with one engine in data of the other's kind: root mean
+/// square over the lengths of added / change where `added` differs from zero (else 0), weighted by how well
+/// it is known; 0 where none was looked for.
 double strength_uncertainty(std::string_view effect);
 
 }  // namespace shakedown

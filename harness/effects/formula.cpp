@@ -17,7 +17,8 @@ struct Formula::Parser {
   double x = 0, v = 0, t = 0;
   mu::Parser parser{};
 
-  Parser(const std::string& formula, const std::map<std::string, double>& named) : text(formula), constants(named) {
+  Parser(const std::string& formula, const std::map<std::string, double>& named)
+      : text(formula), constants(named) {
     parser.DefineVar("x", &x);
     parser.DefineVar("v", &v);
     parser.DefineVar("t", &t);
@@ -30,20 +31,25 @@ namespace {
 
 /// The identifiers that a formula may use, for "did you mean".
 std::string suggestion_for(const std::string& word, const std::map<std::string, double>& constants) {
-  std::vector<std::string_view> names{"x",   "v",   "t",    "sin",  "cos", "tan", "exp",  "log", "ln",  "sqrt",
-                                      "abs", "min", "max",  "sign", "tanh", "atan2", "cosh", "sinh", "_pi"};
+  std::vector<std::string_view> names{"x",    "v",     "t",    "sin",  "cos", "tan", "exp",
+                                      "log",  "ln",    "sqrt", "abs",  "min", "max", "sign",
+                                      "tanh", "atan2", "cosh", "sinh", "_pi"};
   for (const auto& [name, value] : constants) names.emplace_back(name);
   const std::string_view near = nearest(word, names);
   return near.empty() ? "" : "; did you mean " + std::string(near) + "?";
 }
 
-FormulaProblem problem_of(const mu::ParserError& error, const std::string& text, const std::map<std::string, double>& constants) {
+FormulaProblem problem_of(const mu::ParserError& error, const std::string& text,
+                          const std::map<std::string, double>& constants) {
   const std::size_t position = std::min(static_cast<std::size_t>(error.GetPos()), text.size()) + 1;
   if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN)
-    return {"'" + error.GetToken() + "' is neither x, v, t, a constant nor a function" + suggestion_for(error.GetToken(), constants), position};
+    return {"'" + error.GetToken() + "' is neither x, v, t, a constant nor a function" +
+                suggestion_for(error.GetToken(), constants),
+            position};
   std::string message = error.GetMsg();
   while (!message.empty() && message.back() == '.') message.pop_back();
-  if (!message.empty()) message.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(message.front())));
+  if (!message.empty())
+    message.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(message.front())));
   return {message, position};
 }
 
@@ -51,21 +57,25 @@ FormulaProblem problem_of(const mu::ParserError& error, const std::string& text,
 
 Formula::Formula(const std::string& text, const std::map<std::string, double>& constants) {
   for (const auto& [name, value] : constants)
-    if (name == "x" || name == "v" || name == "t") throw FormulaProblem{"the constant '" + name + "' has the name of a variable", 0};
-  if (text.find('=') != text.npos && text.find("==") == text.npos && text.find("<=") == text.npos && text.find(">=") == text.npos &&
-      text.find("!=") == text.npos)
+    if (name == "x" || name == "v" || name == "t")
+      throw FormulaProblem{"the constant '" + name + "' has the name of a variable", 0};
+  if (text.find('=') != text.npos && text.find("==") == text.npos && text.find("<=") == text.npos &&
+      text.find(">=") == text.npos && text.find("!=") == text.npos)
     throw FormulaProblem{"holds an assignment; write the force alone", text.find('=') + 1};
   try {
     parser_ = std::make_unique<Parser>(text, constants);
     int results = 0;
     parser_->parser.Eval(results);
-    if (results != 1) throw FormulaProblem{"gives " + std::to_string(results) + " values, one is expected (the decimal sign is a point)", 0};
+    if (results != 1)
+      throw FormulaProblem{
+          "gives " + std::to_string(results) + " values, one is expected (the decimal sign is a point)", 0};
   } catch (const mu::ParserError& error) {
     throw problem_of(error, text, constants);
   }
 }
 
-Formula::Formula(const Formula& other) : parser_(std::make_unique<Parser>(other.parser_->text, other.parser_->constants)) {}
+Formula::Formula(const Formula& other)
+    : parser_(std::make_unique<Parser>(other.parser_->text, other.parser_->constants)) {}
 Formula& Formula::operator=(const Formula& other) {
   if (this != &other) parser_ = std::make_unique<Parser>(other.parser_->text, other.parser_->constants);
   return *this;
@@ -81,6 +91,8 @@ double Formula::operator()(double x, double v, double t) const {
   return parser_->parser.Eval();
 }
 
-bool Formula::uses(const std::string& variable) const { return parser_->parser.GetUsedVar().contains(variable); }
+bool Formula::uses(const std::string& variable) const {
+  return parser_->parser.GetUsedVar().contains(variable);
+}
 
 }  // namespace shakedown

@@ -16,17 +16,30 @@ extern const EffectRecord grain_air_drag{
     .name = "grain_air_drag",
     .acts_on = ActsOn::grains,
     .sentence = "Drag of the grains against air that moves with the box, which feels the reaction.",
-    .formula = "F = -(c1 + c2 |u|) u, u the velocity of the grain minus that of the box; the box feels -F along the "
-               "axis",
+    .formula =
+        "F = -(c1 + c2 |u|) u, u the velocity of the grain minus that of the box; the box feels -F along the "
+        "axis",
     .source = "R. Clift, J. R. Grace and M. E. Weber, Bubbles, Drops, and Particles (Academic Press, 1978)",
-    .limits = "Air at rest in the box, no wakes, no lubrication. Stokes: c1 = 6 pi eta R = 1.7e-6 N s/m for 10 mm "
-              "in air; at 1 m/s the Reynolds number is 670 and c2 = 2.6e-5 N s^2/m^2.",
-    .parameters = {{.name = "linear", .unit = "N s/m", .low = 0, .high = 1, .neutral = 0, .typical = 0.001,
+    .limits =
+        "Air at rest in the box, no wakes, no lubrication. Stokes: c1 = 6 pi eta R = 1.7e-6 N s/m for 10 mm "
+        "in air; at 1 m/s the Reynolds number is 670 and c2 = 2.6e-5 N s^2/m^2.",
+    .parameters = {{.name = "linear",
+                    .unit = "N s/m",
+                    .low = 0,
+                    .high = 1,
+                    .neutral = 0,
+                    .typical = 0.001,
                     .sentence = "Force on a grain divided by its speed."},
-                   {.name = "quadratic", .unit = "N s^2/m^2", .low = 0, .high = 1, .neutral = 0, .typical = 0.001,
+                   {.name = "quadratic",
+                    .unit = "N s^2/m^2",
+                    .low = 0,
+                    .high = 1,
+                    .neutral = 0,
+                    .typical = 0.001,
                     .sentence = "Force on a grain divided by the square of its speed."}},
     .dissipative = true,
-    .hard = {Fidelity::to_stated_error, "drag applied in small impulses, second order in hard.kick_interval (2 ms)"},
+    .hard = {Fidelity::to_stated_error,
+             "drag applied in small impulses, second order in hard.kick_interval (2 ms)"},
     .soft = {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply};

@@ -14,7 +14,8 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 /// A spring with a dashpot turns the slip round; it cannot leave part of it in its old direction.
 Capability capability_of(const EffectChoice& choice, std::string_view engine, Capability general) {
   if (engine != "soft" || choice.number("tangential_restitution") >= 0) return general;
-  return {Fidelity::not_modelled, "the soft engine takes a tangential_restitution from 0 to 1; use --engine hard"};
+  return {Fidelity::not_modelled,
+          "the soft engine takes a tangential_restitution from 0 to 1; use --engine hard"};
 }
 }  // namespace
 
@@ -22,24 +23,44 @@ extern const EffectRecord grain_friction{
     .name = "grain_friction",
     .acts_on = ActsOn::contact,
     .sentence = "Coulomb friction between grains and at the walls, with rotation of the grains.",
-    .formula = "|J_t| <= mu J_n; where that suffices the slip u_t becomes -beta u_t; 1/m_t = 7/2 (1/m_i + 1/m_j) for "
-               "solid spheres, 7/(2 m) at a wall, plus 1/M along the axis at side walls, which pull the box",
-    .source = "O. R. Walton and R. L. Braun, J. Rheol. 30, 949 (1986); S. F. Foerster et al., Phys. Fluids 6, 1108 "
-              "(1994); the tangential spring of 2/7 k_n: L. E. Silbert et al., Phys. Rev. E 64, 051302 (2001)",
-    .limits = "One coefficient for rest and motion; no rolling resistance. Impacts that the regularisation of "
-              "inelastic collapse makes elastic are frictionless. Slip after an impact and after a soft contact agree to 0.07 of the slip "
-              "before. An impulse and a tangential spring agree for free flight between impacts, less so in a pressed layer.",
-    .parameters = {{.name = "grain_grain", .low = 0, .high = 1, .neutral = 0, .typical = 0.2,
+    .formula =
+        "|J_t| <= mu J_n; where that suffices the slip u_t becomes -beta u_t; 1/m_t = 7/2 (1/m_i + 1/m_j) "
+        "for "
+        "solid spheres, 7/(2 m) at a wall, plus 1/M along the axis at side walls, which pull the box",
+    .source =
+        "O. R. Walton and R. L. Braun, J. Rheol. 30, 949 (1986); S. F. Foerster et al., Phys. Fluids 6, 1108 "
+        "(1994); the tangential spring of 2/7 k_n: L. E. Silbert et al., Phys. Rev. E 64, 051302 (2001)",
+    .limits =
+        "One coefficient for rest and motion; no rolling resistance. Impacts that the regularisation of "
+        "inelastic collapse makes elastic are frictionless. Slip after an impact and after a soft contact "
+        "agree to 0.07 of the slip "
+        "before. An impulse and a tangential spring agree for free flight between impacts, less so in a "
+        "pressed layer.",
+    .parameters = {{.name = "grain_grain",
+                    .low = 0,
+                    .high = 1,
+                    .neutral = 0,
+                    .typical = 0.2,
                     .sentence = "Coefficient of friction between grains."},
-                   {.name = "grain_wall", .low = 0, .high = 1, .neutral = 0, .typical = 0.2,
+                   {.name = "grain_wall",
+                    .low = 0,
+                    .high = 1,
+                    .neutral = 0,
+                    .typical = 0.2,
                     .sentence = "Coefficient of friction of a grain and the box, end walls and side walls."},
-                   {.name = "tangential_restitution", .default_value = 1.0, .low = -1, .high = 1,
-                    .sentence = "Slip after an impact that sticks, reversed and divided by the slip before; 1 is what a tangential spring of 2/7 of the normal one does."}},
+                   {.name = "tangential_restitution",
+                    .default_value = 1.0,
+                    .low = -1,
+                    .high = 1,
+                    .sentence = "Slip after an impact that sticks, reversed and divided by the slip before; "
+                                "1 is what a tangential spring of 2/7 of the normal one does."}},
     .claims = "friction of grains",
     .dissipative = true,
     .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error, "tangential spring of 2/7 of the normal stiffness, stretched up to sliding at mu times the normal "
-                                        "spring's force, with a dashpot for tangential_restitution from 0 to 1"},
+    .soft =
+        {Fidelity::to_stated_error,
+         "tangential spring of 2/7 of the normal stiffness, stretched up to sliding at mu times the normal "
+         "spring's force, with a dashpot for tangential_restitution from 0 to 1"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply,
     .capability_of = &capability_of};

@@ -14,12 +14,19 @@ extern const EffectRecord grain_polydispersity{
     .name = "grain_polydispersity",
     .acts_on = ActsOn::grains,
     .sentence = "Diameters of the grains scatter, masses as the cube of the diameter.",
-    .formula = "d_i = d (1 + s xi_i), xi standard normal, cut at 2.5; m_i proportional to d_i^3 with the total N m "
-               "kept",
+    .formula =
+        "d_i = d (1 + s xi_i), xi standard normal, cut at 2.5; m_i proportional to d_i^3 with the total N m "
+        "kept",
     .source = "Sampling of this project; balls of one grade by ISO 3290-1 scatter less than 0.1 %",
-    .limits = "The release packing is relaxed until nothing overlaps; tight packings of very unequal grains may not "
-              "fit.",
-    .parameters = {{.name = "relative_deviation", .low = 0, .high = 0.2, .neutral = 0, .typical = 0.05,
+    .limits =
+        "The release packing is relaxed until nothing overlaps; tight packings of very unequal grains may "
+        "not "
+        "fit.",
+    .parameters = {{.name = "relative_deviation",
+                    .low = 0,
+                    .high = 0.2,
+                    .neutral = 0,
+                    .typical = 0.05,
                     .sentence = "Standard deviation of the diameter divided by its mean."}},
     .claims = "diameters of the grains",
     .hard = {Fidelity::exact},

@@ -15,10 +15,17 @@ extern const EffectRecord initial_box_velocity{
     .acts_on = ActsOn::box,
     .sentence = "Velocity of the box at release.",
     .formula = "v_box(0) = v",
-    .source = "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
-              "011301 (2011), assumes release at rest",
+    .source =
+        "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
+        "011301 (2011), assumes release at rest",
     .limits = "The grains start at rest in the lab (up to their small random velocities), not with the box.",
-    .parameters = {{.name = "velocity", .unit = "m/s", .required = true, .low = -10, .high = 10, .neutral = 0, .typical = 0.02,
+    .parameters = {{.name = "velocity",
+                    .unit = "m/s",
+                    .required = true,
+                    .low = -10,
+                    .high = 10,
+                    .neutral = 0,
+                    .typical = 0.02,
                     .sentence = "Velocity of the box at release, along +x."}},
     .hard = {Fidelity::exact},
     .soft = {Fidelity::exact},

@@ -16,10 +16,14 @@ extern const EffectRecord initial_packing{
     .acts_on = ActsOn::grains,
     .sentence = "Another arrangement of the grains at release.",
     .formula = "fcc or square layers on the outer wall, random in a layer, spread over the box",
-    .source = "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
-              "011301 (2011), does not publish its lattice",
+    .source =
+        "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
+        "011301 (2011), does not publish its lattice",
     .limits = "Another packing moves peaks by 1 to 4 mm, late ones most.",
-    .parameters = {{.name = "packing", .kind = ParameterKind::choice, .default_value = std::string("square"), .required = true,
+    .parameters = {{.name = "packing",
+                    .kind = ParameterKind::choice,
+                    .default_value = std::string("square"),
+                    .required = true,
                     .sentence = "The arrangement.",
                     .choices = {"fcc", "square", "random", "spread"}}},
     .claims = "release.packing",

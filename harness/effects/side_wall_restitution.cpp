@@ -6,7 +6,8 @@ namespace shakedown::effect {
 
 namespace {
 void apply(const EffectChoice& choice, int, Physics& physics) {
-  physics.contact.restitution[static_cast<std::size_t>(ContactClass::side_wall)] = choice.number("restitution");
+  physics.contact.restitution[static_cast<std::size_t>(ContactClass::side_wall)] =
+      choice.number("restitution");
 }
 }  // namespace
 
@@ -15,14 +16,21 @@ extern const EffectRecord side_wall_restitution{
     .acts_on = ActsOn::contact,
     .sentence = "Normal restitution of the side walls, apart from that of the end walls.",
     .formula = "eps of grain and side wall = restitution; end walls keep restitution.grain_wall",
-    .source = "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
-              "011301 (2011); it uses one value for all walls",
+    .source =
+        "M. N. Bannerman et al., Movers and shakers: granular damping in microgravity, Phys. Rev. E 84, "
+        "011301 (2011); it uses one value for all walls",
     .limits = "Constant in the speed unless velocity_dependent_restitution is on as well.",
-    .parameters = {{.name = "restitution", .default_value = 0.76, .required = true, .low = 0, .high = 1, .typical = 0.6,
+    .parameters = {{.name = "restitution",
+                    .default_value = 0.76,
+                    .required = true,
+                    .low = 0,
+                    .high = 1,
+                    .typical = 0.6,
                     .sentence = "Coefficient of normal restitution of a grain and a side wall."}},
     .claims = "restitution of the side walls",
     .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error, "restitution to second order in the time step, as at the other walls"},
+    .soft = {Fidelity::to_stated_error,
+             "restitution to second order in the time step, as at the other walls"},
     .bullet = {Fidelity::exact},
     .apply = &apply};
 

@@ -8,7 +8,8 @@ namespace {
 void apply(const EffectChoice& choice, int index, Physics& physics) {
   const double displacement = physics.release_displacement;
   if (displacement == 0)
-    throw InputError({{choice.place, "spring_cubic", "has no scale (release.displacement is 0)", "give release.displacement"}});
+    throw InputError({{choice.place, "spring_cubic", "has no scale (release.displacement is 0)",
+                       "give release.displacement"}});
   physics.spring_cubic = choice.number("coefficient") / (displacement * displacement);
   physics.spring_cubic_effect = index;
 }
@@ -19,14 +20,22 @@ extern const EffectRecord spring_cubic{
     .acts_on = ActsOn::box,
     .sentence = "Spring force with a cubic term.",
     .formula = "F = -k x (1 + b (x/Delta0)^2), Delta0 the release displacement",
-    .source = "G. Duffing, Erzwungene Schwingungen bei veraenderlicher Eigenfrequenz (Vieweg, 1918); A. H. Nayfeh "
-              "and D. T. Mook, Nonlinear Oscillations (Wiley, 1979)",
+    .source =
+        "G. Duffing, Erzwungene Schwingungen bei veraenderlicher Eigenfrequenz (Vieweg, 1918); A. H. Nayfeh "
+        "and D. T. Mook, Nonlinear Oscillations (Wiley, 1979)",
     .limits = "Symmetric in x; for b < 0 the force vanishes at x = Delta0/sqrt(-b), so b >= -0.5.",
-    .parameters = {{.name = "coefficient", .required = true, .low = -0.5, .high = 10, .neutral = 0, .typical = 0.04,
-                    .sentence = "Relative change of the stiffness force at the release displacement; of either sign."}},
+    .parameters =
+        {{.name = "coefficient",
+          .required = true,
+          .low = -0.5,
+          .high = 10,
+          .neutral = 0,
+          .typical = 0.04,
+          .sentence = "Relative change of the stiffness force at the release displacement; of either sign."}},
     .claims = "spring force",
     .hard = {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"},
-    .soft = {Fidelity::to_stated_error, "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
+    .soft = {Fidelity::to_stated_error,
+             "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply};
 

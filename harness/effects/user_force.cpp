@@ -11,7 +11,9 @@ namespace shakedown::effect {
 
 namespace {
 
-Formula formula_of(const EffectChoice& choice) { return {choice.text("force"), choice.constants("constants")}; }
+Formula formula_of(const EffectChoice& choice) {
+  return {choice.text("force"), choice.constants("constants")};
+}
 
 std::string where(double x, double v, double t) {
   return "x = " + write_number(x) + " m, v = " + write_number(v) + " m/s, t = " + write_number(t) + " s";
@@ -26,7 +28,8 @@ std::vector<ParameterProblem> probed(const Formula& formula) {
     for (const double x : positions)
       for (const double v : velocities)
         if (!std::isfinite(formula(x, v, t)))
-          return {{"force", "is not a finite number at " + where(x, v, t), "write it so that it has a value for every x, v and t"}};
+          return {{"force", "is not a finite number at " + where(x, v, t),
+                   "write it so that it has a value for every x, v and t"}};
   return {};
 }
 
@@ -34,9 +37,11 @@ std::vector<ParameterProblem> check(const EffectChoice& choice) {
   try {
     return probed(formula_of(choice));
   } catch (const FormulaProblem& wrong) {
-    const std::string at = wrong.position > 0 ? " at character " + std::to_string(wrong.position) + " of the formula" : "";
+    const std::string at =
+        wrong.position > 0 ? " at character " + std::to_string(wrong.position) + " of the formula" : "";
     return {{"force", "\"" + choice.text("force") + "\" cannot be read" + at + " (" + wrong.problem + ")",
-             "use x (m), v (m/s), t (s), the names in constants, + - * / ^, and functions such as abs, sin, exp, sqrt, min, max"}};
+             "use x (m), v (m/s), t (s), the names in constants, + - * / ^, and functions such as abs, sin, "
+             "exp, sqrt, min, max"}};
   }
 }
 
@@ -45,13 +50,16 @@ void apply(const EffectChoice& choice, int index, Physics& physics) {
   const bool of_time_only = !formula.uses("x") && !formula.uses("v");
   const auto newton = [formula](double x, double v, double t) {
     const double force = formula(x, v, t);
-    if (!std::isfinite(force)) throw PhysicsError("user_force: the force is not a finite number at " + where(x, v, t));
+    if (!std::isfinite(force))
+      throw PhysicsError("user_force: the force is not a finite number at " + where(x, v, t));
     return force;
   };
-  (choice.text("on") == "box" ? physics.box.free : physics.grains.free).push_back({newton, index, of_time_only});
+  (choice.text("on") == "box" ? physics.box.free : physics.grains.free)
+      .push_back({newton, index, of_time_only});
 }
 
-/// Between impacts the hard engine knows the grains' motion in closed form; a force that follows a grain would bend it.
+/// Between impacts the hard engine knows the grains' motion in closed form; a force that follows a grain
+/// would bend it.
 Capability capability_of(const EffectChoice& choice, std::string_view engine, Capability general) {
   if (engine != "hard" || choice.text("on") != "grains") return general;
   const Formula formula = formula_of(choice);
@@ -65,17 +73,31 @@ extern const EffectRecord user_force{
     .name = "user_force",
     .acts_on = ActsOn::all,
     .sentence = "A force along the axis on the box or on every grain, given as a formula.",
-    .formula = "force(x, v, t) in N with named constants; x and v of the box in the lab (x = 0 where the spring is relaxed), or of the grain itself",
+    .formula =
+        "force(x, v, t) in N with named constants; x and v of the box in the lab (x = 0 where the spring is "
+        "relaxed), or of the grain itself",
     .source = "The setup; formulas are read by muParser (https://beltoforion.de/en/muparser)",
-    .limits = "No memory, no dependence on other bodies. Steps in the formula are followed, not located: the stated error holds where it is smooth.",
-    .parameters = {{.name = "on", .kind = ParameterKind::choice, .default_value = std::string("box"),
-                    .sentence = "What it acts on.", .choices = {"box", "grains"}},
-                   {.name = "force", .kind = ParameterKind::text, .default_value = std::string("0"), .required = true,
+    .limits =
+        "No memory, no dependence on other bodies. Steps in the formula are followed, not located: the "
+        "stated error holds where it is smooth.",
+    .parameters = {{.name = "on",
+                    .kind = ParameterKind::choice,
+                    .default_value = std::string("box"),
+                    .sentence = "What it acts on.",
+                    .choices = {"box", "grains"}},
+                   {.name = "force",
+                    .kind = ParameterKind::text,
+                    .default_value = std::string("0"),
+                    .required = true,
                     .sentence = "The formula, e.g. \"-c*v*exp(-((x-x0)/w)^2)\"."},
-                   {.name = "constants", .kind = ParameterKind::constants, .default_value = std::map<std::string, double>{},
-                    .sentence = "Named quantities with units, e.g. {c = \"0.4 N s/m\", x0 = \"45 mm\", w = \"12 mm\"}; the formula sees them in SI."}},
-    .hard = {Fidelity::to_stated_error, "on the box: motion dense to 1e-13 of the release displacement; on grains: formulas of t alone, "
-                                        "else --engine soft"},
+                   {.name = "constants",
+                    .kind = ParameterKind::constants,
+                    .default_value = std::map<std::string, double>{},
+                    .sentence = "Named quantities with units, e.g. {c = \"0.4 N s/m\", x0 = \"45 mm\", w = "
+                                "\"12 mm\"}; the formula sees them in SI."}},
+    .hard = {Fidelity::to_stated_error,
+             "on the box: motion dense to 1e-13 of the release displacement; on grains: formulas of t alone, "
+             "else --engine soft"},
     .soft = {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such force; use --engine hard or soft"},
     .apply = &apply,

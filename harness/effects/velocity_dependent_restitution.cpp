@@ -15,18 +15,20 @@ using PerClass = std::array<double, contact_classes>;
 
 constexpr std::size_t index_of(ContactClass kind) { return static_cast<std::size_t>(kind); }
 
-/// Plastic contacts lose the more the faster they are. The cap keeps slow impacts dissipative; materials that are more elastic than
-/// the cap at the reference speed keep their value.
+/// Plastic contacts lose the more the faster they are. The cap keeps slow impacts dissipative; materials that
+/// are more elastic than the cap at the reference speed keep their value.
 void apply_power(const EffectChoice& choice, Physics& physics) {
   static constexpr double cap = 0.98;
   const double exponent = choice.number("exponent"), reference = choice.number("reference_speed");
-  physics.contact.restitution_at = [at_reference = physics.contact.restitution, exponent, reference](ContactClass kind, double speed) {
+  physics.contact.restitution_at = [at_reference = physics.contact.restitution, exponent, reference](
+                                       ContactClass kind, double speed) {
     const double restitution = at_reference[index_of(kind)];
     return std::min(restitution * std::pow(speed / reference, -exponent), std::max(cap, restitution));
   };
 }
 
-/// Stiffness over reduced mass from the contact time of the soft engine at the reference speed, damping from the restitution there.
+/// Stiffness over reduced mass from the contact time of the soft engine at the reference speed, damping from
+/// the restitution there.
 struct HertzContact {
   double stiffness = 0;  ///< k/m, m^(-1/2) s^-2
   PerClass damping{};    ///< (3/2) A, s
@@ -43,12 +45,14 @@ HertzContact hertz_contact(const PerClass& b, double reference, double contact_t
 void apply_viscoelastic(const EffectChoice& choice, Physics& physics) {
   const double reference = choice.number("reference_speed");
   PerClass b{};
-  for (std::size_t kind = 0; kind < b.size(); ++kind) b[kind] = viscoelastic_damping(physics.contact.restitution[kind]);
+  for (std::size_t kind = 0; kind < b.size(); ++kind)
+    b[kind] = viscoelastic_damping(physics.contact.restitution[kind]);
   physics.contact.restitution_at = [b, reference](ContactClass kind, double speed) {
     return viscoelastic_restitution(b[index_of(kind)] * std::pow(speed / reference, 0.2));
   };
   const HertzContact hertz = hertz_contact(b, reference, physics.soft_contact_time);
-  physics.contact.push = [hertz](ContactClass kind, double overlap, double rate, double, double reduced_mass) {
+  physics.contact.push = [hertz](ContactClass kind, double overlap, double rate, double,
+                                 double reduced_mass) {
     const double force = overlap + hertz.damping[index_of(kind)] * rate;
     return overlap > 0 && force > 0 ? reduced_mass * hertz.stiffness * std::sqrt(overlap) * force : 0.0;
   };
@@ -66,23 +70,47 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 extern const EffectRecord velocity_dependent_restitution{
     .name = "velocity_dependent_restitution",
     .acts_on = ActsOn::contact,
-    .sentence = "Normal restitution that falls with the closing speed; the setup's values hold at the reference speed.",
-    .formula = "power: eps(v) = eps (v/v_ref)^-p, at most 0.98; viscoelastic: F = k (xi^(3/2) + (3/2) A xi^(1/2) xi'), eps the value at "
-               "v_ref, 1 - eps ~ v^(1/5) for small losses; v is the closing speed at first touch",
-    .source = "power: K. L. Johnson, Contact Mechanics (Cambridge, 1985), p = 1/4 for full plasticity; viscoelastic: N. V. Brilliantov et "
-              "al., Phys. Rev. E 53, 5382 (1996), delayed recovery: T. Schwager and T. Poeschel, Phys. Rev. E 78, 051304 (2008)",
-    .limits = "Depends on the impact alone, not on what happened before; real grains cross from viscoelastic (below some mm/s) to plastic. "
-              "The exponent belongs to the law power.",
-    .parameters = {{.name = "law", .kind = ParameterKind::choice, .default_value = std::string("power"),
-                    .sentence = "Which law.", .choices = {"power", "viscoelastic"}},
-                   {.name = "exponent", .default_value = 0.12, .low = 0, .high = 1, .neutral = 0, .typical = 0.1,
+    .sentence =
+        "Normal restitution that falls with the closing speed; the setup's values hold at the reference "
+        "speed.",
+    .formula =
+        "power: eps(v) = eps (v/v_ref)^-p, at most 0.98; viscoelastic: F = k (xi^(3/2) + (3/2) A xi^(1/2) "
+        "xi'), eps the value at "
+        "v_ref, 1 - eps ~ v^(1/5) for small losses; v is the closing speed at first touch",
+    .source =
+        "power: K. L. Johnson, Contact Mechanics (Cambridge, 1985), p = 1/4 for full plasticity; "
+        "viscoelastic: N. V. Brilliantov et "
+        "al., Phys. Rev. E 53, 5382 (1996), delayed recovery: T. Schwager and T. Poeschel, Phys. Rev. E 78, "
+        "051304 (2008)",
+    .limits =
+        "Depends on the impact alone, not on what happened before; real grains cross from viscoelastic "
+        "(below some mm/s) to plastic. "
+        "The exponent belongs to the law power.",
+    .parameters = {{.name = "law",
+                    .kind = ParameterKind::choice,
+                    .default_value = std::string("power"),
+                    .sentence = "Which law.",
+                    .choices = {"power", "viscoelastic"}},
+                   {.name = "exponent",
+                    .default_value = 0.12,
+                    .low = 0,
+                    .high = 1,
+                    .neutral = 0,
+                    .typical = 0.1,
                     .sentence = "Exponent p of the law power."},
-                   {.name = "reference_speed", .unit = "m/s", .default_value = 0.3, .low = 1e-3, .high = 10, .typical = 0.3,
+                   {.name = "reference_speed",
+                    .unit = "m/s",
+                    .default_value = 0.3,
+                    .low = 1e-3,
+                    .high = 10,
+                    .typical = 0.3,
                     .sentence = "Closing speed at which the setup's restitution holds."}},
     .claims = "normal restitution",
     .hard = {Fidelity::exact, "viscoelastic: restitution from a table, to 1e-10"},
-    .soft = {Fidelity::to_stated_error, "power: linear spring-dashpot of the restitution at the closing speed; viscoelastic: Hertz's force "
-                                        "itself, first order in the time step"},
+    .soft =
+        {Fidelity::to_stated_error,
+         "power: linear spring-dashpot of the restitution at the closing speed; viscoelastic: Hertz's force "
+         "itself, first order in the time step"},
     .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
     .apply = &apply,
     .applied_last = true};

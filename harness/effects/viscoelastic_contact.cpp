@@ -14,7 +14,8 @@ struct Contact {
   double depth, speed;
 };
 
-/// d/ds with time = s^2, in which the motion starts smoothly (depth^(1/2) has no slope at touch in the time itself).
+/// d/ds with time = s^2, in which the motion starts smoothly (depth^(1/2) has no slope at touch in the time
+/// itself).
 Contact slope(double s, const Contact& c, double b) {
   const double root = std::sqrt(std::max(c.depth, 0.0));
   return {2 * s * c.speed, -2 * s * root * (c.depth + b * c.speed)};
@@ -27,23 +28,27 @@ struct Step {
 
 /// Dormand and Prince's pair of orders 5 and 4.
 Step stepped(double s, const Contact& c, double h, double b) {
-  constexpr std::array<std::array<double, 6>, 6> a{{{1. / 5},
-                                                    {3. / 40, 9. / 40},
-                                                    {44. / 45, -56. / 15, 32. / 9},
-                                                    {19372. / 6561, -25360. / 2187, 64448. / 6561, -212. / 729},
-                                                    {9017. / 3168, -355. / 33, 46732. / 5247, 49. / 176, -5103. / 18656},
-                                                    {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84}}};
+  constexpr std::array<std::array<double, 6>, 6> a{
+      {{1. / 5},
+       {3. / 40, 9. / 40},
+       {44. / 45, -56. / 15, 32. / 9},
+       {19372. / 6561, -25360. / 2187, 64448. / 6561, -212. / 729},
+       {9017. / 3168, -355. / 33, 46732. / 5247, 49. / 176, -5103. / 18656},
+       {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84}}};
   constexpr std::array<double, 6> node{1. / 5, 3. / 10, 4. / 5, 8. / 9, 1, 1};
-  constexpr std::array<double, 7> difference{71. / 57600, 0, -71. / 16695, 71. / 1920, -17253. / 339200, 22. / 525, -1. / 40};
+  constexpr std::array<double, 7> difference{71. / 57600,      0,         -71. / 16695, 71. / 1920,
+                                             -17253. / 339200, 22. / 525, -1. / 40};
   std::array<Contact, 7> k{slope(s, c, b)};
   Contact at = c;
   for (std::size_t i = 0; i < 6; ++i) {
     at = c;
-    for (std::size_t j = 0; j <= i; ++j) at = {at.depth + h * a[i][j] * k[j].depth, at.speed + h * a[i][j] * k[j].speed};
+    for (std::size_t j = 0; j <= i; ++j)
+      at = {at.depth + h * a[i][j] * k[j].depth, at.speed + h * a[i][j] * k[j].speed};
     k[i + 1] = slope(s + node[i] * h, at, b);
   }
   Contact error{0, 0};
-  for (std::size_t j = 0; j < 7; ++j) error = {error.depth + h * difference[j] * k[j].depth, error.speed + h * difference[j] * k[j].speed};
+  for (std::size_t j = 0; j < 7; ++j)
+    error = {error.depth + h * difference[j] * k[j].depth, error.speed + h * difference[j] * k[j].speed};
   return {at, std::max(std::abs(error.depth), std::abs(error.speed))};
 }
 
@@ -91,7 +96,8 @@ double solved_viscoelastic_restitution(double b) {
 double viscoelastic_restitution(double b) {
   static const std::vector<double> table = tabulated();
   const double root = std::sqrt(b);
-  if (root >= largest_root) return table.back() * std::pow(b / (largest_root * largest_root), -5.0 / 3);  // asymptote
+  // asymptote
+  if (root >= largest_root) return table.back() * std::pow(b / (largest_root * largest_root), -5.0 / 3);
   // Six points of Lagrange in the root of b, in which the restitution is smooth.
   constexpr int points = 6;
   const double place = root / largest_root * intervals;

@@ -40,7 +40,8 @@ class LongFile {
 };
 
 template <class Lines>
-std::filesystem::path write_text(const StoredRun& run, const FrameTimes& times, const std::filesystem::path& file, const std::string& header,
+std::filesystem::path write_text(const StoredRun& run, const FrameTimes& times,
+                                 const std::filesystem::path& file, const std::string& header,
                                  Lines&& lines) {
   LongFile to(file);
   to.add(header);
@@ -49,10 +50,12 @@ std::filesystem::path write_text(const StoredRun& run, const FrameTimes& times, 
   return file;
 }
 
-std::filesystem::path write_paraview(const StoredRun& run, const FrameTimes& times, const OutputFolder& folder) {
+std::filesystem::path write_paraview(const StoredRun& run, const FrameTimes& times,
+                                     const OutputFolder& folder) {
   std::vector<PvdEntry> entries;
   for_each_frame(run, times, [&](const Frame& frame) {
-    const std::string grains = fmt::format("frames/grains_{:06}.vtp", frame.number), box = fmt::format("frames/box_{:06}.vtp", frame.number);
+    const std::string grains = fmt::format("frames/grains_{:06}.vtp", frame.number),
+                      box = fmt::format("frames/box_{:06}.vtp", frame.number);
     folder.write(grains, grains_vtp(frame));
     folder.write(box, box_vtp(frame));
     entries.push_back({frame.time, 0, grains});
@@ -66,7 +69,8 @@ void append(std::vector<double>& to, const std::vector<Vec3>& values) {
   for (const Vec3& v : values) to.insert(to.end(), v.begin(), v.end());
 }
 
-std::filesystem::path write_arrays(const StoredRun& run, const FrameTimes& times, const OutputFolder& folder) {
+std::filesystem::path write_arrays(const StoredRun& run, const FrameTimes& times,
+                                   const OutputFolder& folder) {
   std::vector<double> time, position, velocity, spin, box;
   const State& initial = run.log.initial;
   for_each_frame(run, times, [&](const Frame& frame) {
@@ -84,7 +88,8 @@ std::filesystem::path write_arrays(const StoredRun& run, const FrameTimes& times
   folder.write("box.npy", npy({frames, 2}, box));
   folder.write("radius.npy", npy({n}, initial.radius));
   folder.write("mass.npy", npy({n}, initial.mass));
-  folder.write("box_size.npy", npy({3}, {run.setup.box.length, run.setup.box.width[0], run.setup.box.width[1]}));
+  folder.write("box_size.npy",
+               npy({3}, {run.setup.box.length, run.setup.box.width[0], run.setup.box.width[1]}));
   return folder.path();
 }
 
@@ -93,11 +98,15 @@ std::filesystem::path write_arrays(const StoredRun& run, const FrameTimes& times
 ExportFormat export_format_named(std::string_view name) {
   const auto found = std::find(export_format_names.begin(), export_format_names.end(), name);
   if (found == export_format_names.end())
-    throw InputError({{{}, "--as", "there is no format '" + std::string(name) + "'", "take one of xyz, lammps, vtp, npy, csv"}});
+    throw InputError({{{},
+                       "--as",
+                       "there is no format '" + std::string(name) + "'",
+                       "take one of xyz, lammps, vtp, npy, csv"}});
   return static_cast<ExportFormat>(found - export_format_names.begin());
 }
 
-Exported export_run(const StoredRun& run, const FrameTimes& times, ExportFormat format, const std::filesystem::path& folder) {
+Exported export_run(const StoredRun& run, const FrameTimes& times, ExportFormat format,
+                    const std::filesystem::path& folder) {
   const OutputFolder to(folder);
   const auto written = [&]() -> std::filesystem::path {
     switch (format) {
@@ -105,7 +114,8 @@ Exported export_run(const StoredRun& run, const FrameTimes& times, ExportFormat 
       case ExportFormat::lammps: return write_text(run, times, folder / "motion.lammpstrj", "", lammps_dump);
       case ExportFormat::csv: {
         Replay replay(run.setup, run.log);
-        return write_text(run, times, folder / "motion.csv", csv_header(!replay.state().spin.empty()), csv_lines);
+        return write_text(run, times, folder / "motion.csv", csv_header(!replay.state().spin.empty()),
+                          csv_lines);
       }
       case ExportFormat::vtp: return write_paraview(run, times, to);
       case ExportFormat::npy: return write_arrays(run, times, to);

@@ -19,8 +19,10 @@ struct Exported {
   std::int64_t frames = 0;
 };
 
-/// Writes the frames into `folder`: motion.xyz, motion.lammpstrj, motion.csv, motion.pvd with its VTP files, or arrays (time, position,
-/// velocity, spin, radius, mass, box) as .npy. Throws InputError for times outside the run, FileError.
-Exported export_run(const StoredRun& run, const FrameTimes& times, ExportFormat format, const std::filesystem::path& folder);
+/// Writes the frames into `folder`: motion.xyz, motion.lammpstrj, motion.csv, motion.pvd with its VTP files,
+/// or arrays (time, position, velocity, spin, radius, mass, box) as .npy. Throws InputError for times outside
+/// the run, FileError.
+Exported export_run(const StoredRun& run, const FrameTimes& times, ExportFormat format,
+                    const std::filesystem::path& folder);
 
 }  // namespace shakedown

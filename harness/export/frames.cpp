@@ -15,7 +15,11 @@ void check(const FrameTimes& times, const CollisionLog& log) {
   std::vector<Violation> found;
   if (!(times.rate > 0)) found.push_back({{}, "--rate", "must be above zero", "take e.g. --rate 500Hz"});
   if (!(times.from >= 0 && times.from <= log.end_time))
-    found.push_back({{}, "--from", fmt::format("{:g} s is not within the run (it ends at {:g} s)", times.from, log.end_time), "choose a time within it"});
+    found.push_back(
+        {{},
+         "--from",
+         fmt::format("{:g} s is not within the run (it ends at {:g} s)", times.from, log.end_time),
+         "choose a time within it"});
   if (!(times.to >= times.from)) found.push_back({{}, "--to", "lies before --from", "exchange them"});
   if (!found.empty()) throw InputError(std::move(found));
 }
@@ -26,7 +30,8 @@ std::int64_t FrameTimes::count(const CollisionLog& log) const {
   return 1 + static_cast<std::int64_t>(std::floor((std::min(to, log.end_time) - from) * rate * (1 + 1e-12)));
 }
 
-void for_each_frame(const StoredRun& run, const FrameTimes& times, const std::function<void(const Frame&)>& use) {
+void for_each_frame(const StoredRun& run, const FrameTimes& times,
+                    const std::function<void(const Frame&)>& use) {
   check(times, run.log);
   Replay replay(run.setup, run.log);
   const Vec3 half(run.setup.box.length / 2, run.setup.box.width[0] / 2, run.setup.box.width[1] / 2);

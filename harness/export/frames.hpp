@@ -22,11 +22,12 @@ struct Frame {
   std::int64_t number = 0;  ///< from 0
   double time = 0;          ///< s
   State state;
-  Vec3 box_low, box_high;   ///< m, corners of the inner box
+  Vec3 box_low, box_high;  ///< m, corners of the inner box
 };
 
-/// Calls use(frame) for each moment in order, rebuilt from the log without searching for an event. Throws InputError for times outside
-/// the run, FileError where the log does not fit this build.
-void for_each_frame(const StoredRun& run, const FrameTimes& times, const std::function<void(const Frame&)>& use);
+/// Calls use(frame) for each moment in order, rebuilt from the log without searching for an event. Throws
+/// InputError for times outside the run, FileError where the log does not fit this build.
+void for_each_frame(const StoredRun& run, const FrameTimes& times,
+                    const std::function<void(const Frame&)>& use);
 
 }  // namespace shakedown

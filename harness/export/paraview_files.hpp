@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What ParaView opens: a VTP file a moment for the grains (points with radius, mass, velocity, spin: show them with the Point Gaussian
-// representation or a sphere glyph scaled by radius), one for the box, and a PVD file that puts them in order of time.
+// What ParaView opens: a VTP file a moment for the grains (points with radius, mass, velocity, spin: show
+// them with the Point Gaussian representation or a sphere glyph scaled by radius), one for the box, and a PVD
+// file that puts them in order of time.
 #pragma once
 #include <string>
 #include <vector>

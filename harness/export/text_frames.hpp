@@ -7,7 +7,8 @@
 
 namespace shakedown {
 
-/// Extended XYZ (OVITO, ASE): id, positions, velocities, radii, masses and spins; the cell is the box, its origin moves.
+/// Extended XYZ (OVITO, ASE): id, positions, velocities, radii, masses and spins; the cell is the box, its
+/// origin moves.
 std::string extended_xyz(const Frame& frame);
 
 /// LAMMPS dump, units si (OVITO, VMD, pandas).

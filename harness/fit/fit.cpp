@@ -51,12 +51,15 @@ void refuse_unknown_runs(const Experiment& experiment, const std::vector<std::st
 
 class Fitter {
  public:
-  Fitter(const Setup& setup, const Experiment& experiment, std::vector<Knob> knobs, const Engine& engine, const FitOptions& options)
+  Fitter(const Setup& setup, const Experiment& experiment, std::vector<Knob> knobs, const Engine& engine,
+         const FitOptions& options)
       : setup_(setup), knobs_(std::move(knobs)), start_(knobs_), options_(options) {
     refuse_unknown_runs(experiment, options.on);
-    const std::vector<MeasuredFeatures> all = features_of(experiment, audit(experiment), setups_of_runs(setup, experiment, options.known));
+    const std::vector<MeasuredFeatures> all =
+        features_of(experiment, audit(experiment), setups_of_runs(setup, experiment, options.known));
     for (const MeasuredFeatures& run : all) {
-      const bool wanted = options.on.empty() || std::find(options.on.begin(), options.on.end(), run.run) != options.on.end();
+      const bool wanted =
+          options.on.empty() || std::find(options.on.begin(), options.on.end(), run.run) != options.on.end();
       (wanted ? used_ : left_out_).push_back(run);
     }
     workshop_ = {&engine, options.known, options.threads, options.stop, {}, &fit_.runs};
@@ -110,15 +113,18 @@ class Fitter {
 
   void tell(const Refit& found) {
     stage_ = "what the data tell";
-    const std::vector<Emulator> emulators = emulate(used_, knobs_, options_.count, options_.first_run, workshop_);
+    const std::vector<Emulator> emulators =
+        emulate(used_, knobs_, options_.count, options_.first_run, workshop_);
     const ToldApart told = told_apart(used_, knobs_, emulators, model_error());
     covariance_ = told.covariance * std::max(1.0, found.scatter);
     fit_.correlation = told.correlation;
     fit_.used = found.runs;
     fit_.p_value = found.p_value;
     fit_.scatter = found.scatter;
-    fit_.fitted = setup_at(setup_, knobs_, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs_.size())), options_.known);
-    for (std::size_t k = 0; k < knobs_.size(); ++k) fit_.parameters.push_back(parameter(k, found.values[k], told));
+    fit_.fitted = setup_at(setup_, knobs_, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs_.size())),
+                           options_.known);
+    for (std::size_t k = 0; k < knobs_.size(); ++k)
+      fit_.parameters.push_back(parameter(k, found.values[k], told));
   }
 
   FittedParameter parameter(std::size_t k, const FittedValue& value, const ToldApart& told) const {
@@ -126,25 +132,36 @@ class Fitter {
     const auto i = static_cast<Eigen::Index>(k);
     // The pseudo-experiments' spread ends at the edge of the scattered box; the slopes' does not.
     const double error = std::max(value.error, told.error[i] * std::sqrt(std::max(1.0, fit_.scatter)));
-    FittedParameter found{knob.key, unit_of_key(knob.key, options_.known), start_[k].centre, value.value, std::max(knob.low, value.value - 1.96 * error),
-                          std::min(knob.high, value.value + 1.96 * error), true, ""};
+    FittedParameter found{knob.key,
+                          unit_of_key(knob.key, options_.known),
+                          start_[k].centre,
+                          value.value,
+                          std::max(knob.low, value.value - 1.96 * error),
+                          std::min(knob.high, value.value + 1.96 * error),
+                          true,
+                          ""};
     const bool covers_most = 2 * 1.96 * error > 2.0 / 3 * (knob.high - knob.low) || !std::isfinite(error);
     const bool from_zero = start_[k].low == 0 && value.value - 1.96 * error <= 0;
     found.told = !covers_most;
-    if (covers_most) found.remark = "the data do not tell it: its interval covers most of what is possible";
-    else if (value.at_bound) found.remark = "at the bound of what is possible";
-    else if (from_zero) found.remark = "not different from zero";
+    if (covers_most)
+      found.remark = "the data do not tell it: its interval covers most of what is possible";
+    else if (value.at_bound)
+      found.remark = "at the bound of what is possible";
+    else if (from_zero)
+      found.remark = "not different from zero";
     for (std::size_t other = 0; other < knobs_.size(); ++other)
       if (other != k && std::abs(told.correlation(i, static_cast<Eigen::Index>(other))) > confounded)
-        found.remark += fmt::format("{}only a combination with {} is told (alone it would be known to {:.2g} of this interval)", found.remark.empty() ? "" : "; ",
-                                    knobs_[other].key, told.alone[i] / told.error[i]);
+        found.remark += fmt::format(
+            "{}only a combination with {} is told (alone it would be known to {:.2g} of this interval)",
+            found.remark.empty() ? "" : "; ", knobs_[other].key, told.alone[i] / told.error[i]);
     return found;
   }
 
   void foretell() {
     if (left_out_.empty()) return;
     stage_ = "foretelling the runs left out";
-    const std::vector<Emulator> emulators = emulate(left_out_, knobs_, options_.count, options_.first_run + 50000, workshop_);
+    const std::vector<Emulator> emulators =
+        emulate(left_out_, knobs_, options_.count, options_.first_run + 50000, workshop_);
     for (std::size_t r = 0; r < left_out_.size(); ++r)
       fit_.left_out.push_back(foretold(left_out_[r], knobs_, emulators[r], covariance_, model_error()));
   }
@@ -163,7 +180,8 @@ class Fitter {
 
 }  // namespace
 
-Fit fit_parameters(const Setup& setup, const Experiment& experiment, std::vector<Knob> knobs, const Engine& engine, const FitOptions& options) {
+Fit fit_parameters(const Setup& setup, const Experiment& experiment, std::vector<Knob> knobs,
+                   const Engine& engine, const FitOptions& options) {
   EXPECT(!knobs.empty());
   return Fitter(setup, experiment, std::move(knobs), engine, options).run();
 }

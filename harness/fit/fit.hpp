@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parameters of a model from some runs of an experiment, with intervals, and how well the model then foretells the runs left out.
+// Parameters of a model from some runs of an experiment, with intervals, and how well the model then
+// foretells the runs left out.
 #pragma once
 #include <functional>
 #include <string>
@@ -10,10 +11,10 @@
 namespace shakedown {
 
 struct FitOptions {
-  std::vector<std::string> on;   ///< names of the runs to fit; empty: all
-  int count = 160;               ///< simulations of each different setup in a round
+  std::vector<std::string> on;  ///< names of the runs to fit; empty: all
+  int count = 160;              ///< simulations of each different setup in a round
   int threads = 0;
-  int first_run = 500000;        ///< addresses the random numbers of the simulations
+  int first_run = 500000;  ///< addresses the random numbers of the simulations
   std::span<const EffectRecord* const> known;
   const std::atomic<bool>* stop = nullptr;
   /// Told of the stage in words and the number of simulations so far; may be empty.
@@ -23,8 +24,8 @@ struct FitOptions {
 struct FittedParameter {
   std::string key, unit;
   double start = 0, value = 0, low = 0, high = 0;  ///< SI; 95 % interval
-  bool told = true;      ///< false: the data do not tell it
-  std::string remark;    ///< why not, or with what it is confounded
+  bool told = true;                                ///< false: the data do not tell it
+  std::string remark;                              ///< why not, or with what it is confounded
 };
 
 struct Fit {
@@ -32,16 +33,18 @@ struct Fit {
   Eigen::MatrixXd correlation;          ///< of the estimates
   std::vector<RunComparison> used;      ///< runs fitted, at the solution
   std::vector<RunComparison> left_out;  ///< the others, foretold
-  double p_value = 1;                   ///< share of the model's own runs that fit no better than the runs used
-  double scatter = 1;                   ///< misfit over that of the model's own runs
+  double p_value = 1;  ///< share of the model's own runs that fit no better than the runs used
+  double scatter = 1;  ///< misfit over that of the model's own runs
   Setup fitted;
-  std::int64_t runs = 0;                ///< simulated
+  std::int64_t runs = 0;  ///< simulated
   double seconds = 0;
 };
 
-/// Fits the knobs from where they start: first to the beginning of the runs, where a wrong frequency has not yet turned the phase round,
-/// then to more and more of them. Throws InputError for runs that the experiment does not have, Interrupted.
-Fit fit_parameters(const Setup& setup, const Experiment& experiment, std::vector<Knob> knobs, const Engine& engine, const FitOptions& options);
+/// Fits the knobs from where they start: first to the beginning of the runs, where a wrong frequency has not
+/// yet turned the phase round, then to more and more of them. Throws InputError for runs that the experiment
+/// does not have, Interrupted.
+Fit fit_parameters(const Setup& setup, const Experiment& experiment, std::vector<Knob> knobs,
+                   const Engine& engine, const FitOptions& options);
 
 std::string fit_json(const Fit& fit);
 std::string fit_text(const Fit& fit);

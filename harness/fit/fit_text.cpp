@@ -19,16 +19,21 @@ double in_unit(double si, const std::string& unit) { return si / std::get<Unit>(
 Json runs_json(const std::vector<RunComparison>& runs) {
   Json list = Json::array();
   for (const RunComparison& run : runs)
-    list.push_back({{"run", run.run}, {"error_box_mm", 1e3 * run.error_box}, {"spread_box_mm", 1e3 * run.floor_box},
-                    {"error_com_mm", 1e3 * run.error_centre}, {"spread_com_mm", 1e3 * run.floor_centre}});
+    list.push_back({{"run", run.run},
+                    {"error_box_mm", 1e3 * run.error_box},
+                    {"spread_box_mm", 1e3 * run.floor_box},
+                    {"error_com_mm", 1e3 * run.error_centre},
+                    {"spread_com_mm", 1e3 * run.floor_centre}});
   return list;
 }
 
 std::string runs_text(const std::string& title, const std::vector<RunComparison>& runs) {
   if (runs.empty()) return "";
-  std::string text = fmt::format("  {:<22} {:>9} {:>9} {:>12} {:>9}\n", title, "box, mm", "spread", "centre, mm", "spread");
+  std::string text =
+      fmt::format("  {:<22} {:>9} {:>9} {:>12} {:>9}\n", title, "box, mm", "spread", "centre, mm", "spread");
   for (const RunComparison& run : runs)
-    text += fmt::format("    {:<20} {:>9.3f} {:>9.3f} {:>12.3f} {:>9.3f}\n", run.run, 1e3 * run.error_box, 1e3 * run.floor_box, 1e3 * run.error_centre, 1e3 * run.floor_centre);
+    text += fmt::format("    {:<20} {:>9.3f} {:>9.3f} {:>12.3f} {:>9.3f}\n", run.run, 1e3 * run.error_box,
+                        1e3 * run.floor_box, 1e3 * run.error_centre, 1e3 * run.floor_centre);
   return text;
 }
 
@@ -37,29 +42,47 @@ std::string runs_text(const std::string& title, const std::vector<RunComparison>
 std::string fit_json(const Fit& fit) {
   Json parameters = Json::array(), correlation = Json::array();
   for (const FittedParameter& p : fit.parameters)
-    parameters.push_back({{"key", p.key}, {"unit", p.unit}, {"start", in_unit(p.start, p.unit)}, {"value", in_unit(p.value, p.unit)}, {"low", in_unit(p.low, p.unit)},
-                          {"high", in_unit(p.high, p.unit)}, {"told", p.told}, {"remark", p.remark}});
+    parameters.push_back({{"key", p.key},
+                          {"unit", p.unit},
+                          {"start", in_unit(p.start, p.unit)},
+                          {"value", in_unit(p.value, p.unit)},
+                          {"low", in_unit(p.low, p.unit)},
+                          {"high", in_unit(p.high, p.unit)},
+                          {"told", p.told},
+                          {"remark", p.remark}});
   for (Eigen::Index i = 0; i < fit.correlation.rows(); ++i) {
     correlation.push_back(Json::array());
     for (Eigen::Index j = 0; j < fit.correlation.cols(); ++j)
-      correlation.back().push_back(std::isfinite(fit.correlation(i, j)) ? Json(fit.correlation(i, j)) : Json(nullptr));
+      correlation.back().push_back(std::isfinite(fit.correlation(i, j)) ? Json(fit.correlation(i, j))
+                                                                        : Json(nullptr));
   }
-  const Json document{{"schema_version", 1}, {"parameters", parameters}, {"correlation", correlation}, {"p_value", fit.p_value}, {"scatter", fit.scatter},
-                      {"runs_used", runs_json(fit.used)}, {"runs_left_out", runs_json(fit.left_out)}, {"simulations", fit.runs}, {"setup", write_setup(fit.fitted)}};
+  const Json document{{"schema_version", 1},
+                      {"parameters", parameters},
+                      {"correlation", correlation},
+                      {"p_value", fit.p_value},
+                      {"scatter", fit.scatter},
+                      {"runs_used", runs_json(fit.used)},
+                      {"runs_left_out", runs_json(fit.left_out)},
+                      {"simulations", fit.runs},
+                      {"setup", write_setup(fit.fitted)}};
   return document.dump(2) + "\n";
 }
 
 std::string fit_text(const Fit& fit) {
   std::string text;
   for (const FittedParameter& p : fit.parameters) {
-    text += fmt::format("  {:<28} {:.5g}{} (95 %: {:.5g} to {:.5g}; started at {:.5g})\n", p.key, in_unit(p.value, p.unit), p.unit.empty() ? "" : " " + p.unit, in_unit(p.low, p.unit),
+    text += fmt::format("  {:<28} {:.5g}{} (95 %: {:.5g} to {:.5g}; started at {:.5g})\n", p.key,
+                        in_unit(p.value, p.unit), p.unit.empty() ? "" : " " + p.unit, in_unit(p.low, p.unit),
                         in_unit(p.high, p.unit), in_unit(p.start, p.unit));
     if (!p.remark.empty()) text += "    " + p.remark + "\n";
   }
   for (Eigen::Index i = 0; i < fit.correlation.rows(); ++i)
     for (Eigen::Index j = 0; j < i; ++j)
-      text += fmt::format("  correlation of {} and {}: {:.2f}\n", fit.parameters[static_cast<std::size_t>(j)].key, fit.parameters[static_cast<std::size_t>(i)].key, fit.correlation(i, j));
-  text += fmt::format("  misfit {:.2f} times that of the model's own runs, p = {:.3f}\n", fit.scatter, fit.p_value);
+      text +=
+          fmt::format("  correlation of {} and {}: {:.2f}\n", fit.parameters[static_cast<std::size_t>(j)].key,
+                      fit.parameters[static_cast<std::size_t>(i)].key, fit.correlation(i, j));
+  text += fmt::format("  misfit {:.2f} times that of the model's own runs, p = {:.3f}\n", fit.scatter,
+                      fit.p_value);
   text += runs_text("runs fitted", fit.used) + runs_text("runs foretold", fit.left_out);
   return text + fmt::format("  {} simulations, {:.1f} s\n", fit.runs, fit.seconds);
 }

@@ -13,8 +13,8 @@ namespace shakedown {
 
 namespace {
 
-/// Elastic grains never come to rest; and pressed layers of very inelastic ones make endless impacts (0.1: 30 times the events of 0.75), so a
-/// fit goes there only when it starts near.
+/// Elastic grains never come to rest; and pressed layers of very inelastic ones make endless impacts (0.1: 30
+/// times the events of 0.75), so a fit goes there only when it starts near.
 constexpr double least_restitution = 0.05, usual_restitution = 0.3, most_restitution = 0.995;
 
 const Parameter* parameter_of(std::string_view key, std::span<const EffectRecord* const> known) {
@@ -28,10 +28,18 @@ const Parameter* parameter_of(std::string_view key, std::span<const EffectRecord
 
 Knob knob_of_setup_key(const SetupKey& key, double start) {
   const std::string path(key.path);
-  if (key.section() == "restitution") return {path, start, 0.15, std::clamp(start - 0.2, least_restitution, usual_restitution), most_restitution, true};
+  if (key.section() == "restitution")
+    return {
+        path, start, 0.15, std::clamp(start - 0.2, least_restitution, usual_restitution), most_restitution,
+        true};
   if (path == "spring.frequency") return {path, start, 0.03 * start, start / 2, start * 2, true};
   const double reach = start != 0 ? std::abs(start) : 1;
-  return {path, start, 0.1 * reach, std::max(key.low, start - 2 * reach / 3), std::min(key.high, start + 2 * reach), true};
+  return {path,
+          start,
+          0.1 * reach,
+          std::max(key.low, start - 2 * reach / 3),
+          std::min(key.high, start + 2 * reach),
+          true};
 }
 
 Knob knob_of(const std::string& keys, const Setup& setup, std::span<const EffectRecord* const> known) {
@@ -39,14 +47,22 @@ Knob knob_of(const std::string& keys, const Setup& setup, std::span<const Effect
   const double start = get_number(setup, first, known);
   if (const SetupKey* key = find_setup_key(first)) {
     if (key->path == "grains.count" || key->section() == "run")
-      throw InputError({{{"--free", 0, 0}, first, "cannot be fitted (it is no property of the damper that varies smoothly)", "sweep it instead"}});
+      throw InputError({{{"--free", 0, 0},
+                         first,
+                         "cannot be fitted (it is no property of the damper that varies smoothly)",
+                         "sweep it instead"}});
     Knob knob = knob_of_setup_key(*key, start);
     knob.key = keys;
     return knob;
   }
   const Parameter& parameter = *parameter_of(first, known);
   const double width = parameter.typical > 0 ? parameter.typical : std::max(0.1 * std::abs(start), 1e-6);
-  return {keys, start, width, std::max(parameter.low, start - 20 * width), std::min(parameter.high, start + 20 * width), true};
+  return {keys,
+          start,
+          width,
+          std::max(parameter.low, start - 20 * width),
+          std::min(parameter.high, start + 20 * width),
+          true};
 }
 
 std::vector<std::string> split(std::string_view text) {
@@ -61,7 +77,8 @@ std::vector<std::string> split(std::string_view text) {
 
 }  // namespace
 
-std::vector<Knob> free_parameters(std::string_view text, const Setup& setup, std::span<const EffectRecord* const> known) {
+std::vector<Knob> free_parameters(std::string_view text, const Setup& setup,
+                                  std::span<const EffectRecord* const> known) {
   std::vector<Knob> knobs;
   std::vector<Violation> found;
   for (const std::string& keys : split(text)) {
@@ -77,7 +94,11 @@ std::vector<Knob> free_parameters(std::string_view text, const Setup& setup, std
       }
     }
   }
-  if (knobs.empty() && found.empty()) found.push_back({{"--free", 0, 0}, "", "names nothing to fit", "e.g. --free restitution.grain_grain,restitution.grain_wall"});
+  if (knobs.empty() && found.empty())
+    found.push_back({{"--free", 0, 0},
+                     "",
+                     "names nothing to fit",
+                     "e.g. --free restitution.grain_grain,restitution.grain_wall"});
   if (!found.empty()) throw InputError(std::move(found));
   return knobs;
 }

@@ -10,16 +10,19 @@ namespace shakedown {
 
 namespace {
 
-/// Slopes of the features at the solution, a column a knob: terms 1 ... of the regression, which count in widths.
+/// Slopes of the features at the solution, a column a knob: terms 1 ... of the regression, which count in
+/// widths.
 Eigen::MatrixXd slopes_of(const std::vector<Knob>& knobs, const Emulator& emulator) {
-  Eigen::MatrixXd slopes = emulator.coefficients.middleRows(1, static_cast<Eigen::Index>(knobs.size())).transpose();
+  Eigen::MatrixXd slopes =
+      emulator.coefficients.middleRows(1, static_cast<Eigen::Index>(knobs.size())).transpose();
   for (Eigen::Index k = 0; k < slopes.cols(); ++k) slopes.col(k) /= knobs[static_cast<std::size_t>(k)].width;
   return slopes;
 }
 
 }  // namespace
 
-ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const std::vector<Emulator>& emulators, double model_error) {
+ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
+                     const std::vector<Emulator>& emulators, double model_error) {
   const auto count = static_cast<Eigen::Index>(knobs.size());
   Eigen::VectorXd width(count), possible(count);
   for (std::size_t k = 0; k < knobs.size(); ++k) {
@@ -32,32 +35,43 @@ ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::v
     const Emulator& emulator = emulators[r];
     const Eigen::Index half = emulator.residuals.rows() / 2;
     const Eigen::MatrixXd slopes = slopes_of(knobs, emulator) * width.asDiagonal();
-    const Eigen::LLT<Eigen::MatrixXd> weight(feature_covariance(emulator.residuals.topRows(half), measured[r].plan, model_error));
+    const Eigen::LLT<Eigen::MatrixXd> weight(
+        feature_covariance(emulator.residuals.topRows(half), measured[r].plan, model_error));
     const Eigen::MatrixXd weighted = weight.solve(slopes);
     information += slopes.transpose() * weighted;
-    scatter += weighted.transpose() * feature_covariance(emulator.residuals.bottomRows(emulator.residuals.rows() - half), measured[r].plan, model_error) * weighted;
-    // Slopes are known from chaotic runs: even those of a parameter that does nothing are not zero, and their squares would count as
-    // information.
-    const Eigen::MatrixXd chaos = emulator.residuals.transpose() * emulator.residuals / static_cast<double>(emulator.residuals.rows());
+    scatter += weighted.transpose() *
+               feature_covariance(emulator.residuals.bottomRows(emulator.residuals.rows() - half),
+                                  measured[r].plan, model_error) *
+               weighted;
+    // Slopes are known from chaotic runs: even those of a parameter that does nothing are not zero, and their
+    // squares would count as information.
+    const Eigen::MatrixXd chaos =
+        emulator.residuals.transpose() * emulator.residuals / static_cast<double>(emulator.residuals.rows());
     information -= emulator.inverse_normal.block(1, 1, count, count) * weight.solve(chaos).trace();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(information);
-  information = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).asDiagonal() * axes.eigenvectors().transpose();
+  information =
+      axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).asDiagonal() * axes.eigenvectors().transpose();
   // What is known anyway: the bounds.
   const Eigen::VectorXd known = (width.array() / possible.array()).square();
   information += known.asDiagonal();
   scatter += known.asDiagonal();
   const Eigen::MatrixXd inverse = information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
   const Eigen::MatrixXd spread = width.asDiagonal() * (inverse * scatter * inverse) * width.asDiagonal();
-  ToldApart told{spread, spread.diagonal().cwiseMax(0).cwiseSqrt(), {}, width.cwiseQuotient(information.diagonal().cwiseSqrt())};
+  ToldApart told{spread,
+                 spread.diagonal().cwiseMax(0).cwiseSqrt(),
+                 {},
+                 width.cwiseQuotient(information.diagonal().cwiseSqrt())};
   const Eigen::VectorXd scale = told.error.cwiseInverse();
   told.correlation = scale.asDiagonal() * spread * scale.asDiagonal();
   return told;
 }
 
-RunComparison foretold(const MeasuredFeatures& measured, const std::vector<Knob>& knobs, const Emulator& emulator, const Eigen::MatrixXd& parameters, double model_error) {
+RunComparison foretold(const MeasuredFeatures& measured, const std::vector<Knob>& knobs,
+                       const Emulator& emulator, const Eigen::MatrixXd& parameters, double model_error) {
   const Eigen::MatrixXd slopes = slopes_of(knobs, emulator);
-  const Eigen::MatrixXd whole = feature_covariance(emulator.residuals, measured.plan, model_error) + slopes * parameters * slopes.transpose();
+  const Eigen::MatrixXd whole = feature_covariance(emulator.residuals, measured.plan, model_error) +
+                                slopes * parameters * slopes.transpose();
   RunComparison run;
   run.run = measured.run;
   run.residual = measured.values - emulator.coefficients.row(0).transpose();

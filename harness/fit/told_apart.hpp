@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How well the data tell the free parameters, and how far they tell them apart, from the slopes of the features at the solution.
+// How well the data tell the free parameters, and how far they tell them apart, from the slopes of the
+// features at the solution.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -15,13 +16,15 @@ struct ToldApart {
   Eigen::VectorXd alone;        ///< standard error if all other knobs were known
 };
 
-/// Weighted least squares with the covariance of one half of the simulations, its estimates' spread from the residuals of the other half
-/// (and camera noise), which the weights have not seen. `emulators` are of the measured runs with the knobs at the solution; `model_error`
-/// (m) is added to each feature as in a refit.
-ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs, const std::vector<Emulator>& emulators, double model_error);
+/// Weighted least squares with the covariance of one half of the simulations, its estimates' spread from the
+/// residuals of the other half (and camera noise), which the weights have not seen. `emulators` are of the
+/// measured runs with the knobs at the solution; `model_error` (m) is added to each feature as in a refit.
+ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
+                     const std::vector<Emulator>& emulators, double model_error);
 
-/// How a measured run compares with what the model foretells of it: the error, and the spread that chaos from run to run, camera noise and
-/// the parameters' own uncertainty make. `emulator` as above, of this run.
-RunComparison foretold(const MeasuredFeatures& measured, const std::vector<Knob>& knobs, const Emulator& emulator, const Eigen::MatrixXd& parameters, double model_error);
+/// How a measured run compares with what the model foretells of it: the error, and the spread that chaos from
+/// run to run, camera noise and the parameters' own uncertainty make. `emulator` as above, of this run.
+RunComparison foretold(const MeasuredFeatures& measured, const std::vector<Knob>& knobs,
+                       const Emulator& emulator, const Eigen::MatrixXd& parameters, double model_error);
 
 }  // namespace shakedown

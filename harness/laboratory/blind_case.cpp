@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "random.hpp"
 #include "quantity.hpp"
+#include "random.hpp"
 #include "setup_keys.hpp"
 #include "suggestion.hpp"
 #include "toml_document.hpp"
@@ -39,19 +39,26 @@ std::vector<PlannedRun> lasting(std::vector<PlannedRun> runs, const std::vector<
 
 class Draw {
  public:
-  Draw(const Setup& believed, const BlindDesign& design, const SignalLaws& laws, std::uint64_t seed, std::span<const EffectRecord* const> known)
+  Draw(const Setup& believed, const BlindDesign& design, const SignalLaws& laws, std::uint64_t seed,
+       std::span<const EffectRecord* const> known)
       : believed_(believed), design_(design), laws_(laws), seed_(seed), known_(known) {}
 
   BlindCase one(BlindKind kind, int index) const;
 
  private:
-  double between(Random& random, double low, double high) const { return low + (high - low) * random.uniform(); }
-  std::size_t choice(Random& random, std::size_t count) const { return std::min(count - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(count))); }
+  double between(Random& random, double low, double high) const {
+    return low + (high - low) * random.uniform();
+  }
+  std::size_t choice(Random& random, std::size_t count) const {
+    return std::min(count - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(count)));
+  }
   void nuisances(Random& random, std::vector<Override>& truth, RecordingSettings& recording) const;
   void parameters(Random& random, std::vector<Override>& truth) const;
-  void hide(Random& random, const Hideable& hideable, double signal, std::vector<Override>& truth, BlindCase& drawn) const;
+  void hide(Random& random, const Hideable& hideable, double signal, std::vector<Override>& truth,
+            BlindCase& drawn) const;
   void hide_pair(Random& random, std::vector<Override>& truth, BlindCase& drawn) const;
-  void hide_what_the_kind_says(Random& random, int index, std::vector<Override>& truth, BlindCase& drawn) const;
+  void hide_what_the_kind_says(Random& random, int index, std::vector<Override>& truth,
+                               BlindCase& drawn) const;
 
   const Setup& believed_;
   const BlindDesign& design_;
@@ -61,31 +68,43 @@ class Draw {
 };
 
 void Draw::nuisances(Random& random, std::vector<Override>& truth, RecordingSettings& recording) const {
-  const auto add = [&](const char* key, const std::string& value) { truth.push_back({key, value, "blind suite"}); };
+  const auto add = [&](const char* key, const std::string& value) {
+    truth.push_back({key, value, "blind suite"});
+  };
   add("soft.contact_time", toml_of(1e-4 * std::pow(5.0, random.uniform()), "ms"));  // 0.1 to 0.5 ms
   const double packing = random.uniform();
-  if (packing > 0.8) add("release.packing", "\"random\"");
-  else if (packing > 0.6) add("release.packing", "\"square\"");
+  if (packing > 0.8)
+    add("release.packing", "\"random\"");
+  else if (packing > 0.6)
+    add("release.packing", "\"square\"");
   recording.box_noise = between(random, 0.1e-3, 0.4e-3);
   recording.centre_noise = between(random, 0.3e-3, 0.8e-3);
 }
 
 void Draw::parameters(Random& random, std::vector<Override>& truth) const {
-  const auto add = [&](const char* key, double value, std::string_view unit) { truth.push_back({key, toml_of(value, unit), "blind suite"}); };
-  add("restitution.grain_grain", std::clamp(believed_.restitution.grain_grain + between(random, -0.1, 0.1), 0.3, 0.98), "");
-  add("restitution.grain_wall", std::clamp(believed_.restitution.grain_wall + between(random, -0.1, 0.1), 0.3, 0.98), "");
+  const auto add = [&](const char* key, double value, std::string_view unit) {
+    truth.push_back({key, toml_of(value, unit), "blind suite"});
+  };
+  add("restitution.grain_grain",
+      std::clamp(believed_.restitution.grain_grain + between(random, -0.1, 0.1), 0.3, 0.98), "");
+  add("restitution.grain_wall",
+      std::clamp(believed_.restitution.grain_wall + between(random, -0.1, 0.1), 0.3, 0.98), "");
   add("spring.frequency", believed_.spring.frequency * (1 + between(random, -0.004, 0.004)), "Hz");
 }
 
-void Draw::hide(Random& random, const Hideable& hideable, double signal, std::vector<Override>& truth, BlindCase& drawn) const {
+void Draw::hide(Random& random, const Hideable& hideable, double signal, std::vector<Override>& truth,
+                BlindCase& drawn) const {
   const std::string name = strength_name(hideable.id, drawn.kind);
   const auto found = laws_.find(name);
-  const SignalLaw law = found == laws_.end() || found->second.signal <= 0 ? SignalLaw{1, signal} : found->second;
+  const SignalLaw law =
+      found == laws_.end() || found->second.signal <= 0 ? SignalLaw{1, signal} : found->second;
   const double noise = relative_noise(drawn.trial.recording, believed_);
   const double strength = std::min(law.strength_for(signal, noise), hideable.strongest);
-  // Not faster: the balance's windows would see much less of it than of the one that the law was measured with.
+  // Not faster: the balance's windows would see much less of it than of the one that the law was measured
+  // with.
   const double frequency = between(random, 0.5, 3), phase = between(random, 0, 6);
-  for (Override& override : at_strength(hideable, strength, frequency, phase)) truth.push_back(std::move(override));
+  for (Override& override : at_strength(hideable, strength, frequency, phase))
+    truth.push_back(std::move(override));
   drawn.ids.emplace_back(hideable.id);
   drawn.strengths.push_back(name);
   const double reached = law.signal_at(strength, noise);
@@ -94,27 +113,35 @@ void Draw::hide(Random& random, const Hideable& hideable, double signal, std::ve
 
 /// One from outside, one from inside the contacts or the box.
 void Draw::hide_pair(Random& random, std::vector<Override>& truth, BlindCase& drawn) const {
-  constexpr std::array<std::string_view, 5> outside{"blade_viscous_damping", "clamp_dry_friction", "spring_cubic", "constant_acceleration.x", "camera_com_bias"};
-  constexpr std::array<std::string_view, 4> inside{"grain_friction", "velocity_dependent_restitution", "grain_cohesion", "side_wall_restitution"};
+  constexpr std::array<std::string_view, 5> outside{"blade_viscous_damping", "clamp_dry_friction",
+                                                    "spring_cubic", "constant_acceleration.x",
+                                                    "camera_com_bias"};
+  constexpr std::array<std::string_view, 4> inside{"grain_friction", "velocity_dependent_restitution",
+                                                   "grain_cohesion", "side_wall_restitution"};
   hide(random, *find_hideable(outside[choice(random, outside.size())]), 12, truth, drawn);
   hide(random, *find_hideable(inside[choice(random, inside.size())]), 12, truth, drawn);
 }
 
-void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Override>& truth, BlindCase& drawn) const {
+void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Override>& truth,
+                                   BlindCase& drawn) const {
   const auto number = static_cast<std::size_t>(index);
-  // All of a list in turn, each time round at the next signal: a few cases meet every one, many meet every one at every signal.
+  // All of a list in turn, each time round at the next signal: a few cases meet every one, many meet every
+  // one at every signal.
   const auto hide_next = [&](const std::vector<Hideable>& all, double least_signal, auto accepts) {
     std::vector<const Hideable*> list;
     for (const Hideable& hideable : all)
       if (accepts(hideable)) list.push_back(&hideable);
     const std::size_t place = number % list.size(), turn = number / list.size();
-    hide(random, *list[place], std::max(least_signal, design_.signals[(place + turn) % design_.signals.size()]), truth, drawn);
+    hide(random, *list[place],
+         std::max(least_signal, design_.signals[(place + turn) % design_.signals.size()]), truth, drawn);
   };
   switch (drawn.kind) {
     case BlindKind::null: return;
     case BlindKind::parameters: return;
-    case BlindKind::single: return hide_next(hideable_effects(), 0, [](const Hideable& h) { return !h.camera; });
-    case BlindKind::camera: return hide_next(hideable_effects(), 0, [](const Hideable& h) { return h.camera; });
+    case BlindKind::single:
+      return hide_next(hideable_effects(), 0, [](const Hideable& h) { return !h.camera; });
+    case BlindKind::camera:
+      return hide_next(hideable_effects(), 0, [](const Hideable& h) { return h.camera; });
     case BlindKind::pair: return hide_pair(random, truth, drawn);
     case BlindKind::unlisted: return hide_next(hideable_forces(), 12, [](const Hideable&) { return true; });
     case BlindKind::twins: {
@@ -123,15 +150,22 @@ void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Overri
       drawn.twin = pair.twin;
       drawn.trial.runs = twin_runs();
       drawn.more = design_.runs;
-      drawn.more.push_back({"N60", {{"box.length", "\"65 mm\"", ""}, {"grains.count", "60", ""}, {"run.duration", "\"12 s\"", ""}}});
-      drawn.more.push_back({"N20", {{"box.length", "\"40 mm\"", ""}, {"grains.count", "20", ""}, {"run.duration", "\"20 s\"", ""}}});
-      drawn.more.push_back({"empty", {{"box.length", "\"40 mm\"", ""}, {"grains.count", "0", ""}, {"run.duration", "\"12 s\"", ""}}});
+      drawn.more.push_back(
+          {"N60",
+           {{"box.length", "\"65 mm\"", ""}, {"grains.count", "60", ""}, {"run.duration", "\"12 s\"", ""}}});
+      drawn.more.push_back(
+          {"N20",
+           {{"box.length", "\"40 mm\"", ""}, {"grains.count", "20", ""}, {"run.duration", "\"20 s\"", ""}}});
+      drawn.more.push_back(
+          {"empty",
+           {{"box.length", "\"40 mm\"", ""}, {"grains.count", "0", ""}, {"run.duration", "\"12 s\"", ""}}});
     }
   }
 }
 
 BlindCase Draw::one(BlindKind kind, int index) const {
-  Random random(seed_, static_cast<std::uint64_t>(index) + 1000 * static_cast<std::uint64_t>(kind), Stream::hidden);
+  Random random(seed_, static_cast<std::uint64_t>(index) + 1000 * static_cast<std::uint64_t>(kind),
+                Stream::hidden);
   BlindCase drawn;
   drawn.kind = kind;
   drawn.trial.runs = design_.runs;
@@ -152,9 +186,14 @@ BlindCounts parse_counts(std::string_view text, const std::string& origin) {
   for (const std::string& part : split_at_commas(text)) {
     const auto [key, value, place] = parse_override(part, origin);
     const auto found = std::find(blind_kind_names.begin(), blind_kind_names.end(), key);
-    if (found == blind_kind_names.end()) throw InputError({{{origin, 0, 0}, key, "is not a kind of case", "known: " + listed(blind_kind_names)}});
+    if (found == blind_kind_names.end())
+      throw InputError(
+          {{{origin, 0, 0}, key, "is not a kind of case", "known: " + listed(blind_kind_names)}});
     if (value.empty() || value.size() > 4 || value.find_first_not_of("0123456789") != value.npos)
-      throw InputError({{{origin, 0, 0}, key, "\"" + value + "\" is not a number of cases", "write a whole number below 10000"}});
+      throw InputError({{{origin, 0, 0},
+                         key,
+                         "\"" + value + "\" is not a number of cases",
+                         "write a whole number below 10000"}});
     counts[static_cast<std::size_t>(found - blind_kind_names.begin())] = std::stoi(value);
   }
   return counts;
@@ -162,9 +201,14 @@ BlindCounts parse_counts(std::string_view text, const std::string& origin) {
 
 std::vector<PlannedRun> twin_runs() { return lasting(runs_of_lengths({0.04, 0.04}), {10, 10}); }
 
-std::string strength_name(std::string_view id, BlindKind kind) { return (kind == BlindKind::twins ? "twins:" : "") + std::string(id); }
+std::string strength_name(std::string_view id, BlindKind kind) {
+  return (kind == BlindKind::twins ? "twins:" : "") + std::string(id);
+}
 
-BlindDesign full_design() { return {lasting(runs_of_lengths({0.04, 0.04, 0.065, 0.085, 0.104}), {20, 20, 12, 10, 8}), {3, 6, 12, 25}, {}}; }
+BlindDesign full_design() {
+  return {
+      lasting(runs_of_lengths({0.04, 0.04, 0.065, 0.085, 0.104}), {20, 20, 12, 10, 8}), {3, 6, 12, 25}, {}};
+}
 
 BlindDesign small_design() { return {lasting(runs_of_lengths({0.04, 0.065}), {5, 4}), {25}, {}}; }
 
@@ -191,19 +235,25 @@ BlindDesign varied(BlindDesign design, std::string_view variant, const std::stri
   } else if (variant == "no-centre") {
     design.recording.centre = false;
   } else if (!variant.empty()) {
-    throw InputError({{{origin, 0, 0}, std::string(variant), "is not a variant of the experiment", "known: " + listed(variant_names)}});
+    throw InputError({{{origin, 0, 0},
+                       std::string(variant),
+                       "is not a variant of the experiment",
+                       "known: " + listed(variant_names)}});
   }
   return design;
 }
 
-std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design, const SignalLaws& laws, std::uint64_t seed,
+std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design,
+                                  const SignalLaws& laws, std::uint64_t seed,
                                   std::span<const EffectRecord* const> known) {
   const Draw draw(believed, design, laws, seed, known);
   std::vector<BlindCase> cases;
   for (std::size_t kind = 0; kind < counts.size(); ++kind)
-    for (int index = 0; index < counts[kind]; ++index) cases.push_back(draw.one(static_cast<BlindKind>(kind), index));
+    for (int index = 0; index < counts[kind]; ++index)
+      cases.push_back(draw.one(static_cast<BlindKind>(kind), index));
   Random random(seed, 999999, Stream::hidden);  // Fisher and Yates
-  for (std::size_t i = cases.size(); i > 1; --i) std::swap(cases[i - 1], cases[static_cast<std::size_t>(random.bits() % i)]);
+  for (std::size_t i = cases.size(); i > 1; --i)
+    std::swap(cases[i - 1], cases[static_cast<std::size_t>(random.bits() % i)]);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     char name[32];
     std::snprintf(name, sizeof name, "case_%04zu", i + 1);

@@ -9,7 +9,8 @@
 namespace shakedown {
 
 enum class BlindKind { null, parameters, single, camera, pair, unlisted, twins };
-constexpr std::array<std::string_view, 7> blind_kind_names{"nulls", "parameters", "singles", "camera", "pairs", "unlisted", "twins"};
+constexpr std::array<std::string_view, 7> blind_kind_names{"nulls", "parameters", "singles", "camera",
+                                                           "pairs", "unlisted",   "twins"};
 
 /// How many of each kind.
 using BlindCounts = std::array<int, 7>;
@@ -22,7 +23,7 @@ struct BlindCase {
   std::string name;  ///< "case_0017", in an order that tells nothing
   BlindKind kind = BlindKind::null;
   Trial trial;
-  std::vector<std::string> ids;  ///< of what is hidden
+  std::vector<std::string> ids;        ///< of what is hidden
   std::vector<std::string> strengths;  ///< their names in the table of signal laws
   double signal_to_noise = 0;    ///< of each hidden thing by the table of signal laws; 0: nothing hidden
   std::string twin;              ///< effect that these measurements cannot tell from the hidden one
@@ -30,9 +31,9 @@ struct BlindCase {
 };
 
 struct BlindDesign {
-  std::vector<PlannedRun> runs;             ///< the experiment of every case but the twins'
+  std::vector<PlannedRun> runs;  ///< the experiment of every case but the twins'
   std::vector<double> signals{3, 6, 12, 25};
-  RecordingSettings recording;              ///< but for its noise, which is drawn
+  RecordingSettings recording;  ///< but for its noise, which is drawn
 };
 /// Five runs as the open cases have them, the longer boxes for as long as they swing.
 BlindDesign full_design();
@@ -43,10 +44,11 @@ BlindDesign small_design();
 std::vector<PlannedRun> twin_runs();
 
 /// How a worse experiment is made of a design.
-constexpr std::array<std::string_view, 7> variant_names{"one-repeat", "two-lengths", "half-duration", "250fps", "missing", "outliers", "no-centre"};
+constexpr std::array<std::string_view, 7> variant_names{
+    "one-repeat", "two-lengths", "half-duration", "250fps", "missing", "outliers", "no-centre"};
 
-/// One run a length; the shortest and the longest box alone; half of each run; 250 frames/s; 2 % of the frames lost; 5 % of the positions
-/// jump; grains not tracked. Throws InputError for another name.
+/// One run a length; the shortest and the longest box alone; half of each run; 250 frames/s; 2 % of the
+/// frames lost; 5 % of the positions jump; grains not tracked. Throws InputError for another name.
 BlindDesign varied(BlindDesign design, std::string_view variant, const std::string& origin = "--variant");
 
 /// Of each hideable thing, by strength_name().
@@ -55,9 +57,10 @@ using SignalLaws = std::map<std::string, SignalLaw, std::less<>>;
 /// In the twins' small experiment a strength is worth less than in the full one.
 std::string strength_name(std::string_view id, BlindKind kind);
 
-/// Laboratory and diagnosis differ in parameters drawn at random (of nulls the believed ones), in contact time, packing
-/// (three in five are as believed), camera noise and seed. Same arguments, same cases.
-std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design, const SignalLaws& laws, std::uint64_t seed,
+/// Laboratory and diagnosis differ in parameters drawn at random (of nulls the believed ones), in contact
+/// time, packing (three in five are as believed), camera noise and seed. Same arguments, same cases.
+std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design,
+                                  const SignalLaws& laws, std::uint64_t seed,
                                   std::span<const EffectRecord* const> known);
 
 }  // namespace shakedown

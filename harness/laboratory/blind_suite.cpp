@@ -19,14 +19,20 @@ namespace fs = std::filesystem;
 
 class Suite {
  public:
-  Suite(const fs::path& folder, const Setup& believed, const TrialTools& tools, const BlindSuiteOptions& options)
-      : folder_(folder), believed_(believed), tools_(tools), options_(options), design_(varied(options.small ? small_design() : full_design(), options.variant)) {
+  Suite(const fs::path& folder, const Setup& believed, const TrialTools& tools,
+        const BlindSuiteOptions& options)
+      : folder_(folder),
+        believed_(believed),
+        tools_(tools),
+        options_(options),
+        design_(varied(options.small ? small_design() : full_design(), options.variant)) {
     if (!options.signals.empty()) design_.signals = options.signals;
   }
 
   void run() {
     open();
-    const std::vector<BlindCase> cases = draw_cases(believed_, options_.counts, design_, laws(), options_.seed, tools_.known);
+    const std::vector<BlindCase> cases =
+        draw_cases(believed_, options_.counts, design_, laws(), options_.seed, tools_.known);
     seal(cases);
     int done = 0;
     for (const BlindCase& one : cases) {
@@ -47,9 +53,18 @@ class Suite {
 
   Json plan() const {
     Json counts = Json::object();
-    for (std::size_t kind = 0; kind < options_.counts.size(); ++kind) counts[std::string(blind_kind_names[kind])] = options_.counts[kind];
-    return {{"schema_version", 1}, {"seed", options_.seed}, {"small", options_.small}, {"variant", options_.variant}, {"counts", counts}, {"signals", design_.signals}, {"believed", digest(believed_)},
-            {"laboratory", tools_.laboratory->name()}, {"budget", tools_.budget}, {"fault", method_fault_names[static_cast<std::size_t>(tools_.fault)]}};
+    for (std::size_t kind = 0; kind < options_.counts.size(); ++kind)
+      counts[std::string(blind_kind_names[kind])] = options_.counts[kind];
+    return {{"schema_version", 1},
+            {"seed", options_.seed},
+            {"small", options_.small},
+            {"variant", options_.variant},
+            {"counts", counts},
+            {"signals", design_.signals},
+            {"believed", digest(believed_)},
+            {"laboratory", tools_.laboratory->name()},
+            {"budget", tools_.budget},
+            {"fault", method_fault_names[static_cast<std::size_t>(tools_.fault)]}};
   }
 
   /// A folder holds one suite.
@@ -57,12 +72,17 @@ class Suite {
     const fs::path file = folder_ / "plan.json";
     if (!fs::exists(file)) return;
     if (!options_.resume)
-      throw InputError({{{file.string(), 0, 0}, "", "a suite stands there already", "go on with --resume, or name another folder"}});
+      throw InputError({{{file.string(), 0, 0},
+                         "",
+                         "a suite stands there already",
+                         "go on with --resume, or name another folder"}});
     Json there = Json::parse(read_text_file(file));
     there.erase("sealed");
     there.erase("program");
     if (there != plan())
-      throw InputError({{{file.string(), 0, 0}, "", "is the plan of another suite (other setup, seed or numbers of cases)",
+      throw InputError({{{file.string(), 0, 0},
+                         "",
+                         "is the plan of another suite (other setup, seed or numbers of cases)",
                          "go on with the same ones, or name another folder"}});
   }
 
@@ -76,10 +96,13 @@ class Suite {
       if (table.contains(id)) continue;
       // Of the experiment as designed: a worse one is given the same strengths.
       const bool twin = id.starts_with(twins);
-      const std::vector<PlannedRun> runs = twin ? twin_runs() : (options_.small ? small_design() : full_design()).runs;
+      const std::vector<PlannedRun> runs =
+          twin ? twin_runs() : (options_.small ? small_design() : full_design()).runs;
       const SignalSettings settings{runs, options_.small ? 48 : 96};
-      table[id] = signal_law(*find_hideable(twin ? id.substr(twins.size()) : id), believed_, options_.seed + 77, settings, tools_);
-      tell("a typical " + id + " has signal to noise " + std::to_string(table[id].signal_at(1, 1)).substr(0, 5));
+      table[id] = signal_law(*find_hideable(twin ? id.substr(twins.size()) : id), believed_,
+                             options_.seed + 77, settings, tools_);
+      tell("a typical " + id + " has signal to noise " +
+           std::to_string(table[id].signal_at(1, 1)).substr(0, 5));
       save(file, table);
     }
     save(file, table);
@@ -92,10 +115,15 @@ class Suite {
     try {
       const Json document = Json::parse(text);
       for (const auto& [id, law] : document.at("signals").items())
-        table[id] = {law.at("strength").get<double>(), law.at("signal").get<double>(), law.at("power").get<double>(), law.at("by") == "balance"};
+        table[id] = {law.at("strength").get<double>(), law.at("signal").get<double>(),
+                     law.at("power").get<double>(), law.at("by") == "balance"};
     } catch (const nlohmann::json::exception& problem) {
-      throw InputError({{{file.string()}, "", std::string("not a table of signals that this version writes (") + problem.what() + ")",
-                         "leave it out, and the table is measured anew; an earlier suite's folder has one as strengths.json"}});
+      throw InputError(
+          {{{file.string()},
+            "",
+            std::string("not a table of signals that this version writes (") + problem.what() + ")",
+            "leave it out, and the table is measured anew; an earlier suite's folder has one as "
+            "strengths.json"}});
     }
     return table;
   }
@@ -103,14 +131,18 @@ class Suite {
   static void save(const fs::path& file, const SignalLaws& table) {
     Json values = Json::object();
     for (const auto& [id, law] : table)
-      values[id] = {{"strength", law.strength}, {"signal", law.signal}, {"power", law.power}, {"by", law.by_balance ? "balance" : "ensembles"}};
+      values[id] = {{"strength", law.strength},
+                    {"signal", law.signal},
+                    {"power", law.power},
+                    {"by", law.by_balance ? "balance" : "ensembles"}};
     write_file(file, Json{{"schema_version", 2}, {"signals", values}}.dump(2) + "\n");
   }
 
   /// What these cases hide; drawn once with no table to learn it.
   std::vector<std::string> needed_ids() const {
     std::vector<std::string> ids;
-    for (const BlindCase& one : draw_cases(believed_, options_.counts, design_, {}, options_.seed, tools_.known))
+    for (const BlindCase& one :
+         draw_cases(believed_, options_.counts, design_, {}, options_.seed, tools_.known))
       for (const std::string& id : one.strengths)
         if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
     std::sort(ids.begin(), ids.end());
@@ -120,7 +152,8 @@ class Suite {
   void seal(const std::vector<BlindCase>& cases) const {
     Json digests = Json::object();
     for (const BlindCase& one : cases) {
-      Json sealed = Json::parse(truth_json(one.trial.hidden, one.trial.recording, std::string(tools_.laboratory->name()), one.trial.seed));
+      Json sealed = Json::parse(truth_json(one.trial.hidden, one.trial.recording,
+                                           std::string(tools_.laboratory->name()), one.trial.seed));
       sealed["kind"] = blind_kind_names[static_cast<std::size_t>(one.kind)];
       sealed["ids"] = one.ids;
       sealed["signal_to_noise"] = one.signal_to_noise;
@@ -147,13 +180,16 @@ class Suite {
       for (const ForceFormula& found : diagnosis.momentum.formulas) {
         Json constants = Json::object();
         for (const FormulaConstant& constant : found.constants) constants[constant.name] = constant.value;
-        formulas.push_back({{"formula", found.formula}, {"constants", constants}, {"look_alikes", found.look_alikes}});
+        formulas.push_back(
+            {{"formula", found.formula}, {"constants", constants}, {"look_alikes", found.look_alikes}});
       }
       document["formulas"] = formulas;
       if (options_.baselines && (one.kind == BlindKind::null || one.kind == BlindKind::single)) {
         const Workshop workshop{tools_.model, tools_.known, tools_.threads, tools_.stop, {}, nullptr};
         const NaiveAnswers naive = naive_answers(trial.hidden.believed, measured_in(trial, tools_), workshop);
-        document["naive"] = {{"least_error", naive.least_error}, {"white_noise", naive.white_noise}, {"one_seed", naive.one_seed}};
+        document["naive"] = {{"least_error", naive.least_error},
+                             {"white_noise", naive.white_noise},
+                             {"one_seed", naive.one_seed}};
       }
     } catch (const PhysicsError& error) {  // a case lost is a wrong answer, not the end of the suite
       document["error"] = error.what();
@@ -170,7 +206,8 @@ class Suite {
 
 }  // namespace
 
-void run_blind_suite(const fs::path& folder, const Setup& believed, const TrialTools& tools, const BlindSuiteOptions& options) {
+void run_blind_suite(const fs::path& folder, const Setup& believed, const TrialTools& tools,
+                     const BlindSuiteOptions& options) {
   Suite(folder, believed, tools, options).run();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Diagnoses on trial by the hundred: cases are drawn, their answers written and closed, each case diagnosed without them, and only then
-// are the answers opened and scored. A folder holds it all, so that an interrupted suite goes on where it stopped:
+// Diagnoses on trial by the hundred: cases are drawn, their answers written and closed, each case diagnosed
+// without them, and only then are the answers opened and scored. A folder holds it all, so that an
+// interrupted suite goes on where it stopped:
 //   plan.json            what was asked for, and a digest of every sealed answer
 //   strengths.json       signal to noise against strength of everything that can be hidden
 //   sealed/case_0001.json  what is hidden
@@ -17,25 +18,26 @@ namespace shakedown {
 
 struct BlindSuiteOptions {
   BlindCounts counts = full_counts;
-  bool small = false;        ///< two short runs a case, strong signals
+  bool small = false;           ///< two short runs a case, strong signals
   std::vector<double> signals;  ///< signal to noise of what is hidden; empty: as designed
-  std::string variant;       ///< a worse experiment, one of variant_names; empty: as designed
+  std::string variant;          ///< a worse experiment, one of variant_names; empty: as designed
   std::uint64_t seed = 1;
-  bool baselines = false;    ///< asks simpler methods as well (naive_answers.hpp), of singles and nulls
-  bool resume = false;       ///< go on in a folder that has a plan
+  bool baselines = false;  ///< asks simpler methods as well (naive_answers.hpp), of singles and nulls
+  bool resume = false;     ///< go on in a folder that has a plan
   std::filesystem::path strengths;  ///< a table of an earlier suite instead of measuring one
   std::function<void(const std::string& line)> told;  ///< of each thing done; may be empty
 };
 
-/// Draws, seals and diagnoses what has no answer yet. Throws InputError for a folder that holds another suite (or one without `resume`),
-/// FileError, Interrupted (what is done is kept).
-void run_blind_suite(const std::filesystem::path& folder, const Setup& believed, const TrialTools& tools, const BlindSuiteOptions& options);
+/// Draws, seals and diagnoses what has no answer yet. Throws InputError for a folder that holds another suite
+/// (or one without `resume`), FileError, Interrupted (what is done is kept).
+void run_blind_suite(const std::filesystem::path& folder, const Setup& believed, const TrialTools& tools,
+                     const BlindSuiteOptions& options);
 
 /// One line of the table.
 struct BlindFigure {
-  std::string what;    ///< "false alarms"
-  std::string aim;     ///< "at most 3 %"
-  std::string found;   ///< "0 of 60 (0 %, 95 %: 0 to 6 %)"
+  std::string what;   ///< "false alarms"
+  std::string aim;    ///< "at most 3 %"
+  std::string found;  ///< "0 of 60 (0 %, 95 %: 0 to 6 %)"
   enum class Verdict { met, missed, not_measured } verdict = Verdict::not_measured;
 };
 
@@ -45,7 +47,8 @@ struct BlindScore {
   int answered = 0, planned = 0;
 };
 
-/// Opens the answers. Throws FileError; InputError when a sealed answer is not what it was when the suite began.
+/// Opens the answers. Throws FileError; InputError when a sealed answer is not what it was when the suite
+/// began.
 BlindScore score_blind_suite(const std::filesystem::path& folder, const TrialTools& tools);
 
 std::string blind_score_text(const BlindScore& score);

@@ -27,8 +27,12 @@ const EffectRecord& effect_named(const std::string& name, const std::string& ori
   std::vector<std::string_view> names;
   for (const EffectRecord* record : all_effects()) names.push_back(record->name);
   const std::string_view near = nearest(name, names);
-  throw InputError({{{origin, 0, 0}, name, "is not an effect",
-                     near.empty() ? "`shakedown effects` lists them" : "did you mean '" + std::string(near) + "'? `shakedown effects` lists them"}});
+  throw InputError(
+      {{{origin, 0, 0},
+        name,
+        "is not an effect",
+        near.empty() ? "`shakedown effects` lists them"
+                     : "did you mean '" + std::string(near) + "'? `shakedown effects` lists them"}});
 }
 
 /// Every strength at its typical value.
@@ -37,17 +41,24 @@ std::vector<Override> typical(const EffectRecord& record, const std::string& ori
   const std::string name(record.name);
   for (const Parameter& parameter : record.parameters) {
     const std::string key = name + "." + std::string(parameter.name);
-    if (parameter.kind == ParameterKind::number) overrides.push_back({key, toml_of(parameter.typical, parameter.unit), origin});
-    if (parameter.kind == ParameterKind::vector) overrides.push_back({key + ".x", toml_of(parameter.typical, parameter.unit), origin});
-    if (parameter.kind == ParameterKind::choice) overrides.push_back({key, std::get<std::string>(parameter.default_value), origin});
+    if (parameter.kind == ParameterKind::number)
+      overrides.push_back({key, toml_of(parameter.typical, parameter.unit), origin});
+    if (parameter.kind == ParameterKind::vector)
+      overrides.push_back({key + ".x", toml_of(parameter.typical, parameter.unit), origin});
+    if (parameter.kind == ParameterKind::choice)
+      overrides.push_back({key, std::get<std::string>(parameter.default_value), origin});
     if (parameter.kind == ParameterKind::text && parameter.required)
-      throw InputError({{{origin, 0, 0}, key, "must be given (a formula has no typical value)",
-                         "write " + name + "=" + std::string(parameter.name) + ":\"-c*v*abs(v)\",constants.c:\"0.1 N s^2/m^2\""}});
+      throw InputError({{{origin, 0, 0},
+                         key,
+                         "must be given (a formula has no typical value)",
+                         "write " + name + "=" + std::string(parameter.name) +
+                             ":\"-c*v*abs(v)\",constants.c:\"0.1 N s^2/m^2\""}});
   }
   // A parameter without a typical value stays at its default.
   std::erase_if(overrides, [&](const Override& override) {
     const Parameter* parameter = record.find(override.key.substr(name.size() + 1));
-    return parameter != nullptr && parameter->kind == ParameterKind::number && parameter->typical == 0 && !parameter->required;
+    return parameter != nullptr && parameter->kind == ParameterKind::number && parameter->typical == 0 &&
+           !parameter->required;
   });
   return overrides;
 }
@@ -55,11 +66,14 @@ std::vector<Override> typical(const EffectRecord& record, const std::string& ori
 /// Keys that tell how a run was made, or that nobody can know of a real one.
 bool is_nuisance(const SetupKey& key) {
   constexpr std::array<std::string_view, 4> sections{"run", "hard", "soft", "bullet"};
-  return std::find(sections.begin(), sections.end(), key.section()) != sections.end() || key.path == "release.packing" ||
-         key.path == "release.initial_grains" || key.path == "release.kinetic_energy_fraction";
+  return std::find(sections.begin(), sections.end(), key.section()) != sections.end() ||
+         key.path == "release.packing" || key.path == "release.initial_grains" ||
+         key.path == "release.kinetic_energy_fraction";
 }
 
-bool differs(const SetupKey& key, const HiddenCase& hidden) { return toml_of(key, hidden.believed) != toml_of(key, hidden.truth); }
+bool differs(const SetupKey& key, const HiddenCase& hidden) {
+  return toml_of(key, hidden.believed) != toml_of(key, hidden.truth);
+}
 
 const EffectChoice* find_choice(const Setup& setup, const EffectRecord* record) {
   for (const EffectChoice& choice : setup.effects)
@@ -72,8 +86,10 @@ nlohmann::ordered_json differences(const HiddenCase& hidden, bool nuisances) {
   for (const SetupKey& key : setup_keys()) {
     if (key.section() == "run" || is_nuisance(key) != nuisances || !differs(key, hidden)) continue;
     const std::vector<double> numbers = numbers_of(key, hidden.truth);
-    if (numbers.empty()) found[std::string(key.path)] = toml_of(key, hidden.truth);
-    else found[std::string(key.path)] = numbers.front();
+    if (numbers.empty())
+      found[std::string(key.path)] = toml_of(key, hidden.truth);
+    else
+      found[std::string(key.path)] = numbers.front();
   }
   return found;
 }
@@ -82,12 +98,15 @@ nlohmann::ordered_json differences(const HiddenCase& hidden, bool nuisances) {
 nlohmann::ordered_json strengths(const HiddenCase& hidden) {
   nlohmann::ordered_json found = nlohmann::ordered_json::object();
   for (const EffectChoice& choice : hidden.truth.effects) {
-    if (const EffectChoice* same = find_choice(hidden.believed, choice.record); same != nullptr && same->values == choice.values) continue;
+    if (const EffectChoice* same = find_choice(hidden.believed, choice.record);
+        same != nullptr && same->values == choice.values)
+      continue;
     for (const auto& [name, value] : choice.values) {
       const std::string path = std::string(choice.record->name) + "." + name;
       if (const double* number = std::get_if<double>(&value)) found[path] = *number;
       if (const std::string* text = std::get_if<std::string>(&value)) found[path] = *text;
-      if (const Vec3* vector = std::get_if<Vec3>(&value)) found[path] = {(*vector)[0], (*vector)[1], (*vector)[2]};
+      if (const Vec3* vector = std::get_if<Vec3>(&value))
+        found[path] = {(*vector)[0], (*vector)[1], (*vector)[2]};
     }
   }
   return found;
@@ -98,12 +117,13 @@ struct RecordingKey {
   double RecordingSettings::*field;
   double low, high;
 };
-constexpr std::array<RecordingKey, 6> recording_keys{{{"noise.box", "mm", &RecordingSettings::box_noise, 0, 1},
-                                                      {"noise.centre", "mm", &RecordingSettings::centre_noise, 0, 1},
-                                                      {"fps", "Hz", &RecordingSettings::frame_rate, 20, 1e5},
-                                                      {"missing", "", &RecordingSettings::missing, 0, 0.9},
-                                                      {"outliers", "", &RecordingSettings::outliers, 0, 0.5},
-                                                      {"jump", "mm", &RecordingSettings::jump, 0, 10}}};
+constexpr std::array<RecordingKey, 6> recording_keys{
+    {{"noise.box", "mm", &RecordingSettings::box_noise, 0, 1},
+     {"noise.centre", "mm", &RecordingSettings::centre_noise, 0, 1},
+     {"fps", "Hz", &RecordingSettings::frame_rate, 20, 1e5},
+     {"missing", "", &RecordingSettings::missing, 0, 0.9},
+     {"outliers", "", &RecordingSettings::outliers, 0, 0.5},
+     {"jump", "mm", &RecordingSettings::jump, 0, 10}}};
 
 /// A bare number of frames per second, a quantity, or what is wrong.
 ValueOrProblem<double> recording_value(const RecordingKey& key, std::string text) {
@@ -114,7 +134,8 @@ ValueOrProblem<double> recording_value(const RecordingKey& key, std::string text
   value.text = text;
   const ValueOrProblem<double> read = number_in(value, key.unit);
   if (const double* number = std::get_if<double>(&read))
-    if (const std::string problem = out_of_bounds(*number, key.low, key.high, false, key.unit); !problem.empty())
+    if (const std::string problem = out_of_bounds(*number, key.low, key.high, false, key.unit);
+        !problem.empty())
       return Problem{problem, "choose a value within the bounds"};
   return read;
 }
@@ -125,7 +146,8 @@ void take_recording(const std::string& part, const std::string& origin, Recordin
     throw InputError({{{origin, 0, 0}, key, problem, remedy}});
   };
   if (key == "centre") {
-    if (value != "true" && value != "false") refuse("is neither true nor false", "write centre=false when the grains are not tracked");
+    if (value != "true" && value != "false")
+      refuse("is neither true nor false", "write centre=false when the grains are not tracked");
     settings.centre = value == "true";
     return;
   }
@@ -138,7 +160,8 @@ void take_recording(const std::string& part, const std::string& origin, Recordin
     settings.*known.field = std::get<double>(read);
     return;
   }
-  refuse("is not a property of the camera", "known: " + listed(names) + "; errors such as a scale or a bias are effects: --effect camera_scale");
+  refuse("is not a property of the camera",
+         "known: " + listed(names) + "; errors such as a scale or a bias are effects: --effect camera_scale");
 }
 
 }  // namespace
@@ -170,11 +193,15 @@ std::vector<Override> overrides_of_effect(std::string_view text, const std::stri
   for (const std::string& part : split_at_commas(text.substr(equals + 1))) {
     const std::size_t colon = part.find(':');
     if (colon == part.npos || colon == 0 || colon + 1 == part.size()) {
-      found.push_back({{origin, 0, 0}, std::string(record.name), "\"" + part + "\" sets no parameter", "write parameter:value, e.g. " + std::string(record.name) +
-                       "=" + std::string(record.parameters.front().name) + ":..."});
+      found.push_back({{origin, 0, 0},
+                       std::string(record.name),
+                       "\"" + part + "\" sets no parameter",
+                       "write parameter:value, e.g. " + std::string(record.name) + "=" +
+                           std::string(record.parameters.front().name) + ":..."});
       continue;
     }
-    overrides.push_back({std::string(record.name) + "." + trimmed(part.substr(0, colon)), trimmed(part.substr(colon + 1)), origin});
+    overrides.push_back({std::string(record.name) + "." + trimmed(part.substr(0, colon)),
+                         trimmed(part.substr(colon + 1)), origin});
   }
   if (!found.empty()) throw InputError(std::move(found));
   return overrides;
@@ -206,21 +233,28 @@ std::vector<std::string> hidden_effects(const HiddenCase& hidden) {
 }
 
 bool has_other_parameters(const HiddenCase& hidden) {
-  return std::any_of(setup_keys().begin(), setup_keys().end(), [&](const SetupKey& key) { return !is_nuisance(key) && differs(key, hidden); });
+  return std::any_of(setup_keys().begin(), setup_keys().end(),
+                     [&](const SetupKey& key) { return !is_nuisance(key) && differs(key, hidden); });
 }
 
-std::string truth_json(const HiddenCase& hidden, const RecordingSettings& recording, const std::string& engine, std::uint64_t seed) {
-  const nlohmann::ordered_json document{
-      {"schema_version", 1},
-      {"hidden", hidden_effects(hidden)},
-      {"strengths", strengths(hidden)},
-      {"laboratory", differences(hidden, false)},
-      {"nuisances", differences(hidden, true)},
-      {"engine", engine},
-      {"seed", seed},
-      {"camera", {{"noise_box_mm", recording.box_noise * 1e3}, {"noise_centre_mm", recording.centre_noise * 1e3}, {"frame_rate_hz", recording.frame_rate},
-                  {"missing", recording.missing}, {"outliers", recording.outliers}, {"jump_mm", recording.jump * 1e3}, {"centre", recording.centre}}},
-      {"setup", write_setup(hidden.truth)}};
+std::string truth_json(const HiddenCase& hidden, const RecordingSettings& recording,
+                       const std::string& engine, std::uint64_t seed) {
+  const nlohmann::ordered_json document{{"schema_version", 1},
+                                        {"hidden", hidden_effects(hidden)},
+                                        {"strengths", strengths(hidden)},
+                                        {"laboratory", differences(hidden, false)},
+                                        {"nuisances", differences(hidden, true)},
+                                        {"engine", engine},
+                                        {"seed", seed},
+                                        {"camera",
+                                         {{"noise_box_mm", recording.box_noise * 1e3},
+                                          {"noise_centre_mm", recording.centre_noise * 1e3},
+                                          {"frame_rate_hz", recording.frame_rate},
+                                          {"missing", recording.missing},
+                                          {"outliers", recording.outliers},
+                                          {"jump_mm", recording.jump * 1e3},
+                                          {"centre", recording.centre}}},
+                                        {"setup", write_setup(hidden.truth)}};
   return document.dump(2) + "\n";
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is hidden in synthetic measurements: the setup as its user believes it, the setup as it truly is, and the difference as an answer
-// to be kept closed until a diagnosis is judged.
+// What is hidden in synthetic measurements: the setup as its user believes it, the setup as it truly is, and
+// the difference as an answer to be kept closed until a diagnosis is judged.
 #pragma once
 #include <string>
 #include <string_view>
@@ -14,28 +14,32 @@ namespace shakedown {
 /// "a,b=c" parts at commas that stand outside quotes and brackets, trimmed.
 std::vector<std::string> split_at_commas(std::string_view text);
 
-/// `NAME` (at its typical strength) or `NAME=parameter:value,...` as overrides that put the effect into a setup, e.g.
-/// "grain_friction=grain_grain:0.1,grain_wall:0.2", "constant_acceleration=acceleration.z:0.2 m/s^2". Throws InputError with the place
-/// `origin` for a name that is no effect, a part that sets nothing, a formula that must be given.
+/// `NAME` (at its typical strength) or `NAME=parameter:value,...` as overrides that put the effect into a
+/// setup, e.g. "grain_friction=grain_grain:0.1,grain_wall:0.2", "constant_acceleration=acceleration.z:0.2
+/// m/s^2". Throws InputError with the place `origin` for a name that is no effect, a part that sets nothing,
+/// a formula that must be given.
 std::vector<Override> overrides_of_effect(std::string_view text, const std::string& origin = "--effect");
 
-/// noise.box, noise.centre, fps, missing, outliers, jump, centre (true, false), as "key=value" parts. Throws InputError with everything
-/// that is wrong.
-RecordingSettings parse_recording(const std::vector<std::string>& parts, const std::string& origin = "--camera");
+/// noise.box, noise.centre, fps, missing, outliers, jump, centre (true, false), as "key=value" parts. Throws
+/// InputError with everything that is wrong.
+RecordingSettings parse_recording(const std::vector<std::string>& parts,
+                                  const std::string& origin = "--camera");
 
 struct HiddenCase {
   Setup believed, truth;
 };
 
-/// Effects that the truth has and the believed setup has not (or not so strong), in the order of the truth; an effect written as a
-/// formula is "unknown", because no list has it.
+/// Effects that the truth has and the believed setup has not (or not so strong), in the order of the truth;
+/// an effect written as a formula is "unknown", because no list has it.
 std::vector<std::string> hidden_effects(const HiddenCase& hidden);
 
-/// True when a parameter of the damper (masses, lengths, restitutions, frequency ...) is not what the user believes. What a model is not
-/// told of real runs (packing, seed, contact time, thresholds) does not count.
+/// True when a parameter of the damper (masses, lengths, restitutions, frequency ...) is not what the user
+/// believes. What a model is not told of real runs (packing, seed, contact time, thresholds) does not count.
 bool has_other_parameters(const HiddenCase& hidden);
 
-/// The answer as JSON: hidden, laboratory (parameters that differ), nuisances (what a model is not told), and the true setup as TOML.
-std::string truth_json(const HiddenCase& hidden, const RecordingSettings& recording, const std::string& engine, std::uint64_t seed);
+/// The answer as JSON: hidden, laboratory (parameters that differ), nuisances (what a model is not told), and
+/// the true setup as TOML.
+std::string truth_json(const HiddenCase& hidden, const RecordingSettings& recording,
+                       const std::string& engine, std::uint64_t seed);
 
 }  // namespace shakedown

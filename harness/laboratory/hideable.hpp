@@ -17,10 +17,14 @@ struct Hideable {
   std::string_view key{};     ///< key that holds the strength; several joined by "&"
   double typical = 0;         ///< value of the key at strength 1, SI; of `away_from` values the change
   std::string_view unit{};
-  enum class As { proportional, inverse, away } as = As::proportional;  ///< key = typical s, typical / s, away_from - typical s
+  enum class As {
+    proportional,
+    inverse,
+    away
+  } as = As::proportional;  ///< key = typical s, typical / s, away_from - typical s
   double away_from = 0;
-  double strongest = 0;       ///< strength at the bounds of what makes sense
-  std::string_view formula{}; ///< of a force in no list; its constant c is the strength
+  double strongest = 0;          ///< strength at the bounds of what makes sense
+  std::string_view formula{};    ///< of a force in no list; its constant c is the strength
   std::string_view constants{};  ///< its other constants, as TOML
   bool camera = false;
 };
@@ -35,9 +39,11 @@ const Hideable* find_hideable(std::string_view id);
 std::string_view family_of(std::string_view effect);
 
 /// Overrides that put it into a setup. A periodic one gets this frequency and phase.
-std::vector<Override> at_strength(const Hideable& hideable, double strength, double frequency = 2.3, double phase = 0.7);
+std::vector<Override> at_strength(const Hideable& hideable, double strength, double frequency = 2.3,
+                                  double phase = 0.7);
 
 /// The setup with overrides on top.
-Setup changed(const Setup& setup, const std::vector<Override>& overrides, std::span<const EffectRecord* const> known);
+Setup changed(const Setup& setup, const std::vector<Override>& overrides,
+              std::span<const EffectRecord* const> known);
 
 }  // namespace shakedown

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A laboratory that exists only here: an engine runs the damper as it truly is, a camera records it, and what comes out looks like an
-// experiment. What the damper truly is stays with whoever asked.
+// A laboratory that exists only here: an engine runs the damper as it truly is, a camera records it, and what
+// comes out looks like an experiment. What the damper truly is stays with whoever asked.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -15,7 +15,8 @@
 
 namespace shakedown {
 
-/// How the camera and its tracking program record; what the camera gets systematically wrong is an effect of the setup.
+/// How the camera and its tracking program record; what the camera gets systematically wrong is an effect of
+/// the setup.
 struct RecordingSettings {
   double box_noise = 0.2e-3;     ///< m, standard deviation of one frame (normal, white)
   double centre_noise = 0.5e-3;  ///< m
@@ -32,7 +33,8 @@ struct PlannedRun {
   std::vector<Override> overrides;  ///< keys of the setup in this run, box.length among them
 };
 
-/// One run a length (m), named as the paper's: L040, or L040_a, L040_b ... where a length comes more than once.
+/// One run a length (m), named as the paper's: L040, or L040_a, L040_b ... where a length comes more than
+/// once.
 std::vector<PlannedRun> runs_of_lengths(const std::vector<double>& lengths);
 
 struct Laboratory {
@@ -44,10 +46,11 @@ struct Laboratory {
   std::function<void(double fraction)> progress{};  ///< may be empty
 };
 
-/// Runs `truth` once for each planned run and records it: positions to 1 um and times to 0.1 ms, as they will stand in a table. Throws
-/// InputError for a run that does not fit or an effect that the engine does not model, Interrupted.
-Experiment make_measurements(const Setup& truth, const std::vector<PlannedRun>& runs, const RecordingSettings& recording,
-                             const Laboratory& laboratory);
+/// Runs `truth` once for each planned run and records it: positions to 1 um and times to 0.1 ms, as they will
+/// stand in a table. Throws InputError for a run that does not fit or an effect that the engine does not
+/// model, Interrupted.
+Experiment make_measurements(const Setup& truth, const std::vector<PlannedRun>& runs,
+                             const RecordingSettings& recording, const Laboratory& laboratory);
 
 /// experiment.toml and a table a run, into a folder that exists. Throws FileError.
 void write_measurements(const std::filesystem::path& folder, const Experiment& experiment);

@@ -10,7 +10,8 @@ Share share_of(int hits, int trials) {
   if (trials == 0) return {};
   constexpr double z = 1.959963984540054;
   const double n = trials, p = hits / n, wide = 1 + z * z / n;
-  const double middle = (p + z * z / (2 * n)) / wide, half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n)) / wide;
+  const double middle = (p + z * z / (2 * n)) / wide,
+               half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n)) / wide;
   return {hits, trials, p, hits == 0 ? 0 : middle - half, hits == trials ? 1 : middle + half};
 }
 
@@ -20,7 +21,8 @@ double uniformity_p_value(std::vector<double> values) {
   const double n = static_cast<double>(values.size());
   double distance = 0;
   for (std::size_t i = 0; i < values.size(); ++i)
-    distance = std::max({distance, values[i] - static_cast<double>(i) / n, static_cast<double>(i + 1) / n - values[i]});
+    distance = std::max(
+        {distance, values[i] - static_cast<double>(i) / n, static_cast<double>(i + 1) / n - values[i]});
   const double t = distance * (std::sqrt(n) + 0.12 + 0.11 / std::sqrt(n));
   if (t < 0.2) return 1;  // below, the series converges too slowly and the sum is 1 to 1e-12
   double sum = 0;

@@ -5,15 +5,16 @@
 
 namespace shakedown {
 
-/// `hits` of `trials`, with Wilson's 95 % interval (E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927)); 0 to 1 without trials.
+/// `hits` of `trials`, with Wilson's 95 % interval (E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927)); 0 to 1
+/// without trials.
 struct Share {
   int hits = 0, trials = 0;
   double value = 0, low = 0, high = 1;
 };
 Share share_of(int hits, int trials);
 
-/// P(D >= observed) of Kolmogorov's distance between these values and the uniform distribution on (0, 1); Stephens' correction for small
-/// numbers (J. R. Stat. Soc. B 32, 115 (1970)). 1 without values.
+/// P(D >= observed) of Kolmogorov's distance between these values and the uniform distribution on (0, 1);
+/// Stephens' correction for small numbers (J. R. Stat. Soc. B 32, 115 (1970)). 1 without values.
 double uniformity_p_value(std::vector<double> values);
 
 }  // namespace shakedown

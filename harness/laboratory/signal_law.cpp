@@ -18,7 +18,8 @@ double kept(double chi2, double degrees) { return std::sqrt(std::max(chi2 - degr
 
 }  // namespace
 
-Signal signal_to_noise(const HiddenCase& hidden, std::uint64_t seed, const SignalSettings& settings, const TrialTools& tools) {
+Signal signal_to_noise(const HiddenCase& hidden, std::uint64_t seed, const SignalSettings& settings,
+                       const TrialTools& tools) {
   const Laboratory laboratory{tools.laboratory, tools.known, seed, tools.threads, tools.stop};
   const Experiment experiment = make_measurements(hidden.truth, settings.runs, {}, laboratory);
   const Audit found = audit(experiment);
@@ -37,7 +38,8 @@ Signal signal_to_noise(const HiddenCase& hidden, std::uint64_t seed, const Signa
   RefitOptions options;
   options.count = options.confirming = settings.count;
   const Workshop workshop{tools.model, tools.known, tools.threads, tools.stop, {}, nullptr};
-  const Refit fit = refit(features_of(experiment, found, setups), free_parameters(hidden.believed, frequency, 0.01 * frequency), workshop, options);
+  const Refit fit = refit(features_of(experiment, found, setups),
+                          free_parameters(hidden.believed, frequency, 0.01 * frequency), workshop, options);
   signal.by_ensembles = kept(fit.chi2, fit.degrees);
   return signal;
 }
@@ -50,21 +52,25 @@ double SignalLaw::strength_for(double signal_wanted, double noise) const {
   return strength * std::pow(signal_wanted * (by_balance ? noise : 1) / signal, 1 / power);
 }
 
-SignalLaw signal_law(const Hideable& hideable, const Setup& believed, std::uint64_t seed, const SignalSettings& settings, const TrialTools& tools) {
+SignalLaw signal_law(const Hideable& hideable, const Setup& believed, std::uint64_t seed,
+                     const SignalSettings& settings, const TrialTools& tools) {
   constexpr double too_little = 12, wanted = 20, too_much = 40;
   constexpr int most_rounds = 3;
   const auto signal_at = [&](double strength, int round, double enough) {
     SignalSettings here = settings;
     here.enough = enough;
-    return signal_to_noise({believed, changed(believed, at_strength(hideable, strength), tools.known)}, seed + static_cast<std::uint64_t>(round), here, tools);
+    return signal_to_noise({believed, changed(believed, at_strength(hideable, strength), tools.known)},
+                           seed + static_cast<std::uint64_t>(round), here, tools);
   };
   SignalLaw law;
   Signal signal;
   for (int round = 1; round <= most_rounds; ++round) {
     const bool last = round == most_rounds;
-    signal = signal_at(law.strength, round - 1, last ? std::numeric_limits<double>::infinity() : too_much);  // before, only to find the way
+    // before, only to find the way
+    signal = signal_at(law.strength, round - 1, last ? std::numeric_limits<double>::infinity() : too_much);
     if (last || (signal.most() > too_little && signal.most() < too_much)) break;
-    const double next = std::min(law.strength * std::clamp(wanted / std::max(signal.most(), 3.0), 0.05, 4.0), hideable.strongest);
+    const double next = std::min(law.strength * std::clamp(wanted / std::max(signal.most(), 3.0), 0.05, 4.0),
+                                 hideable.strongest);
     if (next == law.strength) break;
     law.strength = next;
   }
@@ -78,7 +84,9 @@ SignalLaw signal_law(const Hideable& hideable, const Setup& believed, std::uint6
 
 double relative_noise(const RecordingSettings& recording, const Setup& setup) {
   const double grains = setup.grains.count * setup.grains.mass;
-  const auto noise = [&](const RecordingSettings& camera) { return std::hypot(setup.box.mass * camera.box_noise, camera.centre ? grains * camera.centre_noise : 0.0); };
+  const auto noise = [&](const RecordingSettings& camera) {
+    return std::hypot(setup.box.mass * camera.box_noise, camera.centre ? grains * camera.centre_noise : 0.0);
+  };
   return noise(recording) / noise(RecordingSettings{});
 }
 

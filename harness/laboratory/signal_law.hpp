@@ -16,20 +16,23 @@ struct SignalSettings {
   double enough = std::numeric_limits<double>::infinity();
 };
 
-/// Nonlinear-profile signal to noise: sqrt of what chi2 keeps above its expectation after restitutions and frequency have been refitted without
-/// the effect.
+/// Nonlinear-profile signal to noise: sqrt of what chi2 keeps above its expectation after restitutions and
+/// frequency have been refitted without the effect.
 struct Signal {
   double by_balance = 0, by_ensembles = 0;
   double most() const { return std::max(by_balance, by_ensembles); }
 };
 
-/// Of the hidden case, measured with a camera of the default noise. Of a force in no list: what the balance keeps with the known effects that
-/// imitate it best, since no method can miss an effect whose place another takes.
-Signal signal_to_noise(const HiddenCase& hidden, std::uint64_t seed, const SignalSettings& settings, const TrialTools& tools);
+/// Of the hidden case, measured with a camera of the default noise. Of a force in no list: what the balance
+/// keeps with the known effects that imitate it best, since no method can miss an effect whose place another
+/// takes.
+Signal signal_to_noise(const HiddenCase& hidden, std::uint64_t seed, const SignalSettings& settings,
+                       const TrialTools& tools);
 
-/// Signal to noise against strength: signal (strength / here)^power, from two measurements. What the balance sees is proportional to the strength
-/// and to the inverse of the camera's noise. Inside the contacts a refit takes up the first order, so that the power may be two, and chaos
-/// from run to run is larger than the camera's noise.
+/// Signal to noise against strength: signal (strength / here)^power, from two measurements. What the balance
+/// sees is proportional to the strength and to the inverse of the camera's noise. Inside the contacts a refit
+/// takes up the first order, so that the power may be two, and chaos from run to run is larger than the
+/// camera's noise.
 struct SignalLaw {
   double strength = 1, signal = 0;
   double power = 1;
@@ -40,10 +43,11 @@ struct SignalLaw {
 };
 
 /// Measured near a signal of 20, where it is well above its own error (about 6 %), and at half that strength.
-SignalLaw signal_law(const Hideable& hideable, const Setup& believed, std::uint64_t seed, const SignalSettings& settings, const TrialTools& tools);
+SignalLaw signal_law(const Hideable& hideable, const Setup& believed, std::uint64_t seed,
+                     const SignalSettings& settings, const TrialTools& tools);
 
-/// What the momentum balance makes of a camera's noise, over what it makes of the default's: the box's counts with its mass, the centre's with that of
-/// the grains.
+/// What the momentum balance makes of a camera's noise, over what it makes of the default's: the box's counts
+/// with its mass, the centre's with that of the grains.
 double relative_noise(const RecordingSettings& recording, const Setup& setup);
 
 }  // namespace shakedown

@@ -25,38 +25,51 @@ Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools) {
   return diagnose(trial.hidden.believed, measured_in(trial, tools), *tools.model, options);
 }
 
-Judgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict, const std::vector<std::string>& missing) {
+Judgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict,
+                const std::vector<std::string>& missing) {
   std::set<std::string> found(missing.begin(), missing.end());
   found.erase("initial_packing");  // a nuisance, not physics
   const std::set<std::string> truth(hidden.begin(), hidden.end());
   Judgement judgement;
   judgement.detected = verdict == Verdict::missing || verdict == Verdict::unknown;
-  judgement.invented = std::any_of(found.begin(), found.end(), [&](const std::string& effect) { return !truth.contains(effect); });
-  if (truth.empty()) judgement.named = found.empty() && (verdict == Verdict::refit || (verdict == Verdict::adequate && !other_parameters));
-  else if (truth.contains("unknown")) judgement.named = verdict == Verdict::unknown;
-  else judgement.named = verdict == Verdict::missing && found == truth;
+  judgement.invented = std::any_of(found.begin(), found.end(),
+                                   [&](const std::string& effect) { return !truth.contains(effect); });
+  if (truth.empty())
+    judgement.named =
+        found.empty() && (verdict == Verdict::refit || (verdict == Verdict::adequate && !other_parameters));
+  else if (truth.contains("unknown"))
+    judgement.named = verdict == Verdict::unknown;
+  else
+    judgement.named = verdict == Verdict::missing && found == truth;
   return judgement;
 }
 
-Power power_of(Trial trial, int repeats, const TrialTools& tools, const std::function<void(int done, const std::string& answer)>& told) {
+Power power_of(Trial trial, int repeats, const TrialTools& tools,
+               const std::function<void(int done, const std::string& answer)>& told) {
   const std::vector<std::string> hidden = hidden_effects(trial.hidden);
   Power power;
   int detected = 0, named = 0;
   for (int i = 0; i < repeats; ++i, ++trial.seed) {
     const Diagnosis diagnosis = diagnose_trial(trial, tools);
-    const Judgement judgement = judge(hidden, has_other_parameters(trial.hidden), diagnosis.verdict, diagnosis.missing);
+    const Judgement judgement =
+        judge(hidden, has_other_parameters(trial.hidden), diagnosis.verdict, diagnosis.missing);
     detected += judgement.detected;
     named += judgement.named;
     std::string answer(name_of(diagnosis.verdict));
-    for (const std::string& effect : diagnosis.missing) answer += (answer.ends_with("missing") ? " " : " + ") + effect;
-    const auto same = std::find_if(power.answers.begin(), power.answers.end(), [&](const auto& one) { return one.first == answer; });
-    if (same == power.answers.end()) power.answers.emplace_back(answer, 1);
-    else ++same->second;
+    for (const std::string& effect : diagnosis.missing)
+      answer += (answer.ends_with("missing") ? " " : " + ") + effect;
+    const auto same = std::find_if(power.answers.begin(), power.answers.end(),
+                                   [&](const auto& one) { return one.first == answer; });
+    if (same == power.answers.end())
+      power.answers.emplace_back(answer, 1);
+    else
+      ++same->second;
     if (told) told(i + 1, answer);
   }
   power.detected = share_of(detected, repeats);
   power.named = share_of(named, repeats);
-  std::stable_sort(power.answers.begin(), power.answers.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::stable_sort(power.answers.begin(), power.answers.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
   return power;
 }
 

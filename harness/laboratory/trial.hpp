@@ -26,7 +26,7 @@ struct TrialTools {
   int threads = 0;
   const std::atomic<bool>* stop = nullptr;
   double (*strength_uncertainty)(std::string_view effect) = nullptr;  ///< DiagnoseOptions
-  MethodFault fault = MethodFault::none;  ///< put into the diagnosis
+  MethodFault fault = MethodFault::none;                              ///< put into the diagnosis
   EnsembleCache* ensembles = nullptr;  ///< shared by the diagnoses; may be null
 };
 
@@ -39,11 +39,13 @@ Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools);
 /// What somebody who knows the answer says of a diagnosis.
 struct Judgement {
   bool detected = false;  ///< it says that something is missing, known or unknown
-  bool named = false;     ///< verdict and missing effects are exactly the hidden ones (of a hidden formula: "unknown")
+  bool named =
+      false;  ///< verdict and missing effects are exactly the hidden ones (of a hidden formula: "unknown")
   bool invented = false;  ///< an effect among the missing ones that is not hidden
 };
 /// With nothing hidden "adequate" and "refit" are right, with other parameters "refit" alone.
-Judgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict, const std::vector<std::string>& missing);
+Judgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict,
+                const std::vector<std::string>& missing);
 
 /// What repeated trials of one hidden case come to.
 struct Power {
@@ -53,6 +55,7 @@ struct Power {
 };
 
 /// Repeats the trial with seeds trial.seed, trial.seed + 1, ... `told` hears of each answer; may be empty.
-Power power_of(Trial trial, int repeats, const TrialTools& tools, const std::function<void(int done, const std::string& answer)>& told);
+Power power_of(Trial trial, int repeats, const TrialTools& tools,
+               const std::function<void(int done, const std::string& answer)>& told);
 
 }  // namespace shakedown

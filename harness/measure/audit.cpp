@@ -33,8 +33,8 @@ std::vector<char> neighbours_of(const std::vector<double>& time, double interval
   return neighbour;
 }
 
-/// Variance that wrong frames too near to be seen add: as many per millimetre as there are among those just far enough. Seen is what lies
-/// some seven standard deviations off.
+/// Variance that wrong frames too near to be seen add: as many per millimetre as there are among those just
+/// far enough. Seen is what lies some seven standard deviations off.
 double unseen_outliers(const std::vector<double>& raw, const std::vector<double>& kept, double deviation) {
   const double seen = 7 * deviation;
   double near = 0, present = 0;
@@ -67,7 +67,8 @@ NoiseFound noise_of(const std::vector<double>& time, std::vector<double>& x, dou
   noise.outliers = static_cast<int>(before - present());
   noise.correlation = colour_of({series}, interval);
   set_deviation(series, noise);
-  noise.standard_deviation = std::hypot(noise.standard_deviation, std::sqrt(unseen_outliers(raw, x, noise.standard_deviation)));
+  noise.standard_deviation =
+      std::hypot(noise.standard_deviation, std::sqrt(unseen_outliers(raw, x, noise.standard_deviation)));
   return noise;
 }
 

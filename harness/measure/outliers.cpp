@@ -75,15 +75,16 @@ class OutlierJudge {
   }
 };
 
-/// Robust line through up to six kept frames on one side (step -1 or +1) or three on each (0): the median of all slopes (Theil, Sen), which
-/// two wrong frames of six do not move. Returns the misfit of `value` at frame i less what an acceleration bends, in units of its standard
-/// deviation; 0 where there are too few frames.
-double misfit_to_robust_line(const std::vector<double>& time, const std::vector<double>& kept, std::size_t i, int step, double value, double deviation,
-                             double acceleration) {
+/// Robust line through up to six kept frames on one side (step -1 or +1) or three on each (0): the median of
+/// all slopes (Theil, Sen), which two wrong frames of six do not move. Returns the misfit of `value` at frame
+/// i less what an acceleration bends, in units of its standard deviation; 0 where there are too few frames.
+double misfit_to_robust_line(const std::vector<double>& time, const std::vector<double>& kept, std::size_t i,
+                             int step, double value, double deviation, double acceleration) {
   constexpr int wanted = 6;
   std::vector<double> t, y;
   const auto gather = [&](int direction, int count) {
-    for (auto j = static_cast<std::ptrdiff_t>(i) + direction; j >= 0 && j < static_cast<std::ptrdiff_t>(kept.size()) && count > 0; j += direction) {
+    for (auto j = static_cast<std::ptrdiff_t>(i) + direction;
+         j >= 0 && j < static_cast<std::ptrdiff_t>(kept.size()) && count > 0; j += direction) {
       const auto at = static_cast<std::size_t>(j);
       if (std::abs(time[at] - time[i]) > 0.05) break;
       if (!std::isfinite(kept[at])) continue;
@@ -106,8 +107,10 @@ double misfit_to_robust_line(const std::vector<double>& time, const std::vector<
     reach = std::max(reach, std::abs(t[a]));
   }
   for (const double at : t) square += (at - middle) * (at - middle);
-  const double variance = 1 + 1.2 * (1 / static_cast<double>(t.size()) + middle * middle / square);  // medians scatter by a tenth more
-  return std::max(0.0, std::abs(median(offsets)) - acceleration * reach * reach / 2) / (deviation * std::sqrt(variance));
+  // medians scatter by a tenth more
+  const double variance = 1 + 1.2 * (1 / static_cast<double>(t.size()) + middle * middle / square);
+  return std::max(0.0, std::abs(median(offsets)) - acceleration * reach * reach / 2) /
+         (deviation * std::sqrt(variance));
 }
 
 /// Distance from the local cubic through the frames kept within 20 ms (at least 5 frames) on either side, the
@@ -162,14 +165,17 @@ std::vector<double> without_outliers(const std::vector<double>& time, const std:
   }
   // Two wrong frames side by side may support each other, which no line through six frames does.
   const auto supported = [&](std::size_t i) {
-    const auto by = [&](int step) { return misfit_to_robust_line(time, kept, i, step, x[i], deviation, judge.acceleration()) <= certain; };
+    const auto by = [&](int step) {
+      return misfit_to_robust_line(time, kept, i, step, x[i], deviation, judge.acceleration()) <= certain;
+    };
     return by(0) || by(-1) || by(1);  // both sides together support all but frames at landings
   };
   for (bool same = false; !same;) {
     std::vector<double> next = kept;
     for (std::size_t i = 0; i < x.size(); ++i)
       if (std::isfinite(kept[i]) && !supported(i)) next[i] = nothing;
-    same = std::equal(kept.begin(), kept.end(), next.begin(), [](double one, double other) { return std::isfinite(one) == std::isfinite(other); });
+    same = std::equal(kept.begin(), kept.end(), next.begin(),
+                      [](double one, double other) { return std::isfinite(one) == std::isfinite(other); });
     kept = std::move(next);
   }
   return kept;

@@ -10,7 +10,7 @@ struct Curve {
   std::string name;
   std::vector<double> x, y;  ///< NaN in y: a gap
   bool dashed = false;
-  bool points = false;       ///< marks instead of a line
+  bool points = false;  ///< marks instead of a line
 };
 
 struct Panel {
@@ -24,7 +24,7 @@ struct Panel {
 };
 
 struct Chart {
-  std::string name;   ///< of its files, without ending
+  std::string name;  ///< of its files, without ending
   std::string title;
   std::vector<Panel> panels;  ///< one below the other
 };

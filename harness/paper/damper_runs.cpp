@@ -18,14 +18,17 @@ namespace {
 /// Samples before the first small peak; all when there is none.
 std::size_t end_of_decay(const Trajectory& trajectory, const Observables& seen) {
   const double end = std::isnan(seen.first_small_peak) ? trajectory.time.back() : seen.first_small_peak;
-  return static_cast<std::size_t>(std::lower_bound(trajectory.time.begin(), trajectory.time.end(), end) - trajectory.time.begin());
+  return static_cast<std::size_t>(std::lower_bound(trajectory.time.begin(), trajectory.time.end(), end) -
+                                  trajectory.time.begin());
 }
 
 void read_friction(const Setup& setup, const Trajectory& trajectory, RunReading& reading) {
   if (reading.seen.peaks.size() < 3) return;
   const Theory theory = theory_of(setup);
-  reading.friction = effective_friction(theory.stiffness, setup.release.displacement, std::abs(reading.seen.peaks[2].position));
-  const FrictionOscillator curve{theory.stiffness, theory.total_mass, std::max(0.0, reading.friction), setup.release.displacement};
+  reading.friction = effective_friction(theory.stiffness, setup.release.displacement,
+                                        std::abs(reading.seen.peaks[2].position));
+  const FrictionOscillator curve{theory.stiffness, theory.total_mass, std::max(0.0, reading.friction),
+                                 setup.release.displacement};
   double left = 0, whole = 0;
   for (std::size_t i = 0; i < end_of_decay(trajectory, reading.seen); ++i) {
     const double off = trajectory.x_box[i] - curve.position_at(trajectory.time[i]);
@@ -48,7 +51,8 @@ void read_energy(const Trajectory& trajectory, RunReading& reading) {
   const LeastSquares line = least_squares(columns, root);
   reading.energy_line_r2 = 1 - line.rms * line.rms / ((root.array() - root.mean()).square().mean());
   std::vector<Peak> points;  // an exponential through the same, every 20 ms
-  for (std::size_t i = 0; i < end; i += 10) points.push_back({trajectory.time[i], root[static_cast<Eigen::Index>(i)]});
+  for (std::size_t i = 0; i < end; i += 10)
+    points.push_back({trajectory.time[i], root[static_cast<Eigen::Index>(i)]});
   const Decay decay = decay_through(points);
   reading.energy_line_ratio = decay.linear.rms / decay.exponential.rms;
   // Over 20 ms, so that single impacts do not count as steps.
@@ -56,23 +60,29 @@ void read_energy(const Trajectory& trajectory, RunReading& reading) {
   const double mean_rate = -line.coefficients[1];
   std::size_t flat = 0, seen = 0;
   for (std::size_t i = 0; i + hop < end; i += hop, ++seen) {
-    const double rate = (root[static_cast<Eigen::Index>(i)] - root[static_cast<Eigen::Index>(i + hop)]) / (trajectory.time[i + hop] - trajectory.time[i]);
+    const double rate = (root[static_cast<Eigen::Index>(i)] - root[static_cast<Eigen::Index>(i + hop)]) /
+                        (trajectory.time[i + hop] - trajectory.time[i]);
     flat += rate < mean_rate / 5;
   }
   reading.energy_flat = static_cast<double>(flat) / static_cast<double>(seen);
 }
 
-/// The first stroke: the box's top speed, and how fast the grains fly a tenth of the crossing time later, before they land.
+/// The first stroke: the box's top speed, and how fast the grains fly a tenth of the crossing time later,
+/// before they land.
 void read_leaving(const Setup& setup, const Trajectory& trajectory, RunReading& reading) {
   const Theory theory = theory_of(setup);
   const double quarter = 0.25 / theory.loaded_frequency;
   std::size_t top = 0;
   for (std::size_t i = 0; i < trajectory.time.size() && trajectory.time[i] < 1.5 * quarter; ++i)
     if (std::abs(trajectory.v_box[i]) > std::abs(trajectory.v_box[top])) top = i;
-  const auto sample = [&](double time) { return static_cast<std::size_t>(std::lround(time * setup.run.sample_rate)); };
-  const std::size_t from = top + sample(0.3 * theory.time_through_box), to = top + sample(0.7 * theory.time_through_box);
+  const auto sample = [&](double time) {
+    return static_cast<std::size_t>(std::lround(time * setup.run.sample_rate));
+  };
+  const std::size_t from = top + sample(0.3 * theory.time_through_box),
+                    to = top + sample(0.7 * theory.time_through_box);
   if (to <= from || to >= trajectory.time.size() || trajectory.v_box[top] == 0) return;
-  const double speed = (trajectory.x_com[to] - trajectory.x_com[from]) / (trajectory.time[to] - trajectory.time[from]);
+  const double speed =
+      (trajectory.x_com[to] - trajectory.x_com[from]) / (trajectory.time[to] - trajectory.time[from]);
   reading.leaving_speed_ratio = speed / trajectory.v_box[top];
   reading.leaving_phase = std::abs(trajectory.x_box[top]) / setup.release.displacement;
 }
@@ -125,7 +135,9 @@ Statistic DamperRuns::over(double RunReading::*what) const {
   return over([what](const RunReading& run) { return run.*what; });
 }
 
-std::string name_of(const DamperRuns& runs) { return fmt::format("L = {:g} mm, {}", 1e3 * runs.setup.box.length, runs.engine); }
+std::string name_of(const DamperRuns& runs) {
+  return fmt::format("L = {:g} mm, {}", 1e3 * runs.setup.box.length, runs.engine);
+}
 
 DamperRuns damper_runs(const Engine& engine, const Setup& setup, const RunsWanted& wanted) {
   DamperRuns result{std::string(engine.name()), setup, {}, {}, {}, {}, {}, 0, 0};

@@ -11,7 +11,8 @@ namespace {
 constexpr double cycles = 60 * 1.23;
 }
 
-LengthSweep sweep_lengths(const Engine& engine, const Setup& base, const std::vector<double>& lengths, const RunsWanted& wanted) {
+LengthSweep sweep_lengths(const Engine& engine, const Setup& base, const std::vector<double>& lengths,
+                          const RunsWanted& wanted) {
   LengthSweep sweep{base, {}};
   std::vector<std::array<std::vector<double>, 4>> seconds(lengths.size());
   const int count = static_cast<int>(lengths.size()) * wanted.runs;
@@ -24,7 +25,8 @@ LengthSweep sweep_lengths(const Engine& engine, const Setup& base, const std::ve
     const Trajectory trajectory = engine.run(setup, {job % wanted.runs, {}, wanted.stop});
     if (trajectory.interrupted) throw Interrupted("stopped while lengths were swept");
     std::array<double, 4> found{};
-    for (std::size_t f = 0; f < found.size(); ++f) found[f] = seconds_to_energy_fraction(trajectory, 1 - lost_fractions[f]);
+    for (std::size_t f = 0; f < found.size(); ++f)
+      found[f] = seconds_to_energy_fraction(trajectory, 1 - lost_fractions[f]);
     return [&seconds, place, found] {
       for (std::size_t f = 0; f < found.size(); ++f) seconds[place][f].push_back(found[f]);
     };
@@ -43,7 +45,9 @@ LengthSweep sweep_lengths(const Engine& engine, const Setup& base, const std::ve
 std::size_t LengthSweep::fastest() const {
   std::size_t best = points.size();
   for (std::size_t p = 0; p < points.size(); ++p)
-    if (points[p].censored[3] == 0 && (best == points.size() || points[p].seconds[3].mean < points[best].seconds[3].mean)) best = p;
+    if (points[p].censored[3] == 0 &&
+        (best == points.size() || points[p].seconds[3].mean < points[best].seconds[3].mean))
+      best = p;
   EXPECT(best < points.size());
   return best;
 }

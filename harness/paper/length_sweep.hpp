@@ -12,9 +12,9 @@ namespace shakedown {
 constexpr std::array<double, 4> lost_fractions{0.5, 0.75, 0.9, 0.95};
 
 struct LengthPoint {
-  double length = 0;  ///< m
-  std::array<Statistic, 4> seconds;   ///< over the runs that got so far
-  std::array<int, 4> censored{};      ///< runs that did not
+  double length = 0;                 ///< m
+  std::array<Statistic, 4> seconds;  ///< over the runs that got so far
+  std::array<int, 4> censored{};     ///< runs that did not
 };
 
 struct LengthSweep {
@@ -25,6 +25,7 @@ struct LengthSweep {
 };
 
 /// Runs last 60 s times 1.23 Hz over the setup's frequency. Throws Interrupted.
-LengthSweep sweep_lengths(const Engine& engine, const Setup& base, const std::vector<double>& lengths, const RunsWanted& wanted);
+LengthSweep sweep_lengths(const Engine& engine, const Setup& base, const std::vector<double>& lengths,
+                          const RunsWanted& wanted);
 
 }  // namespace shakedown

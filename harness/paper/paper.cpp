@@ -21,7 +21,8 @@ Setup damper(double length) {
 
 std::vector<double> range(double from, double to, double step) {
   std::vector<double> values;
-  for (int i = 0; from + i * step < to + step / 2; ++i) values.push_back((1000 * from + 1000 * step * i) / 1000);
+  for (int i = 0; from + i * step < to + step / 2; ++i)
+    values.push_back((1000 * from + 1000 * step * i) / 1000);
   return values;
 }
 
@@ -45,7 +46,8 @@ class Reproduction {
     runs_.lengths = sweep_lengths(*hard_, damper(0.040), lengths, wanted(options_.quick ? 6 : 16));
     tell("frequencies and restitutions");
     sweep_about_the_optimum();
-    runs_.puzzle = solve_puzzle({options_.quick, options_.threads, options_.stop, [this](const std::string& stage) { tell(stage); }});
+    runs_.puzzle = solve_puzzle(
+        {options_.quick, options_.threads, options_.stop, [this](const std::string& stage) { tell(stage); }});
     return std::move(runs_);
   }
 
@@ -84,7 +86,8 @@ class Reproduction {
   }
 
   void sweep_about_the_optimum() {
-    const std::vector<double> lengths = options_.quick ? range(0.150, 0.450, 0.050) : range(0.125, 0.500, 0.025);
+    const std::vector<double> lengths =
+        options_.quick ? range(0.150, 0.450, 0.050) : range(0.125, 0.500, 0.025);
     std::vector<double> with_optimum = lengths;
     with_optimum.insert(std::upper_bound(with_optimum.begin(), with_optimum.end(), 0.311), 0.311);
     const RunsWanted how = wanted(options_.quick ? 12 : 32);

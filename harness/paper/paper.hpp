@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bannerman, Kollmer, Sack, Heckel, Mueller, Poeschel: Movers and shakers: Granular damping in microgravity. Its table, its figures and its
-// statements, from both engines.
+// Bannerman, Kollmer, Sack, Heckel, Mueller, Poeschel: Movers and shakers: Granular damping in microgravity.
+// Its table, its figures and its statements, from both engines.
 #pragma once
 #include <functional>
 #include <string>

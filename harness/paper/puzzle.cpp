@@ -23,19 +23,23 @@ Setup believed() {
   return setup;
 }
 
-Experiment film(double restitution, double friction, const std::vector<double>& lengths, const PuzzleOptions& options) {
+Experiment film(double restitution, double friction, const std::vector<double>& lengths,
+                const PuzzleOptions& options) {
   Setup truth = believed();
   truth.restitution.grain_grain = restitution;
   truth.run.duration = 16;
   if (friction > 0)
-    for (const char* key : {"grain_friction.grain_grain", "grain_friction.grain_wall"}) set_number(truth, key, friction, all_effects());
+    for (const char* key : {"grain_friction.grain_grain", "grain_friction.grain_wall"})
+      set_number(truth, key, friction, all_effects());
   const std::unique_ptr<Engine> soft = engine_named("soft");
-  return make_measurements(truth, runs_of_lengths(lengths), {}, {soft.get(), all_effects(), 7, options.threads, options.stop});
+  return make_measurements(truth, runs_of_lengths(lengths), {},
+                           {soft.get(), all_effects(), 7, options.threads, options.stop});
 }
 
 bool is_fitted(const MeasuredRun& run) { return run.box_length < 0.05; }
 
-Fit fitted(const Setup& start, const Experiment& experiment, const std::string& free, const PuzzleOptions& options) {
+Fit fitted(const Setup& start, const Experiment& experiment, const std::string& free,
+           const PuzzleOptions& options) {
   FitOptions how;
   for (const MeasuredRun& run : experiment.runs)
     if (is_fitted(run)) how.on.push_back(run.name);
@@ -43,7 +47,8 @@ Fit fitted(const Setup& start, const Experiment& experiment, const std::string& 
   how.threads = options.threads;
   how.known = all_effects();
   how.stop = options.stop;
-  return fit_parameters(start, experiment, free_parameters(free, start, all_effects()), *engine_named("hard"), how);
+  return fit_parameters(start, experiment, free_parameters(free, start, all_effects()), *engine_named("hard"),
+                        how);
 }
 
 PuzzleModel model_of(std::string name, const std::vector<RunComparison>& runs) {
@@ -63,13 +68,17 @@ Experiment part_of(const Experiment& whole, bool fitted) {
 }
 
 /// The model as it stands on the lengths that nobody fitted.
-PuzzleModel unfitted(const std::string& name, const Setup& setup, const Experiment& experiment, const PuzzleOptions& options) {
+PuzzleModel unfitted(const std::string& name, const Setup& setup, const Experiment& experiment,
+                     const PuzzleOptions& options) {
   const Experiment others = part_of(experiment, false);
   const std::unique_ptr<Engine> hard = engine_named("hard");
   const Workshop workshop{hard.get(), all_effects(), options.threads, options.stop, {}, nullptr};
   RefitOptions how;
   how.count = options.quick ? 48 : 128;
-  return model_of(name, refit(features_of(others, audit(others), setups_of_runs(setup, others, all_effects())), {}, workshop, how).runs);
+  return model_of(name,
+                  refit(features_of(others, audit(others), setups_of_runs(setup, others, all_effects())), {},
+                        workshop, how)
+                      .runs);
 }
 
 /// What is missing, if the drop test is believed and nothing but L = 40 mm was filmed?
@@ -83,15 +92,19 @@ Diagnosis diagnosed(const Experiment& experiment, const PuzzleOptions& options) 
   return diagnose(believed(), part_of(experiment, true), *engine_named("hard"), how);
 }
 
-/// From the laboratory with friction back to the model, both ways: restitution fitted, and 0.95 with friction.
-void repair(Puzzle& puzzle, const Experiment& experiment, const Fit& frictionless, const PuzzleOptions& options) {
+/// From the laboratory with friction back to the model, both ways: restitution fitted, and 0.95 with
+/// friction.
+void repair(Puzzle& puzzle, const Experiment& experiment, const Fit& frictionless,
+            const PuzzleOptions& options) {
   puzzle.models.push_back(unfitted("0.95, no friction", believed(), experiment, options));
   puzzle.models.push_back(model_of("restitution fitted, no friction", frictionless.left_out));
   if (!options.quick) {
     puzzle.diagnosis = diagnosed(experiment, options);
-    puzzle.models.push_back(unfitted("0.95, with what the diagnosis of 40 mm adds", puzzle.diagnosis.amended, experiment, options));
+    puzzle.models.push_back(unfitted("0.95, with what the diagnosis of 40 mm adds", puzzle.diagnosis.amended,
+                                     experiment, options));
   }
-  puzzle.with_friction = fitted(believed(), experiment, "grain_friction.grain_grain&grain_friction.grain_wall", options);
+  puzzle.with_friction =
+      fitted(believed(), experiment, "grain_friction.grain_grain&grain_friction.grain_wall", options);
   puzzle.models.push_back(model_of("0.95, friction fitted", puzzle.with_friction.left_out));
 }
 
@@ -105,14 +118,19 @@ Puzzle solve_puzzle(const PuzzleOptions& options) {
   Setup start = believed();
   start.restitution.grain_grain = 0.85;
   tell("the puzzle: the paper's fit");
-  puzzle.as_the_paper = fitted(start, film(0.75, 0, {0.040, 0.040}, options), "restitution.grain_grain,restitution.grain_wall", options);
-  const std::vector<double> frictions = options.quick ? std::vector{0.0, 0.1, 0.2, 0.5} : std::vector{0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5};
+  puzzle.as_the_paper = fitted(start, film(0.75, 0, {0.040, 0.040}, options),
+                               "restitution.grain_grain,restitution.grain_wall", options);
+  const std::vector<double> frictions =
+      options.quick ? std::vector{0.0, 0.1, 0.2, 0.5} : std::vector{0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5};
   for (const double friction : frictions) {
     tell(fmt::format("the puzzle: friction {:g}", friction));
     const bool chosen = friction == puzzle.friction;
-    const Experiment experiment = film(drop_test_restitution, friction, chosen ? std::vector{0.040, 0.040, 0.065, 0.085, 0.104} : std::vector{0.040, 0.040}, options);
+    const Experiment experiment =
+        film(drop_test_restitution, friction,
+             chosen ? std::vector{0.040, 0.040, 0.065, 0.085, 0.104} : std::vector{0.040, 0.040}, options);
     PuzzlePoint point{friction, fitted(start, experiment, "restitution.grain_grain", options), {}};
-    if (!options.quick) point.both = fitted(start, experiment, "restitution.grain_grain,restitution.grain_wall", options);
+    if (!options.quick)
+      point.both = fitted(start, experiment, "restitution.grain_grain,restitution.grain_wall", options);
     if (chosen) {
       tell(options.quick ? "the puzzle: friction in the model" : "the puzzle: diagnosis");
       repair(puzzle, experiment, point.one, options);

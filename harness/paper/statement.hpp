@@ -34,7 +34,8 @@ Finding finding_of(std::string what, const Statistic& statistic, std::string uni
 /// A number that has no spread.
 Finding exact(std::string what, double value, std::string unit);
 
-/// Holds when the whole interval lies within, fails when none of it does. NaN bounds: the value alone is judged.
+/// Holds when the whole interval lies within, fails when none of it does. NaN bounds: the value alone is
+/// judged.
 Judgement judge(const Finding& finding, double low, double high);
 
 /// Fails when one fails, holds when all hold.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Flight of the box on its spring between two kicks, in closed form. Both engines use it.
 //   M x'' = -k x      =>  x(t) = x0 cos W(t - t0) + (v0 / W) sin W(t - t0),  W = sqrt(k / M)
-// The state is (x, v) at the last kick (physics: amplitude and phase are outputs), so no arctangent and no growing phase enters.
+// The state is (x, v) at the last kick (physics: amplitude and phase are outputs), so no arctangent and no
+// growing phase enters.
 #pragma once
 #include <cmath>
 #include <limits>
@@ -25,8 +26,8 @@ class BoxMotion {
     if (angular_frequency_ == 0) return {x_ + v_ * (t - time_), v_};
     const double phase = angular_frequency_ * (t - time_);
     const double c = std::cos(phase), s = std::sin(phase);
-    // Two sums on purpose: of a sum beside a difference GCC 12 makes one fused instruction where it inlines, whatever -ffp-contract says
-    // (a motion would then depend in its last digit on who asks for it).
+    // Two sums on purpose: of a sum beside a difference GCC 12 makes one fused instruction where it inlines,
+    // whatever -ffp-contract says (a motion would then depend in its last digit on who asks for it).
     return {x_ * c + y_ * s, v_ * c + -x_ * angular_frequency_ * s};
   }
 
@@ -49,7 +50,8 @@ class BoxMotion {
     const double phase = angular_frequency_ * (t - time_);
     const double c = std::cos(phase), s = std::sin(phase);
     const double versine = c > 0 ? s * s / (1 + c) : 1 - c;  // 1 - cos without cancellation
-    return {{x_ * c + y_ * s, v_ * c + -x_ * angular_frequency_ * s}, impulse_scale_ * (x_ * s + y_ * versine)};
+    return {{x_ * c + y_ * s, v_ * c + -x_ * angular_frequency_ * s},
+            impulse_scale_ * (x_ * s + y_ * versine)};
   }
 
   double energy() const { return stiffness_ * x_ * x_ / 2 + mass_ * v_ * v_ / 2; }
@@ -57,9 +59,9 @@ class BoxMotion {
   double stiffness() const { return stiffness_; }
   double spring_energy(double x) const { return stiffness_ * x * x / 2; }  ///< J
   double angular_frequency() const { return angular_frequency_; }
-  double amplitude() const { return amplitude_; }                              ///< m, of the present arc
-  double top_speed() const { return amplitude_ * angular_frequency_; }         ///< m/s
-  double top_acceleration() const { return top_speed() * angular_frequency_; } ///< m/s^2, bound of |x''|
+  double amplitude() const { return amplitude_; }                               ///< m, of the present arc
+  double top_speed() const { return amplitude_ * angular_frequency_; }          ///< m/s
+  double top_acceleration() const { return top_speed() * angular_frequency_; }  ///< m/s^2, bound of |x''|
   /// Until when at() and the bounds hold without a restart, s: for ever.
   static constexpr double valid_until() { return std::numeric_limits<double>::infinity(); }
   double x() const { return x_; }        ///< at the last kick

@@ -12,7 +12,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t node_count = 8;
 
-/// Gauss-Legendre nodes and weights on [0, 1], and the matrix that turns values at the nodes into coefficients of a polynomial.
+/// Gauss-Legendre nodes and weights on [0, 1], and the matrix that turns values at the nodes into
+/// coefficients of a polynomial.
 struct Collocation {
   std::array<double, node_count> node{}, weight{};
   std::array<std::array<double, node_count>, node_count> coefficient{};
@@ -43,7 +44,8 @@ struct Collocation {
       for (std::size_t m = 0, degree = 0; m < node_count; ++m) {
         if (m == j) continue;
         const long double scale = 1 / (exact[j] - exact[m]);
-        for (std::size_t k = ++degree; k > 0; --k) product[k] = (product[k - 1] - exact[m] * product[k]) * scale;
+        for (std::size_t k = ++degree; k > 0; --k)
+          product[k] = (product[k - 1] - exact[m] * product[k]) * scale;
         product[0] *= -exact[m] * scale;
       }
       for (std::size_t k = 0; k < node_count; ++k) coefficient[k][j] = static_cast<double>(product[k]);
@@ -75,12 +77,14 @@ DrivenBox::DrivenBox(const Physics& physics, double x, double v, double time)
     // Near an undamped resonance the closed form is a difference of large numbers.
     if (size < 1e-4 * w2 * w2) needs_dense_ = true;
     const double force = harmonic.amplitude / mass_;
-    if (size > 0) responses_.push_back({force * detuning / size, -force * width / size, drive, harmonic.phase});
+    if (size > 0)
+      responses_.push_back({force * detuning / size, -force * width / size, drive, harmonic.phase});
   }
   const auto grow = [this](int effect) {
     if (effect >= static_cast<int>(work_.size())) work_.resize(static_cast<std::size_t>(effect) + 1, 0.0);
   };
-  for (const int effect : {forces_.viscous_effect, forces_.dry_friction_effect, forces_.constant_effect}) grow(effect);
+  for (const int effect : {forces_.viscous_effect, forces_.dry_friction_effect, forces_.constant_effect})
+    grow(effect);
   for (const Harmonic& harmonic : forces_.harmonics) grow(harmonic.effect);
   for (const FreeForce& force : forces_.free) grow(force.effect);
   restart(time, x, v);
@@ -105,11 +109,13 @@ void DrivenBox::go_on() {
 /// All forces on the box but dry friction and grains, N.
 double DrivenBox::smooth_force(double x, double v, double t) const {
   double force = -stiffness_ * x * (1 + cubic_ * x * x) - forces_.viscous * v + forces_.constant;
-  for (const Harmonic& h : forces_.harmonics) force += h.amplitude * std::sin(2 * std::numbers::pi * h.frequency * t + h.phase);
+  for (const Harmonic& h : forces_.harmonics)
+    force += h.amplitude * std::sin(2 * std::numbers::pi * h.frequency * t + h.phase);
   for (const FreeForce& free : forces_.free) force += free.newton(x, v, t);
   if (!std::isfinite(force))
-    throw PhysicsError("the force on the box is not finite at x = " + std::to_string(x) + " m, v = " + std::to_string(v) +
-                       " m/s, t = " + std::to_string(t) + " s; check the formulas of user_force");
+    throw PhysicsError("the force on the box is not finite at x = " + std::to_string(x) +
+                       " m, v = " + std::to_string(v) + " m/s, t = " + std::to_string(t) +
+                       " s; check the formulas of user_force");
   return force;
 }
 
@@ -120,8 +126,10 @@ void DrivenBox::begin() {
     if (v_ == 0 && std::abs(pull) <= forces_.dry_friction * (1 + 1e-13)) return begin_stuck();
     friction = -forces_.dry_friction * sign_of(v_ != 0 ? v_ : pull);
   }
-  if (needs_dense_) begin_dense(friction);
-  else begin_closed(friction);
+  if (needs_dense_)
+    begin_dense(friction);
+  else
+    begin_closed(friction);
 }
 
 void DrivenBox::begin_closed(double friction_force) {
@@ -145,7 +153,8 @@ void DrivenBox::begin_closed(double friction_force) {
   // Each derivative of exp((-g + i w_d) s) multiplies by a number of modulus w.
   const double amplitude = std::hypot(a_, b_);
   top_acceleration_ = w * w * amplitude + response_acceleration;
-  valid_until_ = forces_.dry_friction > 0 ? first_standstill(w * w * w * amplitude + response_jerk) : infinity;
+  valid_until_ =
+      forces_.dry_friction > 0 ? first_standstill(w * w * w * amplitude + response_jerk) : infinity;
 }
 
 void DrivenBox::begin_stuck() {
@@ -154,9 +163,11 @@ void DrivenBox::begin_stuck() {
   top_acceleration_ = 0;
   valid_until_ = infinity;
   if (forces_.harmonics.empty() && forces_.free.empty()) return;
-  // The pull changes with time: look again where it may first exceed friction, and at least once a millisecond.
+  // The pull changes with time: look again where it may first exceed friction, and at least once a
+  // millisecond.
   double rate = 0;
-  for (const Harmonic& h : forces_.harmonics) rate += std::abs(h.amplitude) * 2 * std::numbers::pi * h.frequency;
+  for (const Harmonic& h : forces_.harmonics)
+    rate += std::abs(h.amplitude) * 2 * std::numbers::pi * h.frequency;
   const double margin = forces_.dry_friction - std::abs(friction_);
   const double safe = forces_.free.empty() && rate > 0 ? margin / rate : 0;
   valid_until_ = time_ + std::clamp(safe, 1e-5, 1.0);
@@ -192,8 +203,8 @@ void DrivenBox::begin_dense(double friction_force) {
   while (!try_dense(length, friction_force)) {
     length /= 2;
     if (length < 1e-9)
-      throw PhysicsError("the forces on the box change too fast near t = " + std::to_string(time_) + " s, x = " +
-                         std::to_string(x_) + " m; make the formula of user_force smoother");
+      throw PhysicsError("the forces on the box change too fast near t = " + std::to_string(time_) +
+                         " s, x = " + std::to_string(x_) + " m; make the formula of user_force smoother");
   }
   planned_length_ = length_ = length;
   double jerk = 0;
@@ -206,7 +217,8 @@ void DrivenBox::begin_dense(double friction_force) {
   if (forces_.dry_friction > 0) valid_until_ = std::min(valid_until_, first_standstill(jerk));
 }
 
-/// Solves the collocation equations by fixed-point iteration; false when the piece is too long for the promised error.
+/// Solves the collocation equations by fixed-point iteration; false when the piece is too long for the
+/// promised error.
 bool DrivenBox::try_dense(double length, double friction_force) {
   const Collocation& table = collocation();
   std::array<double, nodes> value;
@@ -267,7 +279,8 @@ void DrivenBox::account(double t) {
   while (accounted_ < t) {
     // 8 nodes on 10 ms of a motion of some hertz are exact to rounding; fast forcing gets shorter steps.
     double longest = 1e-2;
-    for (const Harmonic& h : forces_.harmonics) longest = std::min(longest, 0.1 / std::max(h.frequency, 1e-3));
+    for (const Harmonic& h : forces_.harmonics)
+      longest = std::min(longest, 0.1 / std::max(h.frequency, 1e-3));
     if (piece_ == Piece::dense) longest = std::min(longest, length_);
     const double h = std::min(t - accounted_, longest);
     for (std::size_t j = 0; j < nodes; ++j) {
@@ -283,9 +296,11 @@ void DrivenBox::account(double t) {
       if (forces_.viscous != 0) add(-forces_.viscous * p.v, forces_.viscous_effect);
       if (forces_.constant != 0) add(forces_.constant, forces_.constant_effect);
       for (const Harmonic& harmonic : forces_.harmonics)
-        add(harmonic.amplitude * std::sin(2 * std::numbers::pi * harmonic.frequency * time + harmonic.phase), harmonic.effect);
+        add(harmonic.amplitude * std::sin(2 * std::numbers::pi * harmonic.frequency * time + harmonic.phase),
+            harmonic.effect);
       for (const FreeForce& free : forces_.free) add(free.newton(p.x, p.v, time), free.effect);
-      if (forces_.dry_friction > 0) add(piece_ == Piece::stuck ? -smooth_force(p.x, 0, time) : friction_, forces_.dry_friction_effect);
+      if (forces_.dry_friction > 0)
+        add(piece_ == Piece::stuck ? -smooth_force(p.x, 0, time) : friction_, forces_.dry_friction_effect);
       impulse_ += weight * total;
     }
     accounted_ = h < t - accounted_ ? accounted_ + h : t;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Flight of the box between kicks when more than its linear spring acts on it:
 //   M x'' = -k x (1 + b x^2) - c x' - F sgn x' + constant + sum of harmonics + free forces
-// Linear terms in closed form; dry friction as a sequence of closed forms from one turning point to the next, with sticking; the rest by
-// Gauss-Legendre collocation (8 nodes, a polynomial of degree 9 in time) on pieces short enough that the last term of the
-// acceleration's expansion moves the box by less than 1e-14 m.
+// Linear terms in closed form; dry friction as a sequence of closed forms from one turning point to the next,
+// with sticking; the rest by Gauss-Legendre collocation (8 nodes, a polynomial of degree 9 in time) on pieces
+// short enough that the last term of the acceleration's expansion moves the box by less than 1e-14 m.
 #pragma once
 #include <limits>
 #include <vector>
@@ -23,7 +23,8 @@ class DrivenBox {
   Point at(double t) const;
   /// A kick: from time t on the box flies from (x, v). Work and impulse must have been accounted for up to t.
   void restart(double t, double x, double v);
-  /// End of the present piece, s: a turning point under dry friction, the end of a polynomial; infinity when there is none.
+  /// End of the present piece, s: a turning point under dry friction, the end of a polynomial; infinity when
+  /// there is none.
   double valid_until() const { return valid_until_; }
   /// Begins the next piece at valid_until().
   void go_on();
@@ -41,8 +42,10 @@ class DrivenBox {
 
   /// Adds up work and impulse of all forces but the grains' from the last call to time t.
   void account(double t);
-  double outer_impulse() const { return impulse_; }                      ///< N s, spring included
-  const std::vector<double>& effect_work() const { return work_; }       ///< J done on the box by each line of Setup::effects
+  double outer_impulse() const { return impulse_; }  ///< N s, spring included
+  const std::vector<double>& effect_work() const {
+    return work_;
+  }  ///< J done on the box by each line of Setup::effects
 
  private:
   enum class Piece { closed, stuck, dense };

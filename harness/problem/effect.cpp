@@ -15,7 +15,9 @@ const T& value_of(const EffectChoice& choice, std::string_view parameter) {
 }  // namespace
 
 double EffectChoice::number(std::string_view parameter) const { return value_of<double>(*this, parameter); }
-const Vec3& EffectChoice::vector(std::string_view parameter) const { return value_of<Vec3>(*this, parameter); }
+const Vec3& EffectChoice::vector(std::string_view parameter) const {
+  return value_of<Vec3>(*this, parameter);
+}
 const std::string& EffectChoice::text(std::string_view parameter) const {
   return value_of<std::string>(*this, parameter);
 }
@@ -43,8 +45,9 @@ bool is_neutral(const EffectChoice& choice) {
     if (parameter.kind == ParameterKind::choice && value != parameter.default_value) return false;
     if (std::isnan(parameter.neutral)) continue;
     has_neutral = true;
-    const bool there = parameter.kind == ParameterKind::vector ? (std::get<Vec3>(value).array() == parameter.neutral).all()
-                                                               : std::get<double>(value) == parameter.neutral;
+    const bool there = parameter.kind == ParameterKind::vector
+                           ? (std::get<Vec3>(value).array() == parameter.neutral).all()
+                           : std::get<double>(value) == parameter.neutral;
     if (!there) return false;
   }
   return has_neutral;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A physical effect: a constant record, from which the setup's keys, the JSON schema, the listing, the fit's bounds, the engines'
-// capability table and the generic tests are made; and one function that writes the effect into the physics an engine reads.
+// A physical effect: a constant record, from which the setup's keys, the JSON schema, the listing, the fit's
+// bounds, the engines' capability table and the generic tests are made; and one function that writes the
+// effect into the physics an engine reads.
 #pragma once
 #include <limits>
 #include <map>
@@ -32,11 +33,12 @@ struct Parameter {
   ParameterKind kind = ParameterKind::number;
   std::string_view unit{};  ///< SI unit, e.g. "N s/m"; empty for a pure number
   ParameterValue default_value = 0.0;
-  bool required = false;  ///< the user must give it
-  double low = -std::numeric_limits<double>::infinity();   ///< closed bounds of the value (of each component)
+  bool required = false;                                  ///< the user must give it
+  double low = -std::numeric_limits<double>::infinity();  ///< closed bounds of the value (of each component)
   double high = std::numeric_limits<double>::infinity();
-  double neutral = std::numeric_limits<double>::quiet_NaN();  ///< value at which the effect is absent; NaN: has no such value
-  double typical = 0;         ///< a strength worth looking for: step of a sensitivity, start of a fit; SI
+  double neutral = std::numeric_limits<double>::quiet_NaN();  ///< value at which the effect is absent; NaN:
+                                                              ///< has no such value
+  double typical = 0;           ///< a strength worth looking for: step of a sensitivity, start of a fit; SI
   std::string_view sentence{};  ///< what it is
   std::vector<std::string_view> choices{};
 };
@@ -60,27 +62,30 @@ struct ParameterProblem {
 };
 
 struct EffectRecord {
-  std::string_view name{};      ///< snake_case id, fixed for ever
+  std::string_view name{};  ///< snake_case id, fixed for ever
   ActsOn acts_on = ActsOn::box;
   std::string_view sentence{};  ///< one sentence for people
   std::string_view formula{};
-  std::string_view source{};    ///< citation
-  std::string_view limits{};    ///< where it stops being true
+  std::string_view source{};  ///< citation
+  std::string_view limits{};  ///< where it stops being true
   std::vector<Parameter> parameters{};
-  /// The part of the model that it replaces and that two effects cannot both claim, e.g. "normal restitution", or the path of the
-  /// setup's key that it stands for; empty: adds up.
+  /// The part of the model that it replaces and that two effects cannot both claim, e.g. "normal
+  /// restitution", or the path of the setup's key that it stands for; empty: adds up.
   std::string_view claims{};
   bool dissipative = false;  ///< its line in the energy ledger can never be negative
   Capability hard{}, soft{}, bullet{};
-  /// Writes the effect's share into the physics. `index` is its line in Setup::effects and in the energy ledger.
+  /// Writes the effect's share into the physics. `index` is its line in Setup::effects and in the energy
+  /// ledger.
   void (*apply)(const EffectChoice& choice, int index, Physics& physics) = nullptr;
   /// Applied after all others because it reads what they wrote (the box's whole mass, the restitutions).
   bool applied_last = false;
   /// What bounds and kinds cannot say about the parameters; nullptr: nothing.
   std::vector<ParameterProblem> (*check)(const EffectChoice& choice) = nullptr;
 
-  /// What a choice of parameters changes in an engine's capability (a formula of x on grains, say); nullptr: nothing.
-  Capability (*capability_of)(const EffectChoice& choice, std::string_view engine, Capability general) = nullptr;
+  /// What a choice of parameters changes in an engine's capability (a formula of x on grains, say); nullptr:
+  /// nothing.
+  Capability (*capability_of)(const EffectChoice& choice, std::string_view engine,
+                              Capability general) = nullptr;
 
   /// The parameter of this name, or nullptr.
   const Parameter* find(std::string_view parameter) const;
@@ -101,8 +106,8 @@ struct EffectChoice {
 /// The effect with every parameter at its default.
 EffectChoice with_defaults(const EffectRecord& record);
 
-/// True when the effect does nothing: it has parameters with a neutral value, all of them are at it, and every choice of a law is
-/// at its default.
+/// True when the effect does nothing: it has parameters with a neutral value, all of them are at it, and
+/// every choice of a law is at its default.
 bool is_neutral(const EffectChoice& choice);
 
 }  // namespace shakedown

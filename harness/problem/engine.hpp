@@ -25,12 +25,13 @@ class Engine {
   virtual ~Engine() = default;
   virtual std::string_view name() const = 0;
   virtual Capability can_model(const EffectRecord& effect) const = 0;
-  /// Runs the setup from its initial state. Throws InputError for what the engine cannot model, PhysicsError (with time, grains and
-  /// state) when it cannot keep its promise. Thread-safe: runs share nothing.
+  /// Runs the setup from its initial state. Throws InputError for what the engine cannot model, PhysicsError
+  /// (with time, grains and state) when it cannot keep its promise. Thread-safe: runs share nothing.
   virtual Trajectory run(const Setup& setup, const RunOptions& options = {}) const = 0;
 };
 
-/// Throws InputError naming each effect of the setup that the engine does not model, with its place and what to use instead.
+/// Throws InputError naming each effect of the setup that the engine does not model, with its place and what
+/// to use instead.
 void refuse_what_is_not_modelled(const Engine& engine, const Setup& setup);
 
 }  // namespace shakedown

@@ -32,8 +32,8 @@ InputError::InputError(std::vector<Violation> found)
     : std::runtime_error(joined(found)), violations(std::move(found)) {}
 
 void report_bug(const char* condition, const char* file, int line) {
-  std::fprintf(stderr, "shakedown: this is a bug of the program, please report it: %s:%d: expected %s\n", file, line,
-               condition);
+  std::fprintf(stderr, "shakedown: this is a bug of the program, please report it: %s:%d: expected %s\n",
+               file, line, condition);
   std::abort();
 }
 

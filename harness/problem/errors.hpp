@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Three kinds of error, never mixed: the user's input, a promise of the physics that an engine cannot keep, our own bug.
+// Three kinds of error, never mixed: the user's input, a promise of the physics that an engine cannot keep,
+// our own bug.
 #pragma once
 #include <stdexcept>
 #include <string>

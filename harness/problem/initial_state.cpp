@@ -30,14 +30,16 @@ void set_sizes(const Setup& setup, double deviation, int run, State& state) {
   double volume = 0;
   for (const double diameter : relative) volume += diameter * diameter * diameter;
   // Masses go as d^3 and keep the total N m.
-  const double mass = relative.empty() ? 0 : setup.grains.mass * static_cast<double>(relative.size()) / volume;
+  const double mass =
+      relative.empty() ? 0 : setup.grains.mass * static_cast<double>(relative.size()) / volume;
   for (const double diameter : relative) {
     state.radius.push_back(setup.grains.diameter / 2 * diameter);
     state.mass.push_back(deviation == 0 ? setup.grains.mass : mass * diameter * diameter * diameter);
   }
 }
 
-/// Gaussian velocities scaled to a given total kinetic energy; in domains without a spring the total momentum is removed first.
+/// Gaussian velocities scaled to a given total kinetic energy; in domains without a spring the total momentum
+/// is removed first.
 void set_velocities(const Setup& setup, double energy, int run, State& state) {
   Random random(setup.run.seed, static_cast<std::uint64_t>(run), Stream::velocities);
   state.velocity.resize(state.size());
@@ -77,8 +79,9 @@ State initial_state(const Setup& setup, int run) {
     for (const double m : state.mass) mass += m;
     const double spring_energy = physics.stiffness * state.x_box * state.x_box / 2;
     const double speed = setup.release.grain_speed;
-    set_velocities(setup, damper ? setup.release.kinetic_energy_fraction * spring_energy : mass * speed * speed / 2, run,
-                   state);
+    set_velocities(setup,
+                   damper ? setup.release.kinetic_energy_fraction * spring_energy : mass * speed * speed / 2,
+                   run, state);
   }
   if (damper) state.v_box = physics.initial_box_velocity;
   return state;
@@ -88,7 +91,8 @@ double kinetic_energy(const State& state, double box_mass) {
   double energy = box_mass * state.v_box * state.v_box / 2;
   for (std::size_t i = 0; i < state.velocity.size(); ++i) {
     energy += state.mass[i] * state.velocity[i].squaredNorm() / 2;
-    if (!state.spin.empty()) energy += 0.2 * state.mass[i] * state.radius[i] * state.radius[i] * state.spin[i].squaredNorm();
+    if (!state.spin.empty())
+      energy += 0.2 * state.mass[i] * state.radius[i] * state.radius[i] * state.spin[i].squaredNorm();
   }
   return energy;
 }

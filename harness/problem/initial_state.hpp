@@ -7,8 +7,8 @@
 
 namespace shakedown {
 
-/// Positions and velocities in the lab frame, box at x_box with velocity v_box (centre of the box along x; y = z = 0 is its axis, also
-/// where the box follows an arc: then z and its velocity are as seen from the box).
+/// Positions and velocities in the lab frame, box at x_box with velocity v_box (centre of the box along x; y
+/// = z = 0 is its axis, also where the box follows an arc: then z and its velocity are as seen from the box).
 struct State {
   std::vector<Vec3> position;  ///< m
   std::vector<Vec3> velocity;  ///< m/s
@@ -20,8 +20,9 @@ struct State {
   std::size_t size() const { return position.size(); }
 };
 
-/// The state at release of run number `run` (>= 0): random numbers are addressed by (seed, run, stream), so any run can be made
-/// alone. Throws InputError when the grains do not fit, overlap or leave the box; FileError when the grain file cannot be read.
+/// The state at release of run number `run` (>= 0): random numbers are addressed by (seed, run, stream), so
+/// any run can be made alone. Throws InputError when the grains do not fit, overlap or leave the box;
+/// FileError when the grain file cannot be read.
 State initial_state(const Setup& setup, int run = 0);
 
 /// Kinetic energy of the grains and of the box, J (translation and spin of solid spheres).

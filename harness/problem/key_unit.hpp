@@ -9,11 +9,13 @@
 
 namespace shakedown {
 
-/// In which people read the values of a key of the setup or of an effect ("box.length", "constant_acceleration.acceleration.x"; of keys
-/// joined by & the first); empty: a pure number, or no such key.
+/// In which people read the values of a key of the setup or of an effect ("box.length",
+/// "constant_acceleration.acceleration.x"; of keys joined by & the first); empty: a pure number, or no such
+/// key.
 std::string unit_of_key(std::string_view key, std::span<const EffectRecord* const> known);
 
-/// The keys that "grain_friction.grain_grain&grain_friction.grain_wall" joins to move together; of one key itself.
+/// The keys that "grain_friction.grain_grain&grain_friction.grain_wall" joins to move together; of one key
+/// itself.
 std::vector<std::string> joined_keys(std::string_view keys);
 
 }  // namespace shakedown

@@ -16,13 +16,16 @@ namespace {
 /// `placed`: how many the packing holds, 0 when it cannot tell.
 [[noreturn]] void does_not_fit(const Setup& setup, std::size_t placed, const std::string& packing) {
   const auto place = setup.places.find("grains.count");
-  const std::string why = placed > 0 ? "holds " + std::to_string(placed) + " in this box" : "leaves overlaps in this box";
-  throw InputError({{place == setup.places.end() ? SourcePlace{} : place->second, "grains.count",
-                     std::to_string(setup.grains.count) + " grains do not fit (packing '" + packing + "' " + why + ")",
-                     "take fewer or smaller grains, a larger box, or another release.packing"}});
+  const std::string why =
+      placed > 0 ? "holds " + std::to_string(placed) + " in this box" : "leaves overlaps in this box";
+  throw InputError(
+      {{place == setup.places.end() ? SourcePlace{} : place->second, "grains.count",
+        std::to_string(setup.grains.count) + " grains do not fit (packing '" + packing + "' " + why + ")",
+        "take fewer or smaller grains, a larger box, or another release.packing"}});
 }
 
-/// Cubic-close layers from the outer (+x) wall inwards: alternate sites of a square grid of spacing a/2, a = 1.42 diameters.
+/// Cubic-close layers from the outer (+x) wall inwards: alternate sites of a square grid of spacing a/2, a
+/// = 1.42 diameters.
 std::vector<Vec3> fcc_layers(const Setup& setup) {
   const double diameter = setup.grains.diameter, half_constant = 0.71 * diameter;
   const double front = (setup.box.length - diameter) / 2;
@@ -38,12 +41,14 @@ std::vector<Vec3> fcc_layers(const Setup& setup) {
     if (x < -front) does_not_fit(setup, centres.size(), "fcc");
     for (int i = 0; i < rows && centres.size() < count; ++i)
       for (int j = 0; j < columns && centres.size() < count; ++j)
-        if ((i + j + layer) % 2 == 0) centres.emplace_back(x, first_y + i * half_constant, first_z + j * half_constant);
+        if ((i + j + layer) % 2 == 0)
+          centres.emplace_back(x, first_y + i * half_constant, first_z + j * half_constant);
   }
   return centres;
 }
 
-/// Square layers in turn, n x n and (n-1) x (n-1), 1.1 diameters apart within a layer, layers 0.65 diameters apart.
+/// Square layers in turn, n x n and (n-1) x (n-1), 1.1 diameters apart within a layer, layers 0.65 diameters
+/// apart.
 std::vector<Vec3> square_layers(const Setup& setup) {
   const double diameter = setup.grains.diameter, spacing = 1.1 * diameter;
   const double front = (setup.box.length - diameter) / 2;
@@ -77,16 +82,20 @@ std::vector<Vec3> random_centres(const Setup& setup, double thickness, int run) 
   return centres;
 }
 
-/// Sites of a face-centred cubic lattice of cells[0] x cells[1] x cells[2] cubes, stretched to a room about the origin.
+/// Sites of a face-centred cubic lattice of cells[0] x cells[1] x cells[2] cubes, stretched to a room about
+/// the origin.
 std::vector<Vec3> lattice_sites(const Eigen::Vector3i& cells, const Vec3& room) {
   const Vec3 step = room.cwiseQuotient(cells.cast<double>());
-  constexpr std::array<std::array<double, 3>, 4> basis{{{.25, .25, .25}, {.75, .75, .25}, {.75, .25, .75}, {.25, .75, .75}}};
+  constexpr std::array<std::array<double, 3>, 4> basis{
+      {{.25, .25, .25}, {.75, .75, .25}, {.75, .25, .75}, {.25, .75, .75}}};
   std::vector<Vec3> sites;
-  sites.reserve(4 * static_cast<std::size_t>(cells.x()) * static_cast<std::size_t>(cells.y()) * static_cast<std::size_t>(cells.z()));
+  sites.reserve(4 * static_cast<std::size_t>(cells.x()) * static_cast<std::size_t>(cells.y()) *
+                static_cast<std::size_t>(cells.z()));
   for (int i = 0; i < cells.x(); ++i)
     for (int j = 0; j < cells.y(); ++j)
       for (int k = 0; k < cells.z(); ++k)
-        for (const auto& site : basis) sites.push_back(-room / 2 + step.cwiseProduct(Vec3(i + site[0], j + site[1], k + site[2])));
+        for (const auto& site : basis)
+          sites.push_back(-room / 2 + step.cwiseProduct(Vec3(i + site[0], j + site[1], k + site[2])));
   return sites;
 }
 
@@ -107,14 +116,17 @@ std::vector<Vec3> filled_cell(const Setup& setup) {
   while (4LL * cells.x() * cells.y() * cells.z() < static_cast<long long>(count)) ++cells.x();
   std::vector<Vec3> centres = lattice_sites(cells, room);
   centres.resize(count);
-  double nearest = std::numeric_limits<double>::infinity();  // every site of a lattice sees what the first one sees
-  for (std::size_t i = 1; i < centres.size(); ++i) nearest = std::min(nearest, (centres[i] - centres[0]).squaredNorm());
-  if (nearest < setup.grains.diameter * setup.grains.diameter) does_not_fit(setup, 0, "fcc, stretched to the cell");
+  // every site of a lattice sees what the first one sees
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < centres.size(); ++i)
+    nearest = std::min(nearest, (centres[i] - centres[0]).squaredNorm());
+  if (nearest < setup.grains.diameter * setup.grains.diameter)
+    does_not_fit(setup, 0, "fcc, stretched to the cell");
   return centres;
 }
 
-/// Grains on sites drawn at random from a lattice of packing fraction 0.70 (or a little less): full of vacancies, it melts within a few
-/// impacts a grain even where the full lattice is stable.
+/// Grains on sites drawn at random from a lattice of packing fraction 0.70 (or a little less): full of
+/// vacancies, it melts within a few impacts a grain even where the full lattice is stable.
 std::vector<Vec3> sparsely_filled_cell(const Setup& setup, int run) {
   const std::size_t count = static_cast<std::size_t>(setup.grains.count);
   const Vec3 room = room_of_cell(setup);
@@ -122,16 +134,19 @@ std::vector<Vec3> sparsely_filled_cell(const Setup& setup, int run) {
   const Eigen::Vector3i cells = (room / constant).array().floor().cast<int>().max(1);
   std::vector<Vec3> sites = lattice_sites(cells, room);
   if (sites.size() < count || room.minCoeff() < constant) does_not_fit(setup, sites.size(), "random");
-  // Each site is kept with the odds of grains left to sites left; the order of the lattice stays, so neighbours are near in memory.
+  // Each site is kept with the odds of grains left to sites left; the order of the lattice stays, so
+  // neighbours are near in memory.
   Random random(setup.run.seed, static_cast<std::uint64_t>(run), Stream::packing);
   std::size_t kept = 0;
   for (std::size_t site = 0; kept < count; ++site)
-    if (random.uniform() * static_cast<double>(sites.size() - site) < static_cast<double>(count - kept)) sites[kept++] = sites[site];
+    if (random.uniform() * static_cast<double>(sites.size() - site) < static_cast<double>(count - kept))
+      sites[kept++] = sites[site];
   sites.resize(count);
   return sites;
 }
 
-/// Pushes overlapping grains apart and back into the box until none overlap; false when that does not come about.
+/// Pushes overlapping grains apart and back into the box until none overlap; false when that does not come
+/// about.
 bool relax(const Setup& setup, const std::vector<double>& radius, std::vector<Vec3>& centres) {
   const Vec3 half(setup.box.length / 2, setup.box.width[0] / 2, setup.box.width[1] / 2);
   const double clearance = 1e-3 * setup.grains.diameter;
@@ -155,7 +170,8 @@ bool relax(const Setup& setup, const std::vector<double>& radius, std::vector<Ve
   return false;
 }
 
-bool free_of_overlap(const Setup& setup, const std::vector<double>& radius, const std::vector<Vec3>& centres) {
+bool free_of_overlap(const Setup& setup, const std::vector<double>& radius,
+                     const std::vector<Vec3>& centres) {
   const Vec3 half(setup.box.length / 2, setup.box.width[0] / 2, setup.box.width[1] / 2);
   for (std::size_t i = 0; i < centres.size(); ++i) {
     if (((half - centres[i].cwiseAbs()).array() < radius[i]).any()) return false;
@@ -167,7 +183,8 @@ bool free_of_overlap(const Setup& setup, const std::vector<double>& radius, cons
 
 }  // namespace
 
-std::vector<Vec3> packed_centres(const Setup& setup, Packing packing, const std::vector<double>& radius, int run) {
+std::vector<Vec3> packed_centres(const Setup& setup, Packing packing, const std::vector<double>& radius,
+                                 int run) {
   if (setup.grains.count == 0) return {};
   if (setup.domain != Domain::damper)
     return packing == Packing::random ? sparsely_filled_cell(setup, run) : filled_cell(setup);
@@ -188,7 +205,8 @@ std::vector<Vec3> packed_centres(const Setup& setup, Packing packing, const std:
   }
   const bool equal = std::all_of(radius.begin(), radius.end(), [&](double r) { return r == radius[0]; });
   const bool lattice = packing == Packing::fcc || packing == Packing::square;
-  if (lattice && equal) return centres;  // free of overlap by construction; large dampers skip the check of all pairs
+  // free of overlap by construction; large dampers skip the check of all pairs
+  if (lattice && equal) return centres;
   if (!free_of_overlap(setup, radius, centres) && !relax(setup, radius, centres))
     does_not_fit(setup, 0, std::string(name_of(packing)));
   return centres;

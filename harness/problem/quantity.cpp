@@ -15,7 +15,8 @@ namespace shakedown {
 
 namespace {
 
-/// A unit as factor * 10^power_of_ten: decimal prefixes stay exact because they only move the decimal point of the number.
+/// A unit as factor * 10^power_of_ten: decimal prefixes stay exact because they only move the decimal point
+/// of the number.
 struct Scale {
   double factor = 1;
   int power_of_ten = 0;
@@ -30,13 +31,20 @@ struct Name {
 
 constexpr double pi = std::numbers::pi;
 constexpr std::array unit_names{
-    Name{"m", {1, 0, {1, 0, 0}}, true},      Name{"g", {1, -3, {0, 1, 0}}, true},
-    Name{"s", {1, 0, {0, 0, 1}}, true},      Name{"Hz", {1, 0, {0, 0, -1}}, true},
-    Name{"N", {1, 0, {1, 1, -2}}, true},     Name{"J", {1, 0, {2, 1, -2}}, true},
-    Name{"W", {1, 0, {2, 1, -3}}, true},     Name{"Pa", {1, 0, {-1, 1, -2}}, true},
-    Name{"min", {60, 0, {0, 0, 1}}},         Name{"h", {3600, 0, {0, 0, 1}}},
-    Name{"rad", {1, 0, {}}, true},           Name{"deg", {pi / 180, 0, {}}},
-    Name{"%", {1, -2, {}}},                  Name{"1", {1, 0, {}}},
+    Name{"m", {1, 0, {1, 0, 0}}, true},
+    Name{"g", {1, -3, {0, 1, 0}}, true},
+    Name{"s", {1, 0, {0, 0, 1}}, true},
+    Name{"Hz", {1, 0, {0, 0, -1}}, true},
+    Name{"N", {1, 0, {1, 1, -2}}, true},
+    Name{"J", {1, 0, {2, 1, -2}}, true},
+    Name{"W", {1, 0, {2, 1, -3}}, true},
+    Name{"Pa", {1, 0, {-1, 1, -2}}, true},
+    Name{"min", {60, 0, {0, 0, 1}}},
+    Name{"h", {3600, 0, {0, 0, 1}}},
+    Name{"rad", {1, 0, {}}, true},
+    Name{"deg", {pi / 180, 0, {}}},
+    Name{"%", {1, -2, {}}},
+    Name{"1", {1, 0, {}}},
     Name{"g0", {9.80665, 0, {1, 0, -2}}},
 };
 
@@ -44,8 +52,9 @@ struct Prefix {
   std::string_view text;
   int power_of_ten;
 };
-constexpr std::array prefixes{Prefix{"G", 9},  Prefix{"M", 6},  Prefix{"k", 3},         Prefix{"c", -2},        Prefix{"m", -3},
-                              Prefix{"u", -6}, Prefix{"n", -9}, Prefix{"\u00b5", -6}, Prefix{"\u03bc", -6}};
+constexpr std::array prefixes{Prefix{"G", 9},  Prefix{"M", 6},       Prefix{"k", 3},
+                              Prefix{"c", -2}, Prefix{"m", -3},      Prefix{"u", -6},
+                              Prefix{"n", -9}, Prefix{"\u00b5", -6}, Prefix{"\u03bc", -6}};
 
 std::optional<Scale> scale_of(std::string_view name) {
   for (const Name& known : unit_names)
@@ -63,12 +72,15 @@ std::optional<Scale> scale_of(std::string_view name) {
 }
 
 Scale power(Scale base, int exponent) {
-  return {std::pow(base.factor, exponent), base.power_of_ten * exponent,
-          {base.dimension.metre * exponent, base.dimension.kilogram * exponent, base.dimension.second * exponent}};
+  return {std::pow(base.factor, exponent),
+          base.power_of_ten * exponent,
+          {base.dimension.metre * exponent, base.dimension.kilogram * exponent,
+           base.dimension.second * exponent}};
 }
 
 Scale product(const Scale& a, const Scale& b) {
-  return {a.factor * b.factor, a.power_of_ten + b.power_of_ten,
+  return {a.factor * b.factor,
+          a.power_of_ten + b.power_of_ten,
           {a.dimension.metre + b.dimension.metre, a.dimension.kilogram + b.dimension.kilogram,
            a.dimension.second + b.dimension.second}};
 }
@@ -121,7 +133,8 @@ struct UnitReader {
       const std::string_view name = rest.substr(0, length);
       const std::optional<Scale> known = scale_of(name);
       if (!known) {
-        fail(name.empty() ? "has no unit where one is expected" : "has the unknown unit '" + std::string(name) + "'");
+        fail(name.empty() ? "has no unit where one is expected"
+                          : "has the unknown unit '" + std::string(name) + "'");
         return scale;
       }
       scale = *known;
@@ -167,7 +180,8 @@ double decimal(std::string_view digits, int exponent) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   // from_chars leaves the value alone beyond the range of a double.
-  if (error == std::errc::result_out_of_range) return exponent < 0 ? 0.0 : std::numeric_limits<double>::infinity();
+  if (error == std::errc::result_out_of_range)
+    return exponent < 0 ? 0.0 : std::numeric_limits<double>::infinity();
   return value;
 }
 
@@ -212,8 +226,10 @@ std::string plain(std::string digits, int exponent) {
 std::string shifted(double value, int shift) {
   if (value == 0) return std::signbit(value) ? "-0" : "0";
   std::array<char, 40> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::scientific).ptr;
-  const auto [digits, exponent] = split_exponent(std::string_view(buffer.data(), static_cast<std::size_t>(end - buffer.data())));
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::scientific).ptr;
+  const auto [digits, exponent] =
+      split_exponent(std::string_view(buffer.data(), static_cast<std::size_t>(end - buffer.data())));
   return plain(std::string(digits), exponent + shift);
 }
 
@@ -223,7 +239,9 @@ std::optional<std::string> searched(double si, const Scale& scale) {
   for (const double candidate : {value, std::nextafter(value, 1e308), std::nextafter(value, -1e308)})
     for (int precision = 0; precision < 17; ++precision) {
       std::array<char, 40> buffer{};
-      const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), candidate, std::chars_format::scientific, precision).ptr;
+      const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), candidate,
+                                     std::chars_format::scientific, precision)
+                           .ptr;
       const std::string_view text(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
       if (scaled(text, {scale.factor, 0, {}}) != si) continue;
       const auto [digits, exponent] = split_exponent(text);
@@ -267,7 +285,8 @@ ValueOrReason<Quantity> parse_quantity(std::string_view text) {
   if (error == std::errc::invalid_argument) return std::string("does not begin with a number");
   const std::string_view rest(end, static_cast<std::size_t>(number.data() + number.size() - end));
   number = number.substr(0, number.size() - rest.size());
-  if (!std::isfinite(value) || error == std::errc::result_out_of_range) return std::string("is not a finite number");
+  if (!std::isfinite(value) || error == std::errc::result_out_of_range)
+    return std::string("is not a finite number");
   if (rest.starts_with(",")) return std::string("has a comma in the number (the decimal sign is a point)");
   const ValueOrReason<Scale> scale = parse_scale(rest);
   if (const auto* reason = std::get_if<std::string>(&scale)) return *reason;
@@ -282,12 +301,18 @@ std::string describe(const Dimension& dimension) {
     const char* name;
   };
   static constexpr std::array known{
-      Known{{0, 0, 0}, "a pure number"},           Known{{1, 0, 0}, "a length (m)"},
-      Known{{0, 1, 0}, "a mass (kg)"},             Known{{0, 0, 1}, "a time (s)"},
-      Known{{0, 0, -1}, "a frequency (Hz)"},       Known{{1, 0, -1}, "a speed (m/s)"},
-      Known{{1, 0, -2}, "an acceleration (m/s^2)"}, Known{{1, 1, -2}, "a force (N)"},
-      Known{{2, 1, -2}, "an energy (J)"},          Known{{-1, 1, -2}, "a pressure (Pa)"},
-      Known{{0, 1, -1}, "a viscous damping (N s/m)"}, Known{{-1, 1, 0}, "a quadratic drag (N s^2/m^2)"},
+      Known{{0, 0, 0}, "a pure number"},
+      Known{{1, 0, 0}, "a length (m)"},
+      Known{{0, 1, 0}, "a mass (kg)"},
+      Known{{0, 0, 1}, "a time (s)"},
+      Known{{0, 0, -1}, "a frequency (Hz)"},
+      Known{{1, 0, -1}, "a speed (m/s)"},
+      Known{{1, 0, -2}, "an acceleration (m/s^2)"},
+      Known{{1, 1, -2}, "a force (N)"},
+      Known{{2, 1, -2}, "an energy (J)"},
+      Known{{-1, 1, -2}, "a pressure (Pa)"},
+      Known{{0, 1, -1}, "a viscous damping (N s/m)"},
+      Known{{-1, 1, 0}, "a quadratic drag (N s^2/m^2)"},
       Known{{0, 1, -2}, "a stiffness (N/m)"},
   };
   for (const Known& candidate : known)

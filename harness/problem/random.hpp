@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random numbers addressed by (seed, run, stream): no state is shared, so results cannot depend on threads or order.
-// Generator: SplitMix64 (Steele, Lea, Flood 2014), started at a mix of the address. Normal deviates: Box and Muller.
+// Random numbers addressed by (seed, run, stream): no state is shared, so results cannot depend on threads or
+// order. Generator: SplitMix64 (Steele, Lea, Flood 2014), started at a mix of the address. Normal deviates:
+// Box and Muller.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -9,7 +10,15 @@
 namespace shakedown {
 
 /// What a stream of random numbers is for; one each, so that adding a use never shifts another.
-enum class Stream : std::uint64_t { velocities = 1, packing = 2, diameters = 3, camera = 4, bootstrap = 5, hidden = 6, other = 7 };
+enum class Stream : std::uint64_t {
+  velocities = 1,
+  packing = 2,
+  diameters = 3,
+  camera = 4,
+  bootstrap = 5,
+  hidden = 6,
+  other = 7
+};
 
 class Random {
  public:

@@ -11,7 +11,8 @@
 
 namespace shakedown {
 
-/// Where the grains live: a box on a spring (the damper), a box held still at x = 0, or a periodic cell without walls.
+/// Where the grains live: a box on a spring (the damper), a box held still at x = 0, or a periodic cell
+/// without walls.
 enum class Domain { damper, closed, periodic };
 
 /// Arrangement of the grains at release (README, "Packings").
@@ -30,7 +31,8 @@ struct Setup {
     double frequency = 1.23;  ///< Hz, of the EMPTY box: k = M (2 pi f)^2
   } spring;
 
-  /// The steel blade that is the spring; only for the beam formula k = E w h^3 / (4 l^3), never for the dynamics.
+  /// The steel blade that is the spring; only for the beam formula k = E w h^3 / (4 l^3), never for the
+  /// dynamics.
   struct Blade {
     double youngs_modulus = 2.06e11;  ///< Pa
     double width = 0.030;             ///< m
@@ -52,29 +54,33 @@ struct Setup {
   struct Release {
     double displacement = 0.1075;  ///< m, of the box, at rest
     Packing packing = Packing::fcc;
-    std::string initial_grains;    ///< CSV file id,x,y,z,vx,vy,vz; empty: use the packing
-    /// Kinetic energy of the grains as a fraction of the spring energy (damper); ignored when initial_grains is given.
+    std::string initial_grains;  ///< CSV file id,x,y,z,vx,vy,vz; empty: use the packing
+    /// Kinetic energy of the grains as a fraction of the spring energy (damper); ignored when initial_grains
+    /// is given.
     double kinetic_energy_fraction = 2e-5;
-    double grain_speed = 1.0;      ///< m/s, root mean square speed of the grains in domains without a spring
+    double grain_speed = 1.0;  ///< m/s, root mean square speed of the grains in domains without a spring
   } release;
 
   struct Run {
-    double duration = 22;       ///< s
-    double sample_rate = 500;   ///< Hz
+    double duration = 22;      ///< s
+    double sample_rate = 500;  ///< Hz
     std::uint64_t seed = 1;
   } run;
 
   /// Regularisation of inelastic collapse in the event-driven engine (README, "Inelastic collapse").
   struct Hard {
-    double wall_elastic_fraction = 0.02;  ///< end-wall impacts slower than this times the box's current top speed are elastic (paper, Eq. elasticlimit)
+    double wall_elastic_fraction = 0.02;  ///< end-wall impacts slower than this times the box's current top
+                                          ///< speed are elastic (paper, Eq. elasticlimit)
     double pair_elastic_speed = 1e-3;     ///< m/s; grain-grain impacts slower than this are elastic
-    double wall_elastic_speed = 0;        ///< m/s; end- and side-wall impacts slower than this are elastic; raised to 1e-3 where an effect needs it
-    double kick_interval = 2e-3;          ///< s; drag and formulas act on grains in impulses so far apart, second order in it
+    double wall_elastic_speed = 0;  ///< m/s; end- and side-wall impacts slower than this are elastic; raised
+                                    ///< to 1e-3 where an effect needs it
+    double kick_interval =
+        2e-3;  ///< s; drag and formulas act on grains in impulses so far apart, second order in it
   } hard;
 
   struct Soft {
-    double contact_time = 3e-4;    ///< s, half period of the contact oscillator
-    double steps_per_contact = 20; ///< need not be whole
+    double contact_time = 3e-4;     ///< s, half period of the contact oscillator
+    double steps_per_contact = 20;  ///< need not be whole
   } soft;
 
   struct Bullet {

@@ -29,10 +29,12 @@ std::string in_mm(double metres) { return write_quantity(std::round(metres * 1e9
 struct Findings {
   const Setup& setup;
   std::vector<Violation> found;
-  std::set<std::string, std::less<>> bad;  ///< keys that already have a violation: nothing is concluded from them
+  std::set<std::string, std::less<>>
+      bad;  ///< keys that already have a violation: nothing is concluded from them
 
   void add(std::string_view key, std::string problem, std::string remedy) {
-    found.push_back({place_of(setup, std::string(key)), std::string(key), std::move(problem), std::move(remedy)});
+    found.push_back(
+        {place_of(setup, std::string(key)), std::string(key), std::move(problem), std::move(remedy)});
     bad.emplace(key);
   }
   bool sound(std::initializer_list<std::string_view> keys) const {
@@ -47,7 +49,8 @@ void check_bounds(Findings& findings) {
       const std::string problem = out_of_bounds(value, key.low, key.high, key.low_excluded, key.unit);
       if (problem.empty()) continue;
       std::string sentence(key.sentence);
-      findings.add(key.path, problem, "correct the value; the key means: " + sentence.substr(0, sentence.find_last_of('.')));
+      findings.add(key.path, problem,
+                   "correct the value; the key means: " + sentence.substr(0, sentence.find_last_of('.')));
       break;
     }
 }
@@ -64,7 +67,8 @@ void check_parameter(const EffectChoice& choice, const Parameter& parameter, Fin
   for (const double number : numbers) {
     const std::string problem = out_of_bounds(number, parameter.low, parameter.high, false, parameter.unit);
     if (problem.empty()) continue;
-    return findings.add(key, problem, "`shakedown effects " + std::string(choice.record->name) + "` shows the bounds");
+    return findings.add(key, problem,
+                        "`shakedown effects " + std::string(choice.record->name) + "` shows the bounds");
   }
 }
 
@@ -76,24 +80,32 @@ void check_effect(const EffectChoice& choice, Findings& findings) {
   }
   if (!sound || choice.record->check == nullptr) return;
   for (ParameterProblem& wrong : choice.record->check(choice))
-    findings.add(std::string(choice.record->name) + "." + std::string(wrong.parameter), std::move(wrong.problem), std::move(wrong.remedy));
+    findings.add(std::string(choice.record->name) + "." + std::string(wrong.parameter),
+                 std::move(wrong.problem), std::move(wrong.remedy));
 }
 
-/// Two effects that replace the same part of the model, the same effect twice, an effect and the key that it stands for.
+/// Two effects that replace the same part of the model, the same effect twice, an effect and the key that it
+/// stands for.
 void check_claims(Findings& findings) {
   const std::vector<EffectChoice>& effects = findings.setup.effects;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const EffectRecord& record = *effects[i].record;
     const std::string name(record.name), claims(record.claims);
     if (findings.setup.places.contains(claims))
-      findings.found.push_back({effects[i].place, name, "sets what " + claims + text_of(place_of(findings.setup, claims)) + " sets too",
-                                "keep one of the two"});
+      findings.found.push_back(
+          {effects[i].place, name,
+           "sets what " + claims + text_of(place_of(findings.setup, claims)) + " sets too",
+           "keep one of the two"});
     for (std::size_t j = 0; j < i; ++j) {
       if (effects[j].record == &record)
-        findings.found.push_back({effects[i].place, name, "is named twice (first" + text_of(effects[j].place) + ")", "keep one of them"});
+        findings.found.push_back({effects[i].place, name,
+                                  "is named twice (first" + text_of(effects[j].place) + ")",
+                                  "keep one of them"});
       else if (!claims.empty() && effects[j].record->claims == claims)
-        findings.found.push_back({effects[i].place, name, "replaces the " + claims + ", and so does " + std::string(effects[j].record->name) +
-                                                              text_of(effects[j].place), "keep one of the two"});
+        findings.found.push_back({effects[i].place, name,
+                                  "replaces the " + claims + ", and so does " +
+                                      std::string(effects[j].record->name) + text_of(effects[j].place),
+                                  "keep one of the two"});
     }
   }
 }
@@ -110,12 +122,14 @@ void check_room_of_one_grain(Findings& findings) {
   check("box.width", std::min(setup.box.width[0], setup.box.width[1]));
 }
 
-/// The lattice packings answer at once; those that relax random places answer when a run makes its initial state.
+/// The lattice packings answer at once; those that relax random places answer when a run makes its initial
+/// state.
 bool packing_answers_at_once(const Setup& setup) {
   if (setup.grains.count > 100000 || !setup.release.initial_grains.empty()) return false;
   for (const EffectChoice& choice : setup.effects)
     if (choice.record->acts_on == ActsOn::grains) return false;  // another packing or unequal grains
-  return setup.domain != Domain::damper || setup.release.packing == Packing::fcc || setup.release.packing == Packing::square;
+  return setup.domain != Domain::damper || setup.release.packing == Packing::fcc ||
+         setup.release.packing == Packing::square;
 }
 
 void check_room_of_all_grains(Findings& findings) {
@@ -124,8 +138,10 @@ void check_room_of_all_grains(Findings& findings) {
   const double grains = setup.grains.count * std::numbers::pi / 6 * std::pow(setup.grains.diameter, 3);
   const double fraction = grains / (setup.box.length * setup.box.width[0] * setup.box.width[1]);
   if (fraction > std::numbers::pi / std::sqrt(18.0))
-    return findings.add("grains.count", std::to_string(setup.grains.count) + " grains do not fit (they would fill " +
-                                            write_number(std::round(1000 * fraction) / 10) + " % of the box, the densest packing of spheres fills 74 %)",
+    return findings.add("grains.count",
+                        std::to_string(setup.grains.count) + " grains do not fit (they would fill " +
+                            write_number(std::round(1000 * fraction) / 10) +
+                            " % of the box, the densest packing of spheres fills 74 %)",
                         "take fewer or smaller grains, or a larger box");
   if (!packing_answers_at_once(setup)) return;
   try {
@@ -139,23 +155,30 @@ void check_room_of_all_grains(Findings& findings) {
 /// A slip of a unit (kg for g) shows as a grain much heavier than its box.
 void check_masses(Findings& findings) {
   const Setup& setup = findings.setup;
-  if (setup.domain != Domain::damper || setup.grains.count == 0 || !findings.sound({"box.mass", "grains.mass"})) return;
+  if (setup.domain != Domain::damper || setup.grains.count == 0 ||
+      !findings.sound({"box.mass", "grains.mass"}))
+    return;
   if (setup.grains.mass > 100 * setup.box.mass)
-    findings.add("grains.mass", "is " + write_quantity(setup.grains.mass, "g") + ", more than 100 times the box (" +
-                                    write_quantity(setup.box.mass, "g") + ")", "check the units of both masses");
+    findings.add("grains.mass",
+                 "is " + write_quantity(setup.grains.mass, "g") + ", more than 100 times the box (" +
+                     write_quantity(setup.box.mass, "g") + ")",
+                 "check the units of both masses");
 }
 
 /// Series are kept in memory: 5e7 samples of seven numbers are 3 GB.
 void check_samples(Findings& findings) {
   const Setup::Run& run = findings.setup.run;
   if (findings.sound({"run.duration", "run.sample_rate"}) && run.duration * run.sample_rate > 5e7)
-    findings.add("run.sample_rate", "gives " + write_number(std::round(run.duration * run.sample_rate)) + " samples (5e7 are the most)",
-                 "take a shorter run.duration or a lower run.sample_rate");
+    findings.add(
+        "run.sample_rate",
+        "gives " + write_number(std::round(run.duration * run.sample_rate)) + " samples (5e7 are the most)",
+        "take a shorter run.duration or a lower run.sample_rate");
 }
 
 }  // namespace
 
-std::vector<Violation> violations_of(const Setup& setup, const std::set<std::string, std::less<>>& known_bad) {
+std::vector<Violation> violations_of(const Setup& setup,
+                                     const std::set<std::string, std::less<>>& known_bad) {
   Findings findings{setup, {}, known_bad};
   check_bounds(findings);
   for (const EffectChoice& choice : setup.effects) check_effect(choice, findings);

@@ -12,8 +12,9 @@
 
 namespace shakedown {
 
-/// One override of a key from the command line, e.g. box.length="65 mm" (a bare word is taken as a string: box.length=65mm works).
-/// Effects too: grain_friction.grain_wall=0.2 adds or changes that effect, constant_acceleration.acceleration.x=0.1m/s^2.
+/// One override of a key from the command line, e.g. box.length="65 mm" (a bare word is taken as a string:
+/// box.length=65mm works). Effects too: grain_friction.grain_wall=0.2 adds or changes that effect,
+/// constant_acceleration.acceleration.x=0.1m/s^2.
 struct Override {
   std::string key;
   std::string value;
@@ -23,9 +24,9 @@ struct Override {
 /// "key=value" split at the first equals sign; throws InputError without one.
 Override parse_override(std::string_view text, const std::string& origin = "--set");
 
-/// Reads a setup file. `known` are the effects it may name. Throws InputError with every violation at once, FileError when the
-/// file cannot be read. Effects at their neutral value are dropped. Relative initial_grains paths count from the file's folder,
-/// those of overrides from the working folder.
+/// Reads a setup file. `known` are the effects it may name. Throws InputError with every violation at once,
+/// FileError when the file cannot be read. Effects at their neutral value are dropped. Relative
+/// initial_grains paths count from the file's folder, those of overrides from the working folder.
 Setup read_setup(const std::filesystem::path& file, std::span<const EffectRecord* const> known,
                  std::span<const Override> overrides = {});
 
@@ -37,19 +38,23 @@ Setup parse_setup(std::string_view text, const std::string& name, std::span<cons
 std::string write_setup(const Setup& setup);
 
 /// Sets one numeric key in SI, e.g. ("restitution.grain_grain", 0.8), ("grain_friction.grain_wall", 0.2) or
-/// ("constant_acceleration.acceleration.x", 0.1); box.width sets both widths. An effect is added with its defaults when the setup
-/// does not have it yet. Throws InputError for a key that does not exist or is out of bounds.
+/// ("constant_acceleration.acceleration.x", 0.1); box.width sets both widths. An effect is added with its
+/// defaults when the setup does not have it yet. Throws InputError for a key that does not exist or is out of
+/// bounds.
 void set_number(Setup& setup, std::string_view key, double value, std::span<const EffectRecord* const> known);
 
-/// The value of a numeric key in SI; of an effect that the setup does not have: its neutral value, else its default.
+/// The value of a numeric key in SI; of an effect that the setup does not have: its neutral value, else its
+/// default.
 double get_number(const Setup& setup, std::string_view key, std::span<const EffectRecord* const> known = {});
 
-/// Everything wrong with the values of a setup built in code (a mass below zero, more grains than fit ...). Nothing is concluded
-/// from the keys in `known_bad`.
-std::vector<Violation> violations_of(const Setup& setup, const std::set<std::string, std::less<>>& known_bad = {});
+/// Everything wrong with the values of a setup built in code (a mass below zero, more grains than fit ...).
+/// Nothing is concluded from the keys in `known_bad`.
+std::vector<Violation> violations_of(const Setup& setup,
+                                     const std::set<std::string, std::less<>>& known_bad = {});
 
-/// A short stable digest of everything that determines the results of a setup, for caches: 16 hexadecimal digits. Effects at
-/// their neutral value, places and names of files do not count; the contents of a grain file do.
+/// A short stable digest of everything that determines the results of a setup, for caches: 16 hexadecimal
+/// digits. Effects at their neutral value, places and names of files do not count; the contents of a grain
+/// file do.
 std::string digest(const Setup& setup);
 
 }  // namespace shakedown

@@ -25,37 +25,47 @@ using S = Setup;
 const std::vector<SetupKey>& table() {
   static const std::vector<SetupKey> keys{
       {"domain.kind", &domain_field, "", 0, 0, false,
-       "Where the grains live: a box on a spring (damper), a box held still (closed), or a cell without walls (periodic)."},
+       "Where the grains live: a box on a spring (damper), a box held still (closed), or a cell without "
+       "walls (periodic)."},
       {"box.mass", &field<&S::box, &S::Box::mass>, "g", 0, infinity, true, "Mass of the box without grains."},
-      {"box.length", &field<&S::box, &S::Box::length>, "mm", 0, infinity, true, "Inner length along the motion."},
-      {"box.width", &field<&S::box, &S::Box::width>, "mm", 0, infinity, true, "Inner widths across, along y and z."},
+      {"box.length", &field<&S::box, &S::Box::length>, "mm", 0, infinity, true,
+       "Inner length along the motion."},
+      {"box.width", &field<&S::box, &S::Box::width>, "mm", 0, infinity, true,
+       "Inner widths across, along y and z."},
       {"spring.frequency", &field<&S::spring, &S::Spring::frequency>, "Hz", 0, infinity, true,
        "Frequency of the empty box; the spring constant is M (2 pi f)^2."},
       {"blade.youngs_modulus", &field<&S::blade, &S::Blade::youngs_modulus>, "GPa", 0, infinity, true,
-       "Young's modulus of the blade; only for the beam formula that is reported beside the spring constant used."},
-      {"blade.width", &field<&S::blade, &S::Blade::width>, "mm", 0, infinity, true, "Width of the blade; beam formula only."},
+       "Young's modulus of the blade; only for the beam formula that is reported beside the spring constant "
+       "used."},
+      {"blade.width", &field<&S::blade, &S::Blade::width>, "mm", 0, infinity, true,
+       "Width of the blade; beam formula only."},
       {"blade.thickness", &field<&S::blade, &S::Blade::thickness>, "mm", 0, infinity, true,
        "Thickness of the blade; beam formula only."},
       {"blade.length", &field<&S::blade, &S::Blade::length>, "mm", 0, infinity, true,
        "Free length of the blade; beam formula only."},
-      {"grains.count", &field<&S::grains, &S::Grains::count>, "", 0, 1e8, false, "Number of grains; 0 is the empty box."},
-      {"grains.diameter", &field<&S::grains, &S::Grains::diameter>, "mm", 0, infinity, true, "Diameter of a grain."},
+      {"grains.count", &field<&S::grains, &S::Grains::count>, "", 0, 1e8, false,
+       "Number of grains; 0 is the empty box."},
+      {"grains.diameter", &field<&S::grains, &S::Grains::diameter>, "mm", 0, infinity, true,
+       "Diameter of a grain."},
       {"grains.mass", &field<&S::grains, &S::Grains::mass>, "g", 0, infinity, true, "Mass of a grain."},
       {"restitution.grain_grain", &field<&S::restitution, &S::Restitution::grain_grain>, "", 0, 1, false,
        "Coefficient of normal restitution between grains."},
       {"restitution.grain_wall", &field<&S::restitution, &S::Restitution::grain_wall>, "", 0, 1, false,
        "Coefficient of normal restitution of a grain and the box, end walls and side walls."},
-      {"release.displacement", &field<&S::release, &S::Release::displacement>, "mm", -infinity, infinity, false,
-       "Displacement at which the box is released at rest."},
-      {"release.packing", &field<&S::release, &S::Release::packing>, "", 0, 0, false, "Arrangement of the grains at release."},
+      {"release.displacement", &field<&S::release, &S::Release::displacement>, "mm", -infinity, infinity,
+       false, "Displacement at which the box is released at rest."},
+      {"release.packing", &field<&S::release, &S::Release::packing>, "", 0, 0, false,
+       "Arrangement of the grains at release."},
       {"release.initial_grains", &field<&S::release, &S::Release::initial_grains>, "", 0, 0, false,
-       "CSV file id,x,y,z,vx,vy,vz of the grains at release, m and m/s, instead of a packing; relative to the setup file."},
-      {"release.kinetic_energy_fraction", &field<&S::release, &S::Release::kinetic_energy_fraction>, "", 0, 1, false,
-       "Kinetic energy of the grains at release as a fraction of the spring's energy (damper)."},
+       "CSV file id,x,y,z,vx,vy,vz of the grains at release, m and m/s, instead of a packing; relative to "
+       "the setup file."},
+      {"release.kinetic_energy_fraction", &field<&S::release, &S::Release::kinetic_energy_fraction>, "", 0, 1,
+       false, "Kinetic energy of the grains at release as a fraction of the spring's energy (damper)."},
       {"release.grain_speed", &field<&S::release, &S::Release::grain_speed>, "m/s", 0, infinity, false,
        "Root mean square speed of the grains at release in domains without a spring."},
       {"run.duration", &field<&S::run, &S::Run::duration>, "s", 0, infinity, true, "Simulated time."},
-      {"run.sample_rate", &field<&S::run, &S::Run::sample_rate>, "Hz", 0, infinity, true, "Samples recorded per second."},
+      {"run.sample_rate", &field<&S::run, &S::Run::sample_rate>, "Hz", 0, infinity, true,
+       "Samples recorded per second."},
       {"run.seed", &field<&S::run, &S::Run::seed>, "", 0, largest_seed, false, "Seed of all random numbers."},
       {"hard.wall_elastic_fraction", &field<&S::hard, &S::Hard::wall_elastic_fraction>, "", 0, 1, false,
        "End-wall impacts slower than this times the box's current top speed are elastic."},
@@ -71,7 +81,8 @@ const std::vector<SetupKey>& table() {
        "Time steps within the contact time; need not be whole."},
       {"bullet.defaults", &field<&S::bullet, &S::Bullet::defaults>, "", 0, 0, false,
        "Leave Bullet's solver untouched, to show what that does."},
-      {"bullet.time_step", &field<&S::bullet, &S::Bullet::time_step>, "ms", 0, infinity, true, "Time step of Bullet's solver."},
+      {"bullet.time_step", &field<&S::bullet, &S::Bullet::time_step>, "ms", 0, infinity, true,
+       "Time step of Bullet's solver."},
   };
   return keys;
 }
@@ -104,18 +115,24 @@ std::span<const std::string_view> choices_of(const SetupKey& key) {
 }
 
 bool is_numeric(const SetupKey& key) {
-  return std::holds_alternative<Field<double>>(key.field) || std::holds_alternative<Field<std::array<double, 2>>>(key.field) ||
-         std::holds_alternative<Field<int>>(key.field) || std::holds_alternative<Field<std::uint64_t>>(key.field);
+  return std::holds_alternative<Field<double>>(key.field) ||
+         std::holds_alternative<Field<std::array<double, 2>>>(key.field) ||
+         std::holds_alternative<Field<int>>(key.field) ||
+         std::holds_alternative<Field<std::uint64_t>>(key.field);
 }
 
 std::vector<double> numbers_of(const SetupKey& key, const Setup& setup) {
-  Setup& readable = const_cast<Setup&>(setup);  // one accessor for reading and writing; nothing is written here
-  return std::visit(Overloaded{[&](Field<double> f) { return std::vector{f(readable)}; },
-                               [&](Field<std::array<double, 2>> f) { return std::vector{f(readable)[0], f(readable)[1]}; },
-                               [&](Field<int> f) { return std::vector{static_cast<double>(f(readable))}; },
-                               [&](Field<std::uint64_t> f) { return std::vector{static_cast<double>(f(readable))}; },
-                               [](auto) { return std::vector<double>{}; }},
-                    key.field);
+  // one accessor for reading and writing; nothing is written here
+  Setup& readable = const_cast<Setup&>(setup);
+  return std::visit(
+      Overloaded{[&](Field<double> f) { return std::vector{f(readable)}; },
+                 [&](Field<std::array<double, 2>> f) {
+                   return std::vector{f(readable)[0], f(readable)[1]};
+                 },
+                 [&](Field<int> f) { return std::vector{static_cast<double>(f(readable))}; },
+                 [&](Field<std::uint64_t> f) { return std::vector{static_cast<double>(f(readable))}; },
+                 [](auto) { return std::vector<double>{}; }},
+      key.field);
 }
 
 std::string toml_of(double si, std::string_view unit) {
@@ -124,18 +141,18 @@ std::string toml_of(double si, std::string_view unit) {
 
 std::string toml_of(const SetupKey& key, const Setup& setup) {
   Setup& readable = const_cast<Setup&>(setup);
-  return std::visit(
-      Overloaded{[&](Field<double> f) { return toml_of(f(readable), key.unit); },
-                 [&](Field<std::array<double, 2>> f) {
-                   return "[" + toml_of(f(readable)[0], key.unit) + ", " + toml_of(f(readable)[1], key.unit) + "]";
-                 },
-                 [&](Field<int> f) { return std::to_string(f(readable)); },
-                 [&](Field<std::uint64_t> f) { return std::to_string(f(readable)); },
-                 [&](Field<bool> f) { return std::string(f(readable) ? "true" : "false"); },
-                 [&](Field<std::string> f) { return toml_string(f(readable)); },
-                 [&](Field<Domain> f) { return toml_string(name_of(f(readable))); },
-                 [&](Field<Packing> f) { return toml_string(name_of(f(readable))); }},
-      key.field);
+  return std::visit(Overloaded{[&](Field<double> f) { return toml_of(f(readable), key.unit); },
+                               [&](Field<std::array<double, 2>> f) {
+                                 return "[" + toml_of(f(readable)[0], key.unit) + ", " +
+                                        toml_of(f(readable)[1], key.unit) + "]";
+                               },
+                               [&](Field<int> f) { return std::to_string(f(readable)); },
+                               [&](Field<std::uint64_t> f) { return std::to_string(f(readable)); },
+                               [&](Field<bool> f) { return std::string(f(readable) ? "true" : "false"); },
+                               [&](Field<std::string> f) { return toml_string(f(readable)); },
+                               [&](Field<Domain> f) { return toml_string(name_of(f(readable))); },
+                               [&](Field<Packing> f) { return toml_string(name_of(f(readable))); }},
+                    key.field);
 }
 
 }  // namespace shakedown

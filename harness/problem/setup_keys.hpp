@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one table of the setup's keys: reading, writing, overrides, bounds, JSON schema and documentation come from it.
+// The one table of the setup's keys: reading, writing, overrides, bounds, JSON schema and documentation come
+// from it.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,8 +13,10 @@
 
 namespace shakedown {
 
-constexpr std::array<std::string_view, 3> domain_names{"damper", "closed", "periodic"};   ///< by value of Domain
-constexpr std::array<std::string_view, 4> packing_names{"fcc", "square", "random", "spread"};  ///< by value of Packing
+constexpr std::array<std::string_view, 3> domain_names{"damper", "closed",
+                                                       "periodic"};  ///< by value of Domain
+constexpr std::array<std::string_view, 4> packing_names{"fcc", "square", "random",
+                                                        "spread"};  ///< by value of Packing
 inline std::string_view name_of(Domain domain) { return domain_names[static_cast<std::size_t>(domain)]; }
 inline std::string_view name_of(Packing packing) { return packing_names[static_cast<std::size_t>(packing)]; }
 /// Throws nothing: `name` must be one of packing_names (EXPECT).
@@ -23,15 +26,16 @@ template <class T>
 using Field = T& (*)(Setup&);
 
 /// Where a key's value lives; its type says how it is written in a file.
-using SetupField = std::variant<Field<double>, Field<std::array<double, 2>>, Field<int>, Field<std::uint64_t>, Field<bool>,
-                                Field<std::string>, Field<Domain>, Field<Packing>>;
+using SetupField = std::variant<Field<double>, Field<std::array<double, 2>>, Field<int>, Field<std::uint64_t>,
+                                Field<bool>, Field<std::string>, Field<Domain>, Field<Packing>>;
 
 struct SetupKey {
-  std::string_view path;       ///< "box.mass"
+  std::string_view path;  ///< "box.mass"
   SetupField field;
-  std::string_view unit;       ///< in which people read and write it, e.g. "mm"; empty: none. The setup itself holds SI.
-  double low, high;            ///< bounds of a numeric value, SI
-  bool low_excluded = false;   ///< must be greater than `low`, not equal
+  std::string_view
+      unit;  ///< in which people read and write it, e.g. "mm"; empty: none. The setup itself holds SI.
+  double low, high;           ///< bounds of a numeric value, SI
+  bool low_excluded = false;  ///< must be greater than `low`, not equal
   std::string_view sentence;
 
   std::string_view section() const { return path.substr(0, path.find('.')); }

@@ -48,7 +48,8 @@ const EffectRecord* record_named(const Setup& setup, std::string_view name, Know
   const std::vector<std::string_view> candidates(paths.begin(), paths.end());
   const std::string_view near = nearest(key, candidates);
   refuse(key, "is not a numeric key of a setup or of an effect",
-         near.empty() ? "`shakedown schema` lists the keys, `shakedown effects` the effects" : "did you mean " + std::string(near) + "?");
+         near.empty() ? "`shakedown schema` lists the keys, `shakedown effects` the effects"
+                      : "did you mean " + std::string(near) + "?");
 }
 
 EffectPath effect_path(const Setup& setup, std::string_view key, Known known) {
@@ -58,7 +59,8 @@ EffectPath effect_path(const Setup& setup, std::string_view key, Known known) {
   path.record = record_named(setup, key.substr(0, dot), known);
   std::string_view parameter = key.substr(dot + 1);
   if (path.record != nullptr) path.parameter = path.record->find(parameter);
-  if (path.record != nullptr && path.parameter == nullptr && parameter.size() > 2 && parameter[parameter.size() - 2] == '.') {
+  if (path.record != nullptr && path.parameter == nullptr && parameter.size() > 2 &&
+      parameter[parameter.size() - 2] == '.') {
     const char axis = parameter.back();
     path.axis = axis >= 'x' && axis <= 'z' ? axis - 'x' : -1;
     path.parameter = path.record->find(parameter.substr(0, parameter.size() - 2));
@@ -72,7 +74,8 @@ EffectPath effect_path(const Setup& setup, std::string_view key, Known known) {
   return path;
 }
 
-void check(std::string_view key, double value, double low, double high, bool low_excluded, std::string_view unit) {
+void check(std::string_view key, double value, double low, double high, bool low_excluded,
+           std::string_view unit) {
   const std::string problem = out_of_bounds(value, low, high, low_excluded, unit);
   if (!problem.empty()) refuse(key, problem, "choose a value within the bounds");
 }
@@ -110,7 +113,8 @@ void set_number(Setup& setup, std::string_view key, double value, Known known) {
   check(key, value, path.parameter->low, path.parameter->high, false, path.parameter->unit);
   auto choice = std::find_if(setup.effects.begin(), setup.effects.end(),
                              [&](const EffectChoice& candidate) { return candidate.record == path.record; });
-  if (choice == setup.effects.end()) choice = setup.effects.insert(setup.effects.end(), with_defaults(*path.record));
+  if (choice == setup.effects.end())
+    choice = setup.effects.insert(setup.effects.end(), with_defaults(*path.record));
   ParameterValue& stored = choice->values.find(path.parameter->name)->second;
   (path.axis < 0 ? std::get<double>(stored) : std::get<Vec3>(stored)[path.axis]) = value;
 }
@@ -122,8 +126,10 @@ double get_number(const Setup& setup, std::string_view key, Known known) {
   }
   const EffectPath path = effect_path(setup, key, known);
   for (const EffectChoice& choice : setup.effects)
-    if (choice.record == path.record) return component_of(choice.values.find(path.parameter->name)->second, path.axis);
-  return std::isnan(path.parameter->neutral) ? component_of(path.parameter->default_value, path.axis) : path.parameter->neutral;
+    if (choice.record == path.record)
+      return component_of(choice.values.find(path.parameter->name)->second, path.axis);
+  return std::isnan(path.parameter->neutral) ? component_of(path.parameter->default_value, path.axis)
+                                             : path.parameter->neutral;
 }
 
 }  // namespace shakedown

@@ -41,9 +41,11 @@ std::vector<std::string_view> keys_of_section(std::string_view section) {
 }
 
 /// "did you mean ...?" and what is known.
-std::string remedy_for(std::string_view word, std::span<const std::string_view> candidates, const std::string& what) {
+std::string remedy_for(std::string_view word, std::span<const std::string_view> candidates,
+                       const std::string& what) {
   const std::string_view near = nearest(word, candidates);
-  return (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") + what + ": " + listed(candidates);
+  return (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") + what + ": " +
+         listed(candidates);
 }
 
 // ---- overrides: written into the tree before anything is read, so that one reader judges both ----
@@ -83,7 +85,8 @@ TomlValue& as_table(TomlValue& value, const SourcePlace& place) {
 /// The table of an effect in the list `effect`, made when it is not there.
 TomlValue& effect_table(TomlValue& root, std::string_view name, const SourcePlace& place) {
   TomlValue& list = entry_of(root, "effect", place).value;
-  if (list.kind != TomlValue::Kind::array && list.place.line > 0) return list;  // [effect] in the file: the reader reports it
+  // [effect] in the file: the reader reports it
+  if (list.kind != TomlValue::Kind::array && list.place.line > 0) return list;
   list.kind = TomlValue::Kind::array;
   for (TomlValue& item : list.items)
     if (const TomlValue* found = item.find("name"); found != nullptr && found->text == name) return item;
@@ -97,7 +100,8 @@ TomlValue& effect_table(TomlValue& root, std::string_view name, const SourcePlac
 
 /// The component of an array that .x, .y or .z names, or nullptr.
 TomlValue* component(TomlValue& array, std::string_view axis) {
-  if (array.kind != TomlValue::Kind::array || axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z') return nullptr;
+  if (array.kind != TomlValue::Kind::array || axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z')
+    return nullptr;
   const std::size_t index = static_cast<std::size_t>(axis[0] - 'x');
   return index < array.items.size() ? &array.items[index] : nullptr;
 }
@@ -119,7 +123,8 @@ void write_override(TomlValue& root, const Override& override, Known known) {
   };
   std::string_view word = next_word();
   if (path.empty()) return set(entry_of(root, word, place), std::move(value));
-  TomlValue* table = record_of(known, word) ? &effect_table(root, word, place) : &as_table(entry_of(root, word, place).value, place);
+  TomlValue* table = record_of(known, word) ? &effect_table(root, word, place)
+                                            : &as_table(entry_of(root, word, place).value, place);
   for (word = next_word(); !path.empty(); word = next_word()) {
     TomlEntry& deeper = entry_of(*table, word, place);
     if (TomlValue* axis = component(deeper.value, path)) {
@@ -161,18 +166,24 @@ struct Reader {
   /// ["50 mm", "60 mm"], or one width for both.
   void read_field(const SetupKey& key, Field<std::array<double, 2>> field, const TomlValue& value) {
     if (value.kind != TomlValue::Kind::array)
-      return take(number_in(value, key.unit), value, key.path, [&](double number) { field(setup) = {number, number}; });
+      return take(number_in(value, key.unit), value, key.path, [&](double number) {
+        field(setup) = {number, number};
+      });
     if (value.items.size() != 2)
-      return add(value.place, std::string(key.path), "has " + std::to_string(value.items.size()) + " values (two are expected)",
+      return add(value.place, std::string(key.path),
+                 "has " + std::to_string(value.items.size()) + " values (two are expected)",
                  "write both, e.g. [\"50 mm\", \"50 mm\"]");
     for (std::size_t i = 0; i < 2; ++i)
-      take(number_in(value.items[i], key.unit), value.items[i], key.path, [&](double number) { field(setup)[i] = number; });
+      take(number_in(value.items[i], key.unit), value.items[i], key.path,
+           [&](double number) { field(setup)[i] = number; });
   }
   void read_field(const SetupKey& key, Field<int> field, const TomlValue& value) {
-    take(count_in(value, key.high), value, key.path, [&](std::int64_t count) { field(setup) = static_cast<int>(count); });
+    take(count_in(value, key.high), value, key.path,
+         [&](std::int64_t count) { field(setup) = static_cast<int>(count); });
   }
   void read_field(const SetupKey& key, Field<std::uint64_t> field, const TomlValue& value) {
-    take(count_in(value, key.high), value, key.path, [&](std::int64_t count) { field(setup) = static_cast<std::uint64_t>(count); });
+    take(count_in(value, key.high), value, key.path,
+         [&](std::int64_t count) { field(setup) = static_cast<std::uint64_t>(count); });
   }
   void read_field(const SetupKey& key, Field<bool> field, const TomlValue& value) {
     take(boolean_in(value), value, key.path, [&](bool given) { field(setup) = given; });
@@ -188,14 +199,16 @@ struct Reader {
   void read_field(const SetupKey& key, Field<Enumeration> field, const TomlValue& value) {
     const auto choices = choices_of(key);
     take(choice_in(value, choices), value, key.path, [&](const std::string& word) {
-      field(setup) = static_cast<Enumeration>(std::find(choices.begin(), choices.end(), word) - choices.begin());
+      field(setup) =
+          static_cast<Enumeration>(std::find(choices.begin(), choices.end(), word) - choices.begin());
     });
   }
 
   void unknown_key(const TomlEntry& section, const TomlEntry& entry) {
     std::string remedy;
     for (const SetupKey& key : setup_keys())
-      if (key.name() == entry.key) remedy += (remedy.empty() ? "did you mean " : " or ") + std::string(key.path);
+      if (key.name() == entry.key)
+        remedy += (remedy.empty() ? "did you mean " : " or ") + std::string(key.path);
     if (!remedy.empty()) remedy += "? ";
     const auto names = keys_of_section(section.key);
     add(entry.place, section.key + "." + entry.key, "is not a key of a setup (the section has no such key)",
@@ -207,10 +220,12 @@ struct Reader {
     if (std::find(names.begin(), names.end(), section.key) == names.end()) {
       const bool effect = record_of(known, section.key) != nullptr;
       return add(section.place, section.key, "is not a section of a setup",
-                 effect ? "write [[effect]] and name = " + toml_string(section.key) : remedy_for(section.key, names, "sections"));
+                 effect ? "write [[effect]] and name = " + toml_string(section.key)
+                        : remedy_for(section.key, names, "sections"));
     }
     if (section.value.kind != TomlValue::Kind::table)
-      return add(section.place, section.key, "is " + std::string(describe(section.value.kind)) + " (a section is expected)",
+      return add(section.place, section.key,
+                 "is " + std::string(describe(section.value.kind)) + " (a section is expected)",
                  "write [" + section.key + "] and its keys below");
     for (const TomlEntry& entry : section.value.entries) {
       const SetupKey* key = find_setup_key(section.key + "." + entry.key);
@@ -232,7 +247,8 @@ struct Reader {
       const std::string path = std::string(record.name) + "." + entry.key;
       const Parameter* parameter = record.find(entry.key);
       if (parameter == nullptr) {
-        add(entry.place, path, "is not a parameter of this effect", remedy_for(entry.key, names, "its parameters"));
+        add(entry.place, path, "is not a parameter of this effect",
+            remedy_for(entry.key, names, "its parameters"));
         continue;
       }
       setup.places[path] = entry.value.place;
@@ -241,18 +257,22 @@ struct Reader {
     }
     for (const Parameter& parameter : record.parameters)
       if (parameter.required && table.find(parameter.name) == nullptr)
-        add(choice.place, std::string(record.name) + "." + std::string(parameter.name), "is missing (the effect has no strength without it)",
-            parameter.unit.empty() ? "add it" : "add it, e.g. " + std::string(parameter.name) + " = \"" +
-                                                    write_quantity(parameter.typical, parameter.unit) + "\"");
+        add(choice.place, std::string(record.name) + "." + std::string(parameter.name),
+            "is missing (the effect has no strength without it)",
+            parameter.unit.empty() ? "add it"
+                                   : "add it, e.g. " + std::string(parameter.name) + " = \"" +
+                                         write_quantity(parameter.typical, parameter.unit) + "\"");
   }
 
   void read_effect(const TomlValue& table) {
     const TomlValue* name = table.kind == TomlValue::Kind::table ? table.find("name") : nullptr;
     if (name == nullptr || name->kind != TomlValue::Kind::text)
-      return add(table.place, "effect", "has no name", "write name = \"...\"; `shakedown effects` lists the names");
+      return add(table.place, "effect", "has no name",
+                 "write name = \"...\"; `shakedown effects` lists the names");
     const EffectRecord* record = record_of(known, name->text);
     if (record == nullptr)
-      return add(name->place, "effect.name", toml_string(name->text) + " is not an effect", remedy_for(name->text, names_of(known), "effects"));
+      return add(name->place, "effect.name", toml_string(name->text) + " is not an effect",
+                 remedy_for(name->text, names_of(known), "effects"));
     EffectChoice choice = with_defaults(*record);
     choice.place = name->place;
     read_parameters(table, choice);
@@ -261,13 +281,15 @@ struct Reader {
 
   void read_effects(const TomlEntry& entry) {
     if (entry.value.kind != TomlValue::Kind::array)
-      return add(entry.place, "effect", "is " + std::string(describe(entry.value.kind)) + " (a list of effects is expected)",
+      return add(entry.place, "effect",
+                 "is " + std::string(describe(entry.value.kind)) + " (a list of effects is expected)",
                  "write [[effect]] with double brackets for each effect");
     for (const TomlValue& table : entry.value.items) read_effect(table);
   }
 
   void read_all(const TomlValue& root) {
-    for (const TomlEntry& entry : root.entries) entry.key == "effect" ? read_effects(entry) : read_section(entry);
+    for (const TomlEntry& entry : root.entries)
+      entry.key == "effect" ? read_effects(entry) : read_section(entry);
   }
 
   /// Adds what is wrong with the values that could be read.
@@ -287,7 +309,10 @@ struct Reader {
 Override parse_override(std::string_view text, const std::string& origin) {
   const std::size_t equals = text.find('=');
   if (equals == text.npos || equals == 0)
-    throw InputError({{{origin, 0, 0}, "", toml_string(text) + " does not set a key", "write it as key=value, e.g. box.length=65mm"}});
+    throw InputError({{{origin, 0, 0},
+                       "",
+                       toml_string(text) + " does not set a key",
+                       "write it as key=value, e.g. box.length=65mm"}});
   const auto trimmed = [](std::string_view part) {
     while (part.starts_with(' ')) part.remove_prefix(1);
     while (part.ends_with(' ')) part.remove_suffix(1);
@@ -296,8 +321,8 @@ Override parse_override(std::string_view text, const std::string& origin) {
   return {trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1)), origin};
 }
 
-Setup parse_setup(std::string_view text, const std::string& name, Known known, std::span<const Override> overrides,
-                  const std::filesystem::path& folder) {
+Setup parse_setup(std::string_view text, const std::string& name, Known known,
+                  std::span<const Override> overrides, const std::filesystem::path& folder) {
   TomlValue root = parse_toml(text, name);
   for (const Override& override : overrides) write_override(root, override, known);
   Reader reader{known, folder};

@@ -14,7 +14,8 @@ namespace shakedown {
 namespace {
 
 std::string toml_of_vector(const Vec3& value, std::string_view unit) {
-  return "[" + toml_of(value.x(), unit) + ", " + toml_of(value.y(), unit) + ", " + toml_of(value.z(), unit) + "]";
+  return "[" + toml_of(value.x(), unit) + ", " + toml_of(value.y(), unit) + ", " + toml_of(value.z(), unit) +
+         "]";
 }
 
 /// Constants are written in SI as bare numbers: what unit they had does not matter to the formula.

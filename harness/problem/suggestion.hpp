@@ -6,7 +6,8 @@
 
 namespace shakedown {
 
-/// Smallest number of insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
+/// Smallest number of insertions, deletions, replacements and swaps of neighbours that turn one word into the
+/// other.
 int edit_distance(std::string_view a, std::string_view b);
 
 /// The candidate nearest to a misspelt word, or "" when none is near.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "toml_document.hpp"
 
-// toml++ 3.3 asserts on some damaged files, "[[[1]]]" for one (its pull request 301), instead of reporting them; without assertions
-// the same places are undefined behaviour. So assertions stay on in every build, and throw.
+// toml++ 3.3 asserts on some damaged files, "[[[1]]]" for one (its pull request 301), instead of reporting
+// them; without assertions the same places are undefined behaviour. So assertions stay on in every build, and
+// throw.
 namespace {
 struct TomlAssertion {};
 [[noreturn]] void toml_assertion_failed() { throw TomlAssertion{}; }
@@ -82,7 +83,8 @@ int line_of_assertion(std::string_view text) {
   return line;
 }
 
-constexpr const char* syntax_remedy = "correct the syntax: a text stands in quotation marks, every key once, one key = value a line";
+constexpr const char* syntax_remedy =
+    "correct the syntax: a text stands in quotation marks, every key once, one key = value a line";
 
 }  // namespace
 
@@ -109,33 +111,41 @@ TomlValue parse_toml(std::string_view text, const std::string& name) {
   try {
     return converted(toml::parse(text, name), name);
   } catch (const toml::parse_error& error) {
-    throw InputError({{place_of(error.source(), name), "", "is not TOML (" + std::string(error.description()) + ")", syntax_remedy}});
+    throw InputError({{place_of(error.source(), name), "",
+                       "is not TOML (" + std::string(error.description()) + ")", syntax_remedy}});
   } catch (const TomlAssertion&) {
-    throw InputError({{{name, line_of_assertion(text), 1}, "", "is not TOML (the line cannot be read)", syntax_remedy}});
+    throw InputError(
+        {{{name, line_of_assertion(text), 1}, "", "is not TOML (the line cannot be read)", syntax_remedy}});
   }
 }
 
 std::string read_text_file(const std::filesystem::path& file) {
   std::error_code error;
-  if (std::filesystem::is_directory(file, error)) throw FileError(file.string() + ": is a folder, not a file; name the file in it");
+  if (std::filesystem::is_directory(file, error))
+    throw FileError(file.string() + ": is a folder, not a file; name the file in it");
   std::ifstream input(file, std::ios::binary);
   std::ostringstream text;
   if (input) text << input.rdbuf();
   if (!input || input.bad())
-    throw FileError(file.string() + ": cannot be read (" + std::strerror(errno) + "); check the path and its permissions");
+    throw FileError(file.string() + ": cannot be read (" + std::strerror(errno) +
+                    "); check the path and its permissions");
   return text.str();
 }
 
 std::string toml_string(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
-    if (c == '"' || c == '\\') (result += '\\') += c;
-    else if (c == '\n') result += "\\n";
-    else if (c == '\t') result += "\\t";
+    if (c == '"' || c == '\\')
+      (result += '\\') += c;
+    else if (c == '\n')
+      result += "\\n";
+    else if (c == '\t')
+      result += "\\t";
     else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
       constexpr std::string_view hex = "0123456789ABCDEF";
       ((result += "\\u00") += hex[static_cast<unsigned char>(c) >> 4]) += hex[c & 15];
-    } else result += c;
+    } else
+      result += c;
   }
   return result + '"';
 }

@@ -16,9 +16,9 @@ struct TomlEntry;
 struct TomlValue {
   enum class Kind { text, integer, number, boolean, date, array, table };
   Kind kind = Kind::table;
-  std::string text;          ///< of a text, or of a date as written
+  std::string text;  ///< of a text, or of a date as written
   std::int64_t integer = 0;
-  double number = 0;         ///< of an integer too
+  double number = 0;  ///< of an integer too
   bool boolean = false;
   std::vector<TomlValue> items;
   std::vector<TomlEntry> entries;  ///< in the order of the file

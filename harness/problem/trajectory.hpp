@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an engine gives back: the sampled motion, where the energy went, and how well the engine kept its promises.
+// What an engine gives back: the sampled motion, where the energy went, and how well the engine kept its
+// promises.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -20,13 +21,13 @@ struct Ledger {
 
 /// How well an engine kept its promises; every result carries it and every report shows it.
 struct Health {
-  double deepest_overlap = 0;       ///< m, positive when surfaces interpenetrate (soft engines: by design)
-  double ledger_error = 0;          ///< max |energy + losses - E0| / E0
-  double momentum_error = 0;        ///< max |momentum - outer impulse| / (M Omega Delta0)
-  std::int64_t elastic_rescues = 0; ///< impacts made elastic by the regularisation of inelastic collapse
+  double deepest_overlap = 0;        ///< m, positive when surfaces interpenetrate (soft engines: by design)
+  double ledger_error = 0;           ///< max |energy + losses - E0| / E0
+  double momentum_error = 0;         ///< max |momentum - outer impulse| / (M Omega Delta0)
+  std::int64_t elastic_rescues = 0;  ///< impacts made elastic by the regularisation of inelastic collapse
   std::int64_t elastic_pair_rescues = 0;  ///< those of them between grains
-  std::int64_t refused_events = 0;  ///< predicted events that turned out receding and were not executed
-  std::vector<std::string> notes;   ///< what is not exact, in words
+  std::int64_t refused_events = 0;        ///< predicted events that turned out receding and were not executed
+  std::vector<std::string> notes;         ///< what is not exact, in words
 };
 
 struct Trajectory {
@@ -42,13 +43,14 @@ struct Trajectory {
   double initial_energy = 0;  ///< J, E0
   Ledger ledger;              ///< at the end
   std::array<std::int64_t, contact_classes> collisions{};
-  std::int64_t events = 0;    ///< everything taken from the queue (hard), steps (soft)
-  double wall_seconds = 0;    ///< time spent in the engine
-  double end_time = 0;        ///< s; less than the duration when interrupted
+  std::int64_t events = 0;  ///< everything taken from the queue (hard), steps (soft)
+  double wall_seconds = 0;  ///< time spent in the engine
+  double end_time = 0;      ///< s; less than the duration when interrupted
   bool interrupted = false;
-  State end_state;           ///< of box and grains where the engine stopped
+  State end_state;  ///< of box and grains where the engine stopped
   Health health;
-  std::shared_ptr<const CollisionLog> collision_log;  ///< where it was asked for and the engine has collisions; else empty
+  std::shared_ptr<const CollisionLog>
+      collision_log;  ///< where it was asked for and the engine has collisions; else empty
 };
 
 }  // namespace shakedown

@@ -25,30 +25,35 @@ std::string example(std::string_view unit) {
 
 ValueOrProblem<double> quantity_in(const std::string& text, std::string_view unit) {
   const ValueOrReason<Quantity> parsed = parse_quantity(text);
-  if (const auto* reason = std::get_if<std::string>(&parsed)) return Problem{toml_string(text) + " " + *reason, example(unit)};
+  if (const auto* reason = std::get_if<std::string>(&parsed))
+    return Problem{toml_string(text) + " " + *reason, example(unit)};
   const Quantity& quantity = std::get<Quantity>(parsed);
   const Dimension wanted = unit_of(unit).dimension;
   if (quantity.dimension == wanted) return quantity.si;
   if (quantity.dimension == Dimension{})
     return Problem{toml_string(text) + " has no unit (" + describe(wanted) + " is expected)", example(unit)};
-  return Problem{toml_string(text) + " has the wrong unit (it is " + describe(quantity.dimension) + ", " + describe(wanted) + " is expected)",
+  return Problem{toml_string(text) + " has the wrong unit (it is " + describe(quantity.dimension) + ", " +
+                     describe(wanted) + " is expected)",
                  example(unit)};
 }
 
 Problem wrong_kind(const TomlValue& value, std::string_view wanted, std::string remedy) {
-  return {"is " + std::string(describe(value.kind)) + " (" + std::string(wanted) + " is expected)", std::move(remedy)};
+  return {"is " + std::string(describe(value.kind)) + " (" + std::string(wanted) + " is expected)",
+          std::move(remedy)};
 }
 
 const TomlValue* component(const TomlValue& value, int axis) {
   constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
   if (value.kind == TomlValue::Kind::array)
-    return static_cast<std::size_t>(axis) < value.items.size() ? &value.items[static_cast<std::size_t>(axis)] : nullptr;
+    return static_cast<std::size_t>(axis) < value.items.size() ? &value.items[static_cast<std::size_t>(axis)]
+                                                               : nullptr;
   return value.find(axes[static_cast<std::size_t>(axis)]);
 }
 
 ValueOrProblem<ParameterValue> vector_in(const TomlValue& value, std::string_view unit) {
   const std::string one = unit.empty() ? "0.1" : "\"0.1 " + std::string(unit) + "\"";
-  const std::string remedy = "write [" + one + ", " + one + ", " + one + "], or name the components that are not 0: {x = " + one + "}";
+  const std::string remedy = "write [" + one + ", " + one + ", " + one +
+                             "], or name the components that are not 0: {x = " + one + "}";
   if (value.kind != TomlValue::Kind::array && value.kind != TomlValue::Kind::table)
     return wrong_kind(value, "three components", remedy);
   if (value.kind == TomlValue::Kind::array && value.items.size() != 3)
@@ -80,7 +85,8 @@ ValueOrProblem<ParameterValue> constants_in(const TomlValue& value) {
       continue;
     }
     const ValueOrProblem<double> number = number_in(entry.value, "");
-    if (const auto* problem = std::get_if<Problem>(&number)) return Problem{entry.key + " " + problem->problem, remedy};
+    if (const auto* problem = std::get_if<Problem>(&number))
+      return Problem{entry.key + " " + problem->problem, remedy};
     constants[entry.key] = std::get<double>(number);
   }
   return ParameterValue(constants);
@@ -99,28 +105,33 @@ ValueOrProblem<double> number_in(const TomlValue& value, std::string_view unit) 
   if (bare && !std::isfinite(value.number)) return Problem{"is not a finite number", example(unit)};
   if (bare && unit.empty()) return value.number;
   if (bare)
-    return Problem{"is the bare number " + write_number(value.number) + " (" + describe(unit_of(unit).dimension) + " is expected)",
-                   "write the unit that it has, e.g. \"" + write_number(value.number) + " " + std::string(unit) + "\""};
+    return Problem{
+        "is the bare number " + write_number(value.number) + " (" + describe(unit_of(unit).dimension) +
+            " is expected)",
+        "write the unit that it has, e.g. \"" + write_number(value.number) + " " + std::string(unit) + "\""};
   if (value.kind == TomlValue::Kind::text) return quantity_in(value.text, unit);
   return wrong_kind(value, describe(unit_of(unit).dimension), example(unit));
 }
 
 ValueOrProblem<std::int64_t> count_in(const TomlValue& value, double high) {
-  const std::string remedy = "write a whole number from 0 to " + write_number(high) + " without quotation marks";
+  const std::string remedy =
+      "write a whole number from 0 to " + write_number(high) + " without quotation marks";
   std::int64_t count = value.integer;
-  if (value.kind == TomlValue::Kind::number && std::isfinite(value.number) && value.number == std::floor(value.number) &&
-      std::abs(value.number) < 9e15)
+  if (value.kind == TomlValue::Kind::number && std::isfinite(value.number) &&
+      value.number == std::floor(value.number) && std::abs(value.number) < 9e15)
     count = static_cast<std::int64_t>(value.number);  // 1e6
   else if (value.kind != TomlValue::Kind::integer)
     return wrong_kind(value, "a whole number", remedy);
   if (count < 0 || static_cast<double>(count) > high)
-    return Problem{"is " + std::to_string(count) + " (it must lie between 0 and " + write_number(high) + ")", remedy};
+    return Problem{"is " + std::to_string(count) + " (it must lie between 0 and " + write_number(high) + ")",
+                   remedy};
   return count;
 }
 
 ValueOrProblem<std::string> choice_in(const TomlValue& value, std::span<const std::string_view> choices) {
   const std::string words = listed(choices);
-  if (value.kind != TomlValue::Kind::text) return wrong_kind(value, "one of the words " + words, "write one in quotation marks");
+  if (value.kind != TomlValue::Kind::text)
+    return wrong_kind(value, "one of the words " + words, "write one in quotation marks");
   if (std::find(choices.begin(), choices.end(), value.text) != choices.end()) return value.text;
   const std::string_view near = nearest(value.text, choices);
   return Problem{toml_string(value.text) + " is not known (one of " + words + " is expected)",
@@ -133,7 +144,8 @@ ValueOrProblem<std::string> text_in(const TomlValue& value) {
 }
 
 ValueOrProblem<bool> boolean_in(const TomlValue& value) {
-  if (value.kind != TomlValue::Kind::boolean) return wrong_kind(value, "true or false", "write true or false without quotation marks");
+  if (value.kind != TomlValue::Kind::boolean)
+    return wrong_kind(value, "true or false", "write true or false without quotation marks");
   return value.boolean;
 }
 
@@ -153,10 +165,12 @@ std::string out_of_bounds(double si, double low, double high, bool low_excluded,
   if (!std::isfinite(si)) return "is not a finite number";
   if ((low_excluded ? si > low : si >= low) && si <= high) return "";
   const std::string value = "is " + write_quantity(si, unit);
-  if (low_excluded && si <= low) return value + " (it must be greater than " + write_quantity(low, unit) + ")";
+  if (low_excluded && si <= low)
+    return value + " (it must be greater than " + write_quantity(low, unit) + ")";
   if (!std::isfinite(high)) return value + " (it must be at least " + write_quantity(low, unit) + ")";
   if (!std::isfinite(low)) return value + " (it must be at most " + write_quantity(high, unit) + ")";
-  return value + " (it must lie between " + write_quantity(low, unit) + " and " + write_quantity(high, unit) + ")";
+  return value + " (it must lie between " + write_quantity(low, unit) + " and " + write_quantity(high, unit) +
+         ")";
 }
 
 }  // namespace shakedown

@@ -18,8 +18,8 @@ struct Problem {
 template <class T>
 using ValueOrProblem = std::variant<T, Problem>;
 
-/// A quantity with the dimension of `unit`, in SI; without a unit a bare number or a text such as "5 %". `unit` serves as the
-/// example in remedies.
+/// A quantity with the dimension of `unit`, in SI; without a unit a bare number or a text such as "5 %".
+/// `unit` serves as the example in remedies.
 ValueOrProblem<double> number_in(const TomlValue& value, std::string_view unit);
 
 /// A whole number between 0 and `high`.

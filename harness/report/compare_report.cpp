@@ -14,10 +14,15 @@ namespace shakedown {
 ReportSection errors_section(const std::string& title, const std::vector<RunComparison>& runs) {
   ReportSection section;
   section.title = title;
-  ReportBars bars{"", "rms of measured less mean of the model.", "mm", {"box", "what noise and run-to-run spread make"}, {}, std::nan(""), ""};
+  ReportBars bars{"",   "rms of measured less mean of the model.",
+                  "mm", {"box", "what noise and run-to-run spread make"},
+                  {},   std::nan(""),
+                  ""};
   MoreColumn centre{"centre of the grains, mm", {}}, spread{"its noise and spread, mm", {}};
   for (const RunComparison& run : runs) {
-    bars.lines.push_back({run.run, fmt::format("{} times the floor", for_people(run.error_box / run.floor_box)), {run.error_box * 1e3, run.floor_box * 1e3}});
+    bars.lines.push_back({run.run,
+                          fmt::format("{} times the floor", for_people(run.error_box / run.floor_box)),
+                          {run.error_box * 1e3, run.floor_box * 1e3}});
     centre.cells.push_back(for_people(run.error_centre * 1e3));
     spread.cells.push_back(for_people(run.floor_centre * 1e3));
   }
@@ -26,20 +31,26 @@ ReportSection errors_section(const std::string& title, const std::vector<RunComp
   return section;
 }
 
-Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, const Experiment& experiment, const Setup& setup,
-                 const std::vector<MeasuredAgainstModel>& curves) {
+Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, const Experiment& experiment,
+                 const Setup& setup, const std::vector<MeasuredAgainstModel>& curves) {
   Report report;
   report.kind = "compare";
   report.title = experiment.title.empty() ? experiment.file : experiment.title;
   report.verdict = holds ? "The model holds" : "The data reject the model";
   report.tone = holds ? Tone::good : Tone::bad;
-  report.sentence = holds ? fmt::format("What the model leaves of {} is camera noise and the spread from run to run.", report.title)
-                          : fmt::format("The model misses {} by {} mm, where noise and run-to-run spread allow {} mm.", report.title,
-                                        for_people(fit.error_box() * 1e3), for_people(fit.floor_box() * 1e3));
-  report.facts = {{"Error of the box", for_people(fit.error_box() * 1e3) + " mm", "rms over all runs", Tone::plain},
-                  {"Noise floor", for_people(fit.floor_box() * 1e3) + " mm", "camera and run-to-run spread", Tone::plain},
-                  {"Fit", "p = " + for_people(fit.p_value), for_people(fit.scatter) + " times the misfit of the model's own runs", Tone::plain}};
-  if (momentum.possible) report.facts.push_back({"Momentum balance", "p = " + for_people(momentum.as_given.p_value), "forces from outside, no simulation", Tone::plain});
+  report.sentence =
+      holds ? fmt::format("What the model leaves of {} is camera noise and the spread from run to run.",
+                          report.title)
+            : fmt::format("The model misses {} by {} mm, where noise and run-to-run spread allow {} mm.",
+                          report.title, for_people(fit.error_box() * 1e3), for_people(fit.floor_box() * 1e3));
+  report.facts = {
+      {"Error of the box", for_people(fit.error_box() * 1e3) + " mm", "rms over all runs", Tone::plain},
+      {"Noise floor", for_people(fit.floor_box() * 1e3) + " mm", "camera and run-to-run spread", Tone::plain},
+      {"Fit", "p = " + for_people(fit.p_value),
+       for_people(fit.scatter) + " times the misfit of the model's own runs", Tone::plain}};
+  if (momentum.possible)
+    report.facts.push_back({"Momentum balance", "p = " + for_people(momentum.as_given.p_value),
+                            "forces from outside, no simulation", Tone::plain});
   if (!curves.empty()) {
     report.replays = replays_of(curves);
     report.sections = {curves_section(curves, "Measured against model"), failure_section(curves)};

@@ -31,22 +31,27 @@ bool has_numbers(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-ReportPlot position_plot(const MeasuredAgainstModel& run, const char* what, const std::vector<double>& measured, const EnsembleCurve& model,
+ReportPlot position_plot(const MeasuredAgainstModel& run, const char* what,
+                         const std::vector<double>& measured, const EnsembleCurve& model,
                          const EnsembleCurve* given) {
   ReportPlot plot = time_plot(what, "position, mm", run.run, run.time);
   plot.curves = band("two standard deviations of a run", off(model, -2, 1e3), off(model, 2, 1e3));
   if (given != nullptr) plot.curves.push_back({"as given", CurveRole::as_given, times(1e3, given->mean)});
-  plot.curves.push_back({given != nullptr ? "final model" : "model", CurveRole::model, times(1e3, model.mean)});
+  plot.curves.push_back(
+      {given != nullptr ? "final model" : "model", CurveRole::model, times(1e3, model.mean)});
   plot.curves.push_back({"measured", CurveRole::measured, times(1e3, measured)});
   return plot;
 }
 
 ReportPlot residual_plot(const MeasuredAgainstModel& run) {
   ReportPlot plot = time_plot("Residual", "expected spreads", run.run, run.time);
-  plot.caption = "Measured less model, in units of what run-to-run spread and camera noise make. Dashed: three units. A click moves the grains there.";
+  plot.caption =
+      "Measured less model, in units of what run-to-run spread and camera noise make. Dashed: three units. A "
+      "click moves the grains there.";
   plot.level = 3;
   plot.curves = {{"box", CurveRole::model, run.box_residual}};
-  if (has_numbers(run.centre_residual)) plot.curves.push_back({"centre of the grains", CurveRole::other, run.centre_residual});
+  if (has_numbers(run.centre_residual))
+    plot.curves.push_back({"centre of the grains", CurveRole::other, run.centre_residual});
   return plot;
 }
 
@@ -60,10 +65,12 @@ ReportPlot error_plot(const MeasuredAgainstModel& run) {
     return error;
   };
   std::vector<double> low(run.time.size()), high(run.time.size());
-  for (std::size_t i = 0; i < low.size(); ++i) high[i] = 2e3 * std::hypot(run.final_model.box.sd[i], run.box_noise), low[i] = -high[i];
+  for (std::size_t i = 0; i < low.size(); ++i)
+    high[i] = 2e3 * std::hypot(run.final_model.box.sd[i], run.box_noise), low[i] = -high[i];
   plot.curves = band("two expected spreads", low, high);
   if (run.as_given.runs > 0) plot.curves.push_back({"as given", CurveRole::as_given, less(run.as_given.box)});
-  plot.curves.push_back({run.as_given.runs > 0 ? "final model" : "model", CurveRole::model, less(run.final_model.box)});
+  plot.curves.push_back(
+      {run.as_given.runs > 0 ? "final model" : "model", CurveRole::model, less(run.final_model.box)});
   return plot;
 }
 
@@ -86,20 +93,25 @@ double phase_at(const MeasuredAgainstModel& run, std::size_t i) {
 double amplitude_at(const MeasuredAgainstModel& run, std::size_t i) {
   const double reach = 0.5 / run.amended.spring.frequency;
   double top = 0;
-  for (std::size_t k = i; k < run.time.size() && run.time[k] - run.time[i] <= reach; ++k) top = std::max(top, std::abs(run.final_model.box.mean[k]));
-  for (std::size_t k = i; k-- > 0 && run.time[i] - run.time[k] <= reach;) top = std::max(top, std::abs(run.final_model.box.mean[k]));
+  for (std::size_t k = i; k < run.time.size() && run.time[k] - run.time[i] <= reach; ++k)
+    top = std::max(top, std::abs(run.final_model.box.mean[k]));
+  for (std::size_t k = i; k-- > 0 && run.time[i] - run.time[k] <= reach;)
+    top = std::max(top, std::abs(run.final_model.box.mean[k]));
   return top;
 }
 
 /// rms residual of the box in bins of some number of each moment.
 template <class Number>
-ReportBars residual_by(const std::vector<MeasuredAgainstModel>& runs, const std::vector<std::pair<double, std::string>>& upper, Number&& number) {
+ReportBars residual_by(const std::vector<MeasuredAgainstModel>& runs,
+                       const std::vector<std::pair<double, std::string>>& upper, Number&& number) {
   std::vector<std::vector<double>> bins(upper.size());
   for (const MeasuredAgainstModel& run : runs)
     for (std::size_t i = 0; i < run.time.size(); ++i) {
       const double at = number(run, i);
-      const auto bin = std::find_if(upper.begin(), upper.end(), [&](const auto& edge) { return at < edge.first; });
-      if (std::isfinite(at) && bin != upper.end()) bins[static_cast<std::size_t>(bin - upper.begin())].push_back(run.box_residual[i]);
+      const auto bin =
+          std::find_if(upper.begin(), upper.end(), [&](const auto& edge) { return at < edge.first; });
+      if (std::isfinite(at) && bin != upper.end())
+        bins[static_cast<std::size_t>(bin - upper.begin())].push_back(run.box_residual[i]);
     }
   ReportBars bars;
   bars.names = {"rms residual of the box"};
@@ -110,7 +122,8 @@ ReportBars residual_by(const std::vector<MeasuredAgainstModel>& runs, const std:
   return bars;
 }
 
-ReportStrip strip_of(const std::vector<MeasuredAgainstModel>& runs, std::vector<double> MeasuredAgainstModel::*residual, const char* title) {
+ReportStrip strip_of(const std::vector<MeasuredAgainstModel>& runs,
+                     std::vector<double> MeasuredAgainstModel::*residual, const char* title) {
   constexpr double width = 0.5;
   ReportStrip strip;
   strip.title = title;
@@ -125,7 +138,8 @@ ReportStrip strip_of(const std::vector<MeasuredAgainstModel>& runs, std::vector<
     for (std::size_t k = 0; k + 1 < strip.edges.size(); ++k) {
       std::vector<double> inside;
       for (std::size_t i = 0; i < run.time.size(); ++i)
-        if (run.time[i] >= strip.edges[k] && run.time[i] < strip.edges[k + 1]) inside.push_back((run.*residual)[i]);
+        if (run.time[i] >= strip.edges[k] && run.time[i] < strip.edges[k + 1])
+          inside.push_back((run.*residual)[i]);
       row.values.push_back(rms(inside));
     }
     strip.rows.push_back(row);
@@ -140,11 +154,13 @@ ReportSection curves_section(const std::vector<MeasuredAgainstModel>& runs, cons
   section.title = title;
   for (const MeasuredAgainstModel& run : runs) {
     const bool given = run.as_given.runs > 0;
-    section.plots.push_back(position_plot(run, "Box", run.box, run.final_model.box, given ? &run.as_given.box : nullptr));
+    section.plots.push_back(
+        position_plot(run, "Box", run.box, run.final_model.box, given ? &run.as_given.box : nullptr));
     section.plots.push_back(error_plot(run));
     section.plots.push_back(residual_plot(run));
     if (has_numbers(run.centre))
-      section.plots.push_back(position_plot(run, "Centre of the grains", run.centre, run.final_model.centre, given ? &run.as_given.centre : nullptr));
+      section.plots.push_back(position_plot(run, "Centre of the grains", run.centre, run.final_model.centre,
+                                            given ? &run.as_given.centre : nullptr));
   }
   return section;
 }
@@ -153,14 +169,27 @@ ReportSection failure_section(const std::vector<MeasuredAgainstModel>& runs) {
   ReportSection section;
   section.title = "Where it fails";
   const bool given = !runs.empty() && runs.front().as_given.runs > 0;
-  if (given) section.strips = {strip_of(runs, &MeasuredAgainstModel::given_box_residual, "By time and run: as given")};
-  section.strips.push_back(strip_of(runs, &MeasuredAgainstModel::box_residual, given ? "By time and run: final model" : "By time and run"));
+  if (given)
+    section.strips = {strip_of(runs, &MeasuredAgainstModel::given_box_residual, "By time and run: as given")};
+  section.strips.push_back(strip_of(runs, &MeasuredAgainstModel::box_residual,
+                                    given ? "By time and run: final model" : "By time and run"));
   constexpr double eighth = std::numbers::pi / 4;
-  ReportBars phase = residual_by(runs, {{-3 * eighth, "inner end, turning back"}, {-eighth, "moving out through zero"}, {0, "coming to the outer end"},
-                                        {eighth, "leaving the outer end"}, {3 * eighth, "moving in through zero"}, {4 * eighth + 1e-9, "coming to the inner end"}},
+  ReportBars phase = residual_by(runs,
+                                 {{-3 * eighth, "inner end, turning back"},
+                                  {-eighth, "moving out through zero"},
+                                  {0, "coming to the outer end"},
+                                  {eighth, "leaving the outer end"},
+                                  {3 * eighth, "moving in through zero"},
+                                  {4 * eighth + 1e-9, "coming to the inner end"}},
                                  phase_at);
   phase.title = "By phase of the swing";
-  ReportBars amplitude = residual_by(runs, {{0.01, "below 10 mm"}, {0.03, "10 to 30 mm"}, {0.06, "30 to 60 mm"}, {0.09, "60 to 90 mm"}, {1e9, "above 90 mm"}}, amplitude_at);
+  ReportBars amplitude = residual_by(runs,
+                                     {{0.01, "below 10 mm"},
+                                      {0.03, "10 to 30 mm"},
+                                      {0.06, "30 to 60 mm"},
+                                      {0.09, "60 to 90 mm"},
+                                      {1e9, "above 90 mm"}},
+                                     amplitude_at);
   amplitude.title = "By amplitude of the swing";
   section.bars = {phase, amplitude};
   return section;
@@ -169,7 +198,9 @@ ReportSection failure_section(const std::vector<MeasuredAgainstModel>& runs) {
 ReportSection energy_section(const std::vector<MeasuredAgainstModel>& runs) {
   ReportSection section;
   section.title = "Where the energy goes";
-  section.paragraphs = {"Means of the final model's runs; what is lost in contacts of each class, and what is left in spring, box and grains."};
+  section.paragraphs = {
+      "Means of the final model's runs; what is lost in contacts of each class, and what is left in spring, "
+      "box and grains."};
   for (const MeasuredAgainstModel& run : runs) {
     std::array<std::vector<double>, contact_classes> lost;
     for (std::size_t c = 0; c < contact_classes; ++c) lost[c] = times(1e3, run.final_model.loss[c].mean);
@@ -188,13 +219,19 @@ std::vector<std::string> health_lines(const std::vector<MeasuredAgainstModel>& r
       collisions += motion->collisions;
       simulations += motion->runs;
     }
-  std::vector<std::string> lines = health_in_words(worst, fmt::format("Worst of the {} simulations drawn here ({} collisions)", simulations, collisions));
-  lines.insert(lines.begin() + 1, fmt::format("{:.1f} % of the impacts were slow enough to be made elastic (what keeps layers from endless impacts).",
-                                              collisions > 0 ? 100.0 * static_cast<double>(worst.elastic_rescues) / static_cast<double>(collisions) : 0.0));
+  std::vector<std::string> lines = health_in_words(
+      worst, fmt::format("Worst of the {} simulations drawn here ({} collisions)", simulations, collisions));
+  lines.insert(lines.begin() + 1,
+               fmt::format("{:.1f} % of the impacts were slow enough to be made elastic (what keeps layers "
+                           "from endless impacts).",
+                           collisions > 0 ? 100.0 * static_cast<double>(worst.elastic_rescues) /
+                                                static_cast<double>(collisions)
+                                          : 0.0));
   return lines;
 }
 
-std::vector<ReportReplay> replays_of(const std::vector<MeasuredAgainstModel>& runs, std::size_t most, std::size_t bytes) {
+std::vector<ReportReplay> replays_of(const std::vector<MeasuredAgainstModel>& runs, std::size_t most,
+                                     std::size_t bytes) {
   std::vector<ReportReplay> replays;
   const std::size_t count = std::min(most, runs.size());
   for (std::size_t r = 0; r < count; ++r) {
@@ -208,12 +245,17 @@ std::vector<ReportReplay> replays_of(const std::vector<MeasuredAgainstModel>& ru
     if (!trajectory.collision_log) continue;
     std::size_t worst = 0;
     for (std::size_t i = 0; i < run.time.size(); ++i)
-      if (std::isfinite(run.box_residual[i]) && (!std::isfinite(run.box_residual[worst]) || std::abs(run.box_residual[i]) > std::abs(run.box_residual[worst]))) worst = i;
+      if (std::isfinite(run.box_residual[i]) &&
+          (!std::isfinite(run.box_residual[worst]) ||
+           std::abs(run.box_residual[i]) > std::abs(run.box_residual[worst])))
+        worst = i;
     ReportReplay replay = replay_of({"", setup, 0, *trajectory.collision_log},
-                                    {run.run, "The grains", run.time[worst] - 0.25, run.time[worst] + 0.25, run.time.back(), bytes / count, 2e-5});
+                                    {run.run, "The grains", run.time[worst] - 0.25, run.time[worst] + 0.25,
+                                     run.time.back(), bytes / count, 2e-5});
     replay.caption = "Black box (white on dark): measured. " + replay.caption;
     for (std::size_t i = 0; i < run.time.size(); ++i)
-      if (std::isfinite(run.box[i])) replay.measured_time.push_back(run.time[i]), replay.measured_x_box.push_back(run.box[i]);
+      if (std::isfinite(run.box[i]))
+        replay.measured_time.push_back(run.time[i]), replay.measured_x_box.push_back(run.box[i]);
     replays.push_back(std::move(replay));
   }
   return replays;

@@ -30,7 +30,8 @@ std::string verdict_in_words(const Diagnosis& diagnosis) {
   switch (diagnosis.verdict) {
     case Verdict::adequate: return "The model holds";
     case Verdict::refit: return "Other parameters suffice";
-    case Verdict::missing: return diagnosis.missing.size() == 1 ? "An effect is missing" : "Effects are missing";
+    case Verdict::missing:
+      return diagnosis.missing.size() == 1 ? "An effect is missing" : "Effects are missing";
     case Verdict::unknown: break;
   }
   return "None of the known effects";
@@ -42,25 +43,34 @@ std::vector<ReportFact> facts_of(const Diagnosis& diagnosis) {
   std::vector<ReportFact> facts;
   if (!diagnosis.ladder.empty()) {
     const LadderStep &first = diagnosis.ladder.front(), &last = diagnosis.ladder.back();
-    facts.push_back({"Error of the box, as given", millimetres(first.error_box), "rms over all runs", Tone::plain});
+    facts.push_back(
+        {"Error of the box, as given", millimetres(first.error_box), "rms over all runs", Tone::plain});
     if (diagnosis.ladder.size() > 1)
       facts.push_back({"Error, final model", millimetres(last.error_box),
-                       last.error_box < 1.2 * last.floor_box ? "at the noise floor" : "above the noise floor", last.error_box < 1.2 * last.floor_box ? Tone::good : Tone::unsure});
-    facts.push_back({"Noise floor", millimetres(last.floor_box), "camera and run-to-run spread", Tone::plain});
-    facts.push_back({"Fit of the final model", fmt::format("p = {}", for_people(last.p_value)), "share of the model's own runs that fit no better", Tone::plain});
+                       last.error_box < 1.2 * last.floor_box ? "at the noise floor" : "above the noise floor",
+                       last.error_box < 1.2 * last.floor_box ? Tone::good : Tone::unsure});
+    facts.push_back(
+        {"Noise floor", millimetres(last.floor_box), "camera and run-to-run spread", Tone::plain});
+    facts.push_back({"Fit of the final model", fmt::format("p = {}", for_people(last.p_value)),
+                     "share of the model's own runs that fit no better", Tone::plain});
   }
-  facts.push_back({"Simulations", fmt::format("{}", diagnosis.runs_simulated), fmt::format("in {:.0f} s", diagnosis.seconds), Tone::plain});
+  facts.push_back({"Simulations", fmt::format("{}", diagnosis.runs_simulated),
+                   fmt::format("in {:.0f} s", diagnosis.seconds), Tone::plain});
   return facts;
 }
 
 ReportSection ladder_section(const Diagnosis& diagnosis) {
   ReportSection section;
   section.title = "How the error fell";
-  ReportBars bars{"", "rms of measured less mean of the model, position of the box, over all runs.", "mm", {"fitted to", "held out (each box length predicted from the others)"}, {},
-                  std::nan(""), "noise floor"};
+  ReportBars bars{"",           "rms of measured less mean of the model, position of the box, over all runs.",
+                  "mm",         {"fitted to", "held out (each box length predicted from the others)"},
+                  {},           std::nan(""),
+                  "noise floor"};
   MoreColumn centre{"centre of the grains, mm", {}}, floor{"floor of the box, mm", {}}, p{"p", {}};
   for (const LadderStep& step : diagnosis.ladder) {
-    bars.lines.push_back({step.step, fmt::format("p = {}", for_people(step.p_value)), {step.error_box * 1e3, step.held_out_error_box * 1e3}});
+    bars.lines.push_back({step.step,
+                          fmt::format("p = {}", for_people(step.p_value)),
+                          {step.error_box * 1e3, step.held_out_error_box * 1e3}});
     centre.cells.push_back(for_people(step.error_centre * 1e3));
     floor.cells.push_back(for_people(step.floor_box * 1e3));
     p.cells.push_back(for_people(step.p_value));
@@ -88,25 +98,42 @@ ReportSection suspects_section(const Diagnosis& diagnosis) {
   section.title = diagnosis.ranking.empty() ? "What to measure next" : "Suspects";
   section.list = diagnosis.next_experiments;
   if (diagnosis.ranking.empty()) {
-    section.paragraphs = {diagnosis.missing.empty() ? "No effect had to be ranked." : "The balance of momentum told what is missing; nothing inside the contacts had to be ranked."};
+    section.paragraphs = {
+        diagnosis.missing.empty()
+            ? "No effect had to be ranked."
+            : "The balance of momentum told what is missing; nothing inside the contacts had to be ranked."};
     return section;
   }
-  section.paragraphs = {"What each effect would explain if it were added and everything else refitted: fall of the misfit, on the runs fitted to and on box lengths left out of the fit."};
+  section.paragraphs = {
+      "What each effect would explain if it were added and everything else refitted: fall of the misfit, on "
+      "the runs fitted to and on box lengths left out of the fit."};
   if (!section.list.empty()) section.paragraphs.push_back("Experiments that would tell more:");
   ReportBars bars;
   bars.names = {"fall of the misfit", "of held-out lengths"};
   for (const RankedEffect& r : diagnosis.ranking) {
     if (bars.lines.size() == 10) break;
     const bool held_out = std::isfinite(r.held_out_gain);
-    ReportBars::Line line{r.effect, r.look_alikes.empty() ? sentence_of(r.effect) : "looks like " + joined(r.look_alikes), {std::max(0.0, r.gain)}, {std::nan("")}, Tone::plain};
-    if (held_out) line.values.push_back(std::max(0.0, r.held_out_gain)), line.errors.push_back(r.standard_error);
+    ReportBars::Line line{
+        r.effect,
+        r.look_alikes.empty() ? sentence_of(r.effect) : "looks like " + joined(r.look_alikes),
+        {std::max(0.0, r.gain)},
+        {std::nan("")},
+        Tone::plain};
+    if (held_out)
+      line.values.push_back(std::max(0.0, r.held_out_gain)), line.errors.push_back(r.standard_error);
     bars.lines.push_back(line);
   }
-  bars.caption = "In units of chi squared. Effects without a second bar were judged by a linear estimate only.";
+  bars.caption =
+      "In units of chi squared. Effects without a second bar were judged by a linear estimate only.";
   if (!bars.lines.empty()) section.bars = {bars};
-  ReportTable table{"All suspects as numbers", "", {"effect", "fall of misfit", "held out", "standard error", "strength", "looks like"}, {}, true};
+  ReportTable table{"All suspects as numbers",
+                    "",
+                    {"effect", "fall of misfit", "held out", "standard error", "strength", "looks like"},
+                    {},
+                    true};
   for (const RankedEffect& r : diagnosis.ranking)
-    table.rows.push_back({r.effect, for_people(r.gain), for_people(r.held_out_gain), for_people(r.standard_error), for_people(r.value), joined(r.look_alikes)});
+    table.rows.push_back({r.effect, for_people(r.gain), for_people(r.held_out_gain),
+                          for_people(r.standard_error), for_people(r.value), joined(r.look_alikes)});
   section.tables = {table};
   return section;
 }
@@ -115,7 +142,8 @@ ReportSection suspects_section(const Diagnosis& diagnosis) {
 double value_in(const Setup& setup, const std::string& key) {
   const std::string section = key.substr(0, key.find('.'));
   const bool known = find_setup_key(key) != nullptr ||
-                     std::any_of(setup.effects.begin(), setup.effects.end(), [&](const EffectChoice& choice) { return choice.record->name == section; });
+                     std::any_of(setup.effects.begin(), setup.effects.end(),
+                                 [&](const EffectChoice& choice) { return choice.record->name == section; });
   if (!known) return std::nan("");
   try {
     return get_number(setup, key, all_effects());
@@ -129,7 +157,8 @@ ReportSection parameters_section(const Diagnosis& diagnosis, const Setup& given)
   section.title = "Parameters";
   section.paragraphs = {"Best values with 95 % intervals; dashed: the value in the setup as given."};
   for (const DiagnosedParameter& p : diagnosis.parameters)
-    section.intervals.push_back({p.name, p.unit, p.word, p.value, p.low, p.high, p.word.empty() ? value_in(given, p.name) : std::nan("")});
+    section.intervals.push_back({p.name, p.unit, p.word, p.value, p.low, p.high,
+                                 p.word.empty() ? value_in(given, p.name) : std::nan("")});
   return section;
 }
 
@@ -159,13 +188,18 @@ const char* value_of(ShapeOf of) {
 
 ReportSection failing_cells(const Diagnosis& diagnosis, ReportSection section) {
   if (diagnosis.where.empty()) return section;
-  ReportTable table{diagnosis.missing.empty() ? "The refitted model fails most at" : "Without the effects found the model fails most at", "Worst first, after allowing for the number of places looked at.",
-                    {"run", "observable", "where", "from, s", "to, s", "error, mm", "times its spread"}, {}, false};
+  ReportTable table{diagnosis.missing.empty() ? "The refitted model fails most at"
+                                              : "Without the effects found the model fails most at",
+                    "Worst first, after allowing for the number of places looked at.",
+                    {"run", "observable", "where", "from, s", "to, s", "error, mm", "times its spread"},
+                    {},
+                    false};
   for (const FailureCell& cell : diagnosis.where) {
     if (table.rows.size() == 12) break;
     const bool timed = cell.to > cell.from;
-    table.rows.push_back({cell.run.empty() ? "all" : cell.run, cell.observable, cell.what, timed ? for_people(cell.from) : "–", timed ? for_people(cell.to) : "–", for_people(cell.error * 1e3),
-                          for_people(cell.sigmas)});
+    table.rows.push_back({cell.run.empty() ? "all" : cell.run, cell.observable, cell.what,
+                          timed ? for_people(cell.from) : "–", timed ? for_people(cell.to) : "–",
+                          for_people(cell.error * 1e3), for_people(cell.sigmas)});
   }
   section.tables.push_back(table);
   return section;
@@ -177,15 +211,19 @@ ReportSection momentum_section(const MomentumAudit& momentum) {
   ReportSection section;
   section.title = "Forces from outside";
   if (!momentum.possible) {
-    section.paragraphs = {"The momentum balance needs a run with both positions measured. " + momentum.why_not};
+    section.paragraphs = {"The momentum balance needs a run with both positions measured. " +
+                          momentum.why_not};
     return section;
   }
-  section.paragraphs = {fmt::format("Whatever happens in the contacts, box and grains together obey one balance of momentum; no simulation is needed. As given it closes with "
-                                    "chi squared {} a degree of freedom (p = {}), with the terms below {} (p = {}).",
-                                    for_people(momentum.as_given.chi2_per_degree()), for_people(momentum.as_given.p_value),
-                                    for_people(momentum.final_fit.chi2_per_degree()), for_people(momentum.final_fit.p_value))};
+  section.paragraphs = {
+      fmt::format("Whatever happens in the contacts, box and grains together obey one balance of momentum; "
+                  "no simulation is needed. As given it closes with "
+                  "chi squared {} a degree of freedom (p = {}), with the terms below {} (p = {}).",
+                  for_people(momentum.as_given.chi2_per_degree()), for_people(momentum.as_given.p_value),
+                  for_people(momentum.final_fit.chi2_per_degree()), for_people(momentum.final_fit.p_value))};
   for (const FoundTerm& term : momentum.terms)
-    section.intervals.push_back({term.effect + "." + term.parameter, term.unit, "", term.value, term.low, term.high, std::nan("")});
+    section.intervals.push_back(
+        {term.effect + "." + term.parameter, term.unit, "", term.value, term.low, term.high, std::nan("")});
   for (std::size_t i = 0; i < momentum.curves.size() && i < 2; ++i) {
     const ForceCurve& curve = momentum.curves[i];
     ReportPlot plot;
@@ -195,20 +233,28 @@ ReportSection momentum_section(const MomentumAudit& momentum) {
     plot.y_label = value_of(curve.of);
     plot.x = curve.argument;
     std::vector<double> low, high;
-    for (std::size_t k = 0; k < curve.value.size(); ++k) low.push_back(curve.value[k] - 2 * curve.error[k]), high.push_back(curve.value[k] + 2 * curve.error[k]);
+    for (std::size_t k = 0; k < curve.value.size(); ++k)
+      low.push_back(curve.value[k] - 2 * curve.error[k]), high.push_back(curve.value[k] + 2 * curve.error[k]);
     plot.curves = band("two standard errors", low, high);
     plot.curves.push_back({"force", CurveRole::model, curve.value});
     section.plots.push_back(plot);
   }
-  ReportTable runs{"By run", "", {"run", "chi squared a degree of freedom", "force that the model lacks, mN rms", "noise of one window, mN"}, {}, false};
+  ReportTable runs{"By run",
+                   "",
+                   {"run", "chi squared a degree of freedom", "force that the model lacks, mN rms",
+                    "noise of one window, mN"},
+                   {},
+                   false};
   for (const RunBalance& run : momentum.runs)
-    runs.rows.push_back({run.run, for_people(run.as_given.chi2_per_degree()), for_people(run.missing_force * 1e3), for_people(run.missing_force_noise * 1e3)});
+    runs.rows.push_back({run.run, for_people(run.as_given.chi2_per_degree()),
+                         for_people(run.missing_force * 1e3), for_people(run.missing_force_noise * 1e3)});
   section.tables = {runs};
   section.list = momentum.notes;
   return section;
 }
 
-Report report_of(const Diagnosis& diagnosis, const Experiment& experiment, const Setup& given, const std::vector<MeasuredAgainstModel>& curves) {
+Report report_of(const Diagnosis& diagnosis, const Experiment& experiment, const Setup& given,
+                 const std::vector<MeasuredAgainstModel>& curves) {
   Report report;
   report.kind = "diagnose";
   report.title = experiment.title.empty() ? experiment.file : experiment.title;
@@ -216,14 +262,16 @@ Report report_of(const Diagnosis& diagnosis, const Experiment& experiment, const
   report.sentence = diagnosis.sentence;
   report.tone = tone_of(diagnosis.verdict);
   report.facts = facts_of(diagnosis);
-  if (!diagnosis.force_formula.empty()) report.subtitle = "A force ready to try as user_force: " + diagnosis.force_formula;
+  if (!diagnosis.force_formula.empty())
+    report.subtitle = "A force ready to try as user_force: " + diagnosis.force_formula;
   if (!curves.empty()) {
     report.replays = replays_of(curves);
     report.sections.push_back(curves_section(curves, "Measured against model"));
   }
   report.sections.push_back(ladder_section(diagnosis));
   if (!curves.empty()) report.sections.push_back(failing_cells(diagnosis, failure_section(curves)));
-  if (!diagnosis.ranking.empty() || !diagnosis.next_experiments.empty()) report.sections.push_back(suspects_section(diagnosis));
+  if (!diagnosis.ranking.empty() || !diagnosis.next_experiments.empty())
+    report.sections.push_back(suspects_section(diagnosis));
   report.sections.push_back(parameters_section(diagnosis, given));
   report.sections.push_back(momentum_section(diagnosis.momentum));
   if (!curves.empty()) report.sections.push_back(energy_section(curves));

@@ -32,12 +32,14 @@ ReportSection parameters_section(const Fit& fit) {
     if (!p.remark.empty()) section.list.push_back(p.key + ": " + p.remark);
   }
   if (fit.parameters.size() < 2) return section;
-  ReportTable table{"Correlation of the estimates", "Near 1 or -1: only a combination is known.", {""}, {}, false};
+  ReportTable table{
+      "Correlation of the estimates", "Near 1 or -1: only a combination is known.", {""}, {}, false};
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     table.columns.push_back(fit.parameters[i].key);
     table.rows.push_back({fit.parameters[i].key});
     for (std::size_t j = 0; j < fit.parameters.size(); ++j)
-      table.rows.back().push_back(for_people(fit.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
+      table.rows.back().push_back(
+          for_people(fit.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
   }
   section.tables = {table};
   return section;
@@ -50,7 +52,9 @@ std::string headline(const Fit& fit) {
     least = std::min(least, run.error_box / run.floor_box);
     most = std::max(most, run.error_box / run.floor_box);
   }
-  return fmt::format("The fit {} with errors of {} to {} times noise and run-to-run spread.", left_out ? "foretells the runs left out" : "follows its runs", for_people(least), for_people(most));
+  return fmt::format("The fit {} with errors of {} to {} times noise and run-to-run spread.",
+                     left_out ? "foretells the runs left out" : "follows its runs", for_people(least),
+                     for_people(most));
 }
 
 std::vector<ReportFact> facts_of(const Fit& fit) {
@@ -58,29 +62,41 @@ std::vector<ReportFact> facts_of(const Fit& fit) {
   for (const FittedParameter& p : fit.parameters) {
     const std::string text = with_interval(p.value / si_of(p), p.low / si_of(p), p.high / si_of(p));
     const std::size_t interval = std::min(text.find(" ("), text.size());
-    facts.push_back({p.key, text.substr(0, interval) + (p.unit.empty() ? "" : " " + p.unit), p.told ? "95 %:" + text.substr(interval) : "not told by these data", p.told ? Tone::plain : Tone::unsure});
+    facts.push_back({p.key, text.substr(0, interval) + (p.unit.empty() ? "" : " " + p.unit),
+                     p.told ? "95 %:" + text.substr(interval) : "not told by these data",
+                     p.told ? Tone::plain : Tone::unsure});
   }
-  facts.push_back({"Fit", "p = " + for_people(fit.p_value), for_people(fit.scatter) + " times the misfit of the model's own runs", fit.p_value > 0.01 ? Tone::good : Tone::bad});
-  facts.push_back({"Simulations", fmt::format("{}", fit.runs), fmt::format("in {:.0f} s", fit.seconds), Tone::plain});
+  facts.push_back({"Fit", "p = " + for_people(fit.p_value),
+                   for_people(fit.scatter) + " times the misfit of the model's own runs",
+                   fit.p_value > 0.01 ? Tone::good : Tone::bad});
+  facts.push_back(
+      {"Simulations", fmt::format("{}", fit.runs), fmt::format("in {:.0f} s", fit.seconds), Tone::plain});
   return facts;
 }
 
 }  // namespace
 
-Report report_of(const Fit& fit, const Experiment& experiment, const std::vector<MeasuredAgainstModel>& curves) {
+Report report_of(const Fit& fit, const Experiment& experiment,
+                 const std::vector<MeasuredAgainstModel>& curves) {
   Report report;
   report.kind = "fit";
   report.title = experiment.title.empty() ? experiment.file : experiment.title;
-  const auto untold = std::count_if(fit.parameters.begin(), fit.parameters.end(), [](const FittedParameter& p) { return !p.told; });
+  const auto untold = std::count_if(fit.parameters.begin(), fit.parameters.end(),
+                                    [](const FittedParameter& p) { return !p.told; });
   report.verdict = fit.p_value <= 0.01 ? "No values fit" : untold > 0 ? "Not all is told" : "Fitted";
   report.tone = fit.p_value <= 0.01 ? Tone::bad : untold > 0 ? Tone::unsure : Tone::good;
   report.sentence = headline(fit) + " Values: ";
-  for (std::size_t i = 0; i < fit.parameters.size(); ++i) report.sentence += (i > 0 ? "; " : "") + fit.parameters[i].key + " " + value_with_interval(fit.parameters[i], si_of(fit.parameters[i]));
-  report.subtitle = fmt::format("Fitted to {} run{}, {} left out.", fit.used.size(), fit.used.size() == 1 ? "" : "s", fit.left_out.size());
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    report.sentence += (i > 0 ? "; " : "") + fit.parameters[i].key + " " +
+                       value_with_interval(fit.parameters[i], si_of(fit.parameters[i]));
+  report.subtitle = fmt::format("Fitted to {} run{}, {} left out.", fit.used.size(),
+                                fit.used.size() == 1 ? "" : "s", fit.left_out.size());
   report.facts = facts_of(fit);
   report.replays = replays_of(curves);
-  report.sections = {curves_section(curves, "Measured against model"), parameters_section(fit), errors_section("Runs fitted", fit.used)};
-  if (!fit.left_out.empty()) report.sections.push_back(errors_section("Runs left out, foretold", fit.left_out));
+  report.sections = {curves_section(curves, "Measured against model"), parameters_section(fit),
+                     errors_section("Runs fitted", fit.used)};
+  if (!fit.left_out.empty())
+    report.sections.push_back(errors_section("Runs left out, foretold", fit.left_out));
   report.sections.push_back(failure_section(curves));
   report.sections.push_back(energy_section(curves));
   say_how_to_reproduce(report, fit.fitted);

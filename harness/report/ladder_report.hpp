@@ -12,10 +12,13 @@ struct Rung {
   std::string effects;  ///< "plain", or those it has
   Refit fit;
   MomentumAudit momentum;
-  bool holds() const { return fit.p_value > 0.01 && (!momentum.possible || momentum.as_given.p_value > 0.01); }
+  bool holds() const {
+    return fit.p_value > 0.01 && (!momentum.possible || momentum.as_given.p_value > 0.01);
+  }
 };
 
 /// The report of a ladder; `last`: the last rung's setup.
-Report report_of(const std::vector<Rung>& rungs, bool refitted, const Experiment& experiment, const Setup& last);
+Report report_of(const std::vector<Rung>& rungs, bool refitted, const Experiment& experiment,
+                 const Setup& last);
 
 }  // namespace shakedown

@@ -44,8 +44,8 @@ struct Moments {
   }
 };
 
-/// Grains from a file start every run from the same state, and runs would be the same. The smallest nudge makes them as different as chaos
-/// makes real ones.
+/// Grains from a file start every run from the same state, and runs would be the same. The smallest nudge
+/// makes them as different as chaos makes real ones.
 void many_from_one_state(const Engine& engine, Setup setup, EnsembleOptions options) {
   const double restitution = setup.restitution.grain_grain;
   const int runs = options.runs;
@@ -56,7 +56,8 @@ void many_from_one_state(const Engine& engine, Setup setup, EnsembleOptions opti
   }
 }
 
-ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine& engine, const CurveOptions& options) {
+ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine& engine,
+                      const CurveOptions& options) {
   setup.run.duration = time.back() + 0.1;
   setup.run.sample_rate = 250;
   const Camera camera = physics_of(setup).camera;
@@ -74,15 +75,19 @@ ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine
       box.add(i, value_at(seen.time, seen.x_box, time[i]));
       centre.add(i, value_at(seen.time, seen.x_com, time[i]));
       energy.add(i, value_at(trajectory.time, trajectory.total_energy, time[i]));
-      for (std::size_t c = 0; c < loss.size(); ++c) loss[c].add(i, value_at(trajectory.time, trajectory.loss[c], time[i]));
+      for (std::size_t c = 0; c < loss.size(); ++c)
+        loss[c].add(i, value_at(trajectory.time, trajectory.loss[c], time[i]));
     }
     motion.health = worse_of(std::move(motion.health), trajectory.health);
     for (const std::int64_t n : trajectory.collisions) motion.collisions += n;
     ++motion.runs;
   };
-  if (setup.release.initial_grains.empty()) run_ensemble(engine, setup, many);
-  else many_from_one_state(engine, setup, many);
-  if (options.stop != nullptr && options.stop->load()) throw Interrupted("the curves of the report were not finished");
+  if (setup.release.initial_grains.empty())
+    run_ensemble(engine, setup, many);
+  else
+    many_from_one_state(engine, setup, many);
+  if (options.stop != nullptr && options.stop->load())
+    throw Interrupted("the curves of the report were not finished");
   motion.box = box.curve();
   motion.centre = centre.curve();
   motion.energy = energy.curve();
@@ -90,19 +95,23 @@ ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine
   return motion;
 }
 
-std::vector<double> residual(const std::vector<double>& measured, const EnsembleCurve& model, double noise, int runs) {
+std::vector<double> residual(const std::vector<double>& measured, const EnsembleCurve& model, double noise,
+                             int runs) {
   std::vector<double> result(measured.size());
   for (std::size_t i = 0; i < measured.size(); ++i)
-    result[i] = (measured[i] - model.mean[i]) / std::sqrt(model.sd[i] * model.sd[i] * (1 + 1.0 / runs) + noise * noise);
+    result[i] = (measured[i] - model.mean[i]) /
+                std::sqrt(model.sd[i] * model.sd[i] * (1 + 1.0 / runs) + noise * noise);
   return result;
 }
 
 /// The frame nearest to each time, none further than one frame away.
-std::vector<double> measured_at(const std::vector<double>& time, const MeasuredRun& run, const std::vector<double>& values, double interval) {
+std::vector<double> measured_at(const std::vector<double>& time, const MeasuredRun& run,
+                                const std::vector<double>& values, double interval) {
   std::vector<double> result(time.size(), std::nan(""));
   if (values.empty()) return result;
   for (std::size_t k = 0; k < time.size(); ++k) {
-    auto i = static_cast<std::size_t>(std::lower_bound(run.time.begin(), run.time.end(), time[k]) - run.time.begin());
+    auto i = static_cast<std::size_t>(std::lower_bound(run.time.begin(), run.time.end(), time[k]) -
+                                      run.time.begin());
     if (i == run.time.size() || (i > 0 && time[k] - run.time[i - 1] < run.time[i] - time[k])) --i;
     if (i < run.time.size() && std::abs(run.time[i] - time[k]) <= interval) result[k] = values[i];
   }
@@ -111,18 +120,23 @@ std::vector<double> measured_at(const std::vector<double>& time, const MeasuredR
 
 }  // namespace
 
-std::vector<MeasuredAgainstModel> measured_against_model(const Experiment& experiment, const Audit& audit, const Setup* given,
-                                                         const Setup& final_setup, const Engine& engine, const CurveOptions& options) {
+std::vector<MeasuredAgainstModel> measured_against_model(const Experiment& experiment, const Audit& audit,
+                                                         const Setup* given, const Setup& final_setup,
+                                                         const Engine& engine, const CurveOptions& options) {
   const std::vector<Setup> last = setups_of_runs(final_setup, experiment, options.known);
-  const std::vector<Setup> first = given != nullptr ? setups_of_runs(*given, experiment, options.known) : last;
+  const std::vector<Setup> first =
+      given != nullptr ? setups_of_runs(*given, experiment, options.known) : last;
   std::vector<MeasuredAgainstModel> all;
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     const MeasuredRun& run = experiment.runs[r];
     const RunAudit& found = audit.runs[r];
     if (run.time.empty()) continue;
-    MeasuredAgainstModel one{run.name, first[r], last[r], {}, {}, {}, found.box.standard_deviation, found.com.standard_deviation, {}, {}, {}, {}, {}};
+    MeasuredAgainstModel one{
+        run.name, first[r], last[r], {}, {}, {}, found.box.standard_deviation, found.com.standard_deviation,
+        {},       {},       {},      {}, {}};
     const double end = std::min(run.time.back(), 60.0);
-    for (std::int64_t k = 0; static_cast<double>(k) / options.rate <= end; ++k) one.time.push_back(static_cast<double>(k) / options.rate);
+    for (std::int64_t k = 0; static_cast<double>(k) / options.rate <= end; ++k)
+      one.time.push_back(static_cast<double>(k) / options.rate);
     one.box = measured_at(one.time, run, found.x_box, found.frame_interval);
     one.centre = measured_at(one.time, run, found.x_com, found.frame_interval);
     one.final_model = motion_of(last[r], one.time, engine, options);
@@ -131,9 +145,11 @@ std::vector<MeasuredAgainstModel> measured_against_model(const Experiment& exper
       one.given_box_residual = residual(one.box, one.as_given.box, one.box_noise, one.as_given.runs);
     }
     one.box_residual = residual(one.box, one.final_model.box, one.box_noise, one.final_model.runs);
-    one.centre_residual = residual(one.centre, one.final_model.centre, one.centre_noise, one.final_model.runs);
+    one.centre_residual =
+        residual(one.centre, one.final_model.centre, one.centre_noise, one.final_model.runs);
     all.push_back(std::move(one));
-    if (options.progress) options.progress(static_cast<double>(r + 1) / static_cast<double>(experiment.runs.size()));
+    if (options.progress)
+      options.progress(static_cast<double>(r + 1) / static_cast<double>(experiment.runs.size()));
   }
   return all;
 }

@@ -21,39 +21,40 @@ struct EnsembleCurve {
 
 /// An ensemble of one setup as the camera of the setup sees it.
 struct ModelMotion {
-  EnsembleCurve box, centre;                   ///< m
-  EnsembleCurve energy;                        ///< J, total
+  EnsembleCurve box, centre;                        ///< m
+  EnsembleCurve energy;                             ///< J, total
   std::array<EnsembleCurve, contact_classes> loss;  ///< J
-  Health health;                               ///< the worst of all runs
-  std::int64_t collisions = 0;                 ///< of all runs
+  Health health;                                    ///< the worst of all runs
+  std::int64_t collisions = 0;                      ///< of all runs
   int runs = 0;
 };
 
 struct MeasuredAgainstModel {
   std::string run;
   Setup given, amended;
-  std::vector<double> time;                   ///< s
-  std::vector<double> box, centre;            ///< m, the measured frame next to each time; NaN where none is
-  double box_noise = 0, centre_noise = 0;     ///< m, standard deviation of one frame
-  ModelMotion as_given, final_model;          ///< as_given.runs == 0: there is nothing to compare with
+  std::vector<double> time;                ///< s
+  std::vector<double> box, centre;         ///< m, the measured frame next to each time; NaN where none is
+  double box_noise = 0, centre_noise = 0;  ///< m, standard deviation of one frame
+  ModelMotion as_given, final_model;       ///< as_given.runs == 0: there is nothing to compare with
   /// Measured less mean over its expected spread (of run to run, of the mean, and of the camera).
   std::vector<double> box_residual, centre_residual;
   std::vector<double> given_box_residual;  ///< the same of the setup as given; empty without one
 };
 
 struct CurveOptions {
-  int runs = 24;          ///< of each ensemble
+  int runs = 24;  ///< of each ensemble
   int first_run = 0;
   int threads = 0;
-  double rate = 50;       ///< Hz, of the curves
+  double rate = 50;  ///< Hz, of the curves
   std::span<const EffectRecord* const> known;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double fraction)> progress;
 };
 
 /// `given` may be null: only the final model is simulated. Throws what engines throw, and Interrupted.
-std::vector<MeasuredAgainstModel> measured_against_model(const Experiment& experiment, const Audit& audit, const Setup* given,
-                                                         const Setup& final_setup, const Engine& engine, const CurveOptions& options);
+std::vector<MeasuredAgainstModel> measured_against_model(const Experiment& experiment, const Audit& audit,
+                                                         const Setup* given, const Setup& final_setup,
+                                                         const Engine& engine, const CurveOptions& options);
 
 /// The parts of a report that come from these curves.
 ReportSection curves_section(const std::vector<MeasuredAgainstModel>& runs, const std::string& title);
@@ -62,6 +63,7 @@ ReportSection energy_section(const std::vector<MeasuredAgainstModel>& runs);
 std::vector<std::string> health_lines(const std::vector<MeasuredAgainstModel>& runs);
 
 /// A replay of each measured run (the first `most`), simulated by the hard engine with the final setup.
-std::vector<ReportReplay> replays_of(const std::vector<MeasuredAgainstModel>& runs, std::size_t most = 5, std::size_t bytes = 760'000);
+std::vector<ReportReplay> replays_of(const std::vector<MeasuredAgainstModel>& runs, std::size_t most = 5,
+                                     std::size_t bytes = 760'000);
 
 }  // namespace shakedown

@@ -19,7 +19,8 @@ void append(std::string& bytes, std::uint64_t number) {
 }
 
 std::uint64_t zigzag(std::int64_t number) {
-  return number < 0 ? 2 * static_cast<std::uint64_t>(-(number + 1)) + 1 : 2 * static_cast<std::uint64_t>(number);
+  return number < 0 ? 2 * static_cast<std::uint64_t>(-(number + 1)) + 1
+                    : 2 * static_cast<std::uint64_t>(number);
 }
 
 void append_steps(std::string& bytes, const std::vector<double>& values, double unit) {
@@ -35,7 +36,8 @@ void append_track(std::string& bytes, const ReportReplay::Track& track, const Pa
   std::int64_t last = 0;
   for (std::size_t i = 0; i < track.time.size(); ++i) {
     const std::int64_t here = std::max<std::int64_t>(last, std::llround(track.time[i] / units.time_unit));
-    append(bytes, 4 * static_cast<std::uint64_t>(here - last) + (track.contact.empty() ? 3u : track.contact[i]));
+    append(bytes,
+           4 * static_cast<std::uint64_t>(here - last) + (track.contact.empty() ? 3u : track.contact[i]));
     last = here;
   }
   for (const auto* values : {&track.x, &track.y, &track.z}) append_steps(bytes, *values, units.length_unit);
@@ -89,7 +91,9 @@ std::string base64(std::string_view bytes) {
   std::string text;
   text.reserve(bytes.size() * 4 / 3 + 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u; };
+    const auto byte = [&](std::size_t k) {
+      return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u;
+    };
     const unsigned three = byte(0) << 16 | byte(1) << 8 | byte(2);
     text += letters[three >> 18];
     text += letters[three >> 12 & 63];

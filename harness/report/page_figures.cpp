@@ -10,11 +10,17 @@ namespace shakedown {
 
 namespace {
 
-std::string caption_html(const std::string& caption) { return caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>"; }
-std::string title_html(const std::string& title) { return title.empty() ? "" : "<h3>" + escaped(title) + "</h3>"; }
+std::string caption_html(const std::string& caption) {
+  return caption.empty() ? "" : "<figcaption>" + escaped(caption) + "</figcaption>";
+}
+std::string title_html(const std::string& title) {
+  return title.empty() ? "" : "<h3>" + escaped(title) + "</h3>";
+}
 
-std::string bare_table(const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& rows) {
-  std::string text = fmt::format("<div class=\"scroll\" tabindex=\"0\"><table{}><thead><tr>", columns.size() > 5 ? " class=\"wide\"" : "");
+std::string bare_table(const std::vector<std::string>& columns,
+                       const std::vector<std::vector<std::string>>& rows) {
+  std::string text = fmt::format("<div class=\"scroll\" tabindex=\"0\"><table{}><thead><tr>",
+                                 columns.size() > 5 ? " class=\"wide\"" : "");
   for (const std::string& column : columns) text += "<th scope=\"col\">" + escaped(column) + "</th>";
   text += "</tr></thead><tbody>";
   for (const std::vector<std::string>& row : rows) {
@@ -42,14 +48,20 @@ double longest(const ReportBars& bars) {
 /// Bars end at this fraction of the lane: what is right of it holds the numbers.
 constexpr double lane = 0.74;
 
-std::string bar_html(double value, double error, std::size_t kind, double top, const std::string& unit, const std::string& name) {
-  if (!std::isfinite(value)) return fmt::format("<div class=\"bar k{}\" title=\"{}\"><span>no number</span></div>", kind, escaped(name));
+std::string bar_html(double value, double error, std::size_t kind, double top, const std::string& unit,
+                     const std::string& name) {
+  if (!std::isfinite(value))
+    return fmt::format("<div class=\"bar k{}\" title=\"{}\"><span>no number</span></div>", kind,
+                       escaped(name));
   std::string whisker;
   if (std::isfinite(error) && value > 0)
-    whisker = fmt::format("<s style=\"left:{:.1f}%;width:{:.1f}%\"></s>", 100 * std::max(0.0, value - error) / value,
+    whisker = fmt::format("<s style=\"left:{:.1f}%;width:{:.1f}%\"></s>",
+                          100 * std::max(0.0, value - error) / value,
                           100 * (std::min(error, value) + error) / value);
-  return fmt::format("<div class=\"bar k{}\" title=\"{}\"><i style=\"width:{}\">{}</i><span>{}{}</span></div>", kind, escaped(name),
-                     percent(lane * std::max(0.0, value) / top), whisker, for_people(value), unit.empty() ? "" : " " + escaped(unit));
+  return fmt::format(
+      "<div class=\"bar k{}\" title=\"{}\"><i style=\"width:{}\">{}</i><span>{}{}</span></div>", kind,
+      escaped(name), percent(lane * std::max(0.0, value) / top), whisker, for_people(value),
+      unit.empty() ? "" : " " + escaped(unit));
 }
 
 }  // namespace
@@ -99,7 +111,8 @@ std::string_view css_class(Tone tone) {
 
 std::string table_html(const ReportTable& table) {
   const std::string inside = bare_table(table.columns, table.rows) + caption_html(table.caption);
-  if (table.folded) return "<details class=\"plain\"><summary>" + escaped(table.title) + "</summary>" + inside + "</details>";
+  if (table.folded)
+    return "<details class=\"plain\"><summary>" + escaped(table.title) + "</summary>" + inside + "</details>";
   return "<figure>" + title_html(table.title) + inside + "</figure>";
 }
 
@@ -109,13 +122,18 @@ std::string bars_html(const ReportBars& bars) {
   for (std::size_t k = 0; k < bars.names.size() && bars.names.size() > 1; ++k)
     text += fmt::format("<span><i class=\"k{}\"></i>{}</span>", k, escaped(bars.names[k]));
   if (std::isfinite(bars.floor))
-    text += fmt::format("<span><i class=\"floor\"></i>{}: {} {}</span>", escaped(bars.floor_name), for_people(bars.floor), escaped(bars.unit));
+    text += fmt::format("<span><i class=\"floor\"></i>{}: {} {}</span>", escaped(bars.floor_name),
+                        for_people(bars.floor), escaped(bars.unit));
   text += "</div><div class=\"bars\">";
   for (const ReportBars::Line& line : bars.lines) {
-    text += "<div class=\"label\">" + escaped(line.label) + (line.note.empty() ? "" : "<small>" + escaped(line.note) + "</small>") + "</div><div class=\"lane\">";
+    text += "<div class=\"label\">" + escaped(line.label) +
+            (line.note.empty() ? "" : "<small>" + escaped(line.note) + "</small>") +
+            "</div><div class=\"lane\">";
     for (std::size_t k = 0; k < line.values.size(); ++k)
-      text += bar_html(line.values[k], k < line.errors.size() ? line.errors[k] : std::nan(""), k, top, bars.unit, k < bars.names.size() ? bars.names[k] : "");
-    if (std::isfinite(bars.floor)) text += "<b class=\"floor\" style=\"left:" + percent(lane * bars.floor / top) + "\"></b>";
+      text += bar_html(line.values[k], k < line.errors.size() ? line.errors[k] : std::nan(""), k, top,
+                       bars.unit, k < bars.names.size() ? bars.names[k] : "");
+    if (std::isfinite(bars.floor))
+      text += "<b class=\"floor\" style=\"left:" + percent(lane * bars.floor / top) + "\"></b>";
     text += "</div>";
   }
   return text + "</div>" + caption_html(bars.caption) + "</figure>";
@@ -123,23 +141,28 @@ std::string bars_html(const ReportBars& bars) {
 
 std::string strip_html(const ReportStrip& strip) {
   std::string text = "<figure>" + title_html(strip.title);
-  text += fmt::format("<div class=\"key\"><span>0 <b class=\"ramp\"></b> {:g} and more {}</span></div><div class=\"strip\">", strip.top,
-                      escaped(strip.value_name));
+  text += fmt::format(
+      "<div class=\"key\"><span>0 <b class=\"ramp\"></b> {:g} and more {}</span></div><div class=\"strip\">",
+      strip.top, escaped(strip.value_name));
   for (const ReportStrip::Row& row : strip.rows) {
     text += "<span>" + escaped(row.name) + "</span><div class=\"cells\">";
     for (std::size_t k = 0; k < row.values.size(); ++k) {
       const double middle = (strip.edges[k] + strip.edges[k + 1]) / 2;
-      if (!std::isfinite(row.values[k])) text += "<i class=\"none\" title=\"not measured or not moving\"></i>";
+      if (!std::isfinite(row.values[k]))
+        text += "<i class=\"none\" title=\"not measured or not moving\"></i>";
       else
-        text += fmt::format("<i style=\"--v:{:.2f}\" data-at=\"{:.3f}\" data-show=\"{}\" title=\"{}, {:.2f} to {:.2f} s: {} {}\"></i>",
-                            std::clamp(row.values[k] / strip.top, 0.0, 1.0), middle, escaped(row.group), escaped(row.name), strip.edges[k],
-                            strip.edges[k + 1], for_people(row.values[k]), escaped(strip.value_name));
+        text += fmt::format(
+            "<i style=\"--v:{:.2f}\" data-at=\"{:.3f}\" data-show=\"{}\" title=\"{}, {:.2f} to {:.2f} s: {} "
+            "{}\"></i>",
+            std::clamp(row.values[k] / strip.top, 0.0, 1.0), middle, escaped(row.group), escaped(row.name),
+            strip.edges[k], strip.edges[k + 1], for_people(row.values[k]), escaped(strip.value_name));
     }
     text += "</div>";
   }
   if (!strip.edges.empty())
-    text += fmt::format("<span></span><div class=\"ticks\"><span>{:g}</span><span>{}</span><span>{:g}</span></div>", strip.edges.front(), escaped(strip.x_label),
-                        strip.edges.back());
+    text += fmt::format(
+        "<span></span><div class=\"ticks\"><span>{:g}</span><span>{}</span><span>{:g}</span></div>",
+        strip.edges.front(), escaped(strip.x_label), strip.edges.back());
   return text + "</div>" + caption_html(strip.caption) + "</figure>";
 }
 
@@ -155,14 +178,18 @@ std::string intervals_html(const std::vector<ReportInterval>& intervals) {
     }
     double low = whiskers ? v.low : v.value, high = whiskers ? v.high : v.value;
     if (given) low = std::min(low, v.given), high = std::max(high, v.given);
-    const double margin = high > low ? 0.15 * (high - low) : 1e-12 + 0.02 * std::abs(v.value), from = low - margin, across = high - low + 2 * margin;
+    const double margin = high > low ? 0.15 * (high - low) : 1e-12 + 0.02 * std::abs(v.value),
+                 from = low - margin, across = high - low + 2 * margin;
     const auto at = [&](double x) { return percent((x - from) / across); };
     text += "<span class=\"track\">";
     if (given) text += "<u style=\"left:" + at(v.given) + "\" title=\"in the setup\"></u>";
-    if (whiskers) text += fmt::format("<b style=\"left:{};width:{}\"></b>", at(v.low), percent((v.high - v.low) / across));
+    if (whiskers)
+      text +=
+          fmt::format("<b style=\"left:{};width:{}\"></b>", at(v.low), percent((v.high - v.low) / across));
     const std::string number = whiskers ? with_interval(v.value, v.low, v.high) : for_people(v.value);
     const std::size_t interval = std::min(number.find(" ("), number.size());
-    text += "<i style=\"left:" + at(v.value) + "\"></i></span><span class=\"number\">" + number.substr(0, interval) + " " + escaped(v.unit);
+    text += "<i style=\"left:" + at(v.value) + "\"></i></span><span class=\"number\">" +
+            number.substr(0, interval) + " " + escaped(v.unit);
     if (interval < number.size()) text += "<small>" + number.substr(interval) + "</small>";
     if (given) text += fmt::format(" <small>setup: {}</small>", for_people(v.given));
     text += "</span>";
@@ -179,7 +206,8 @@ std::string numbers_html(const ReportPlot& plot) {
     rows.push_back({for_people(plot.x[i])});
     for (const ReportCurve& curve : plot.curves) rows.back().push_back(for_people(curve.y[i]));
   }
-  return "<details><summary>Numbers as a table" + std::string(step > 1 ? fmt::format(" (one line in {})", step) : "") + "</summary>" +
+  return "<details><summary>Numbers as a table" +
+         std::string(step > 1 ? fmt::format(" (one line in {})", step) : "") + "</summary>" +
          bare_table(columns, rows) + "</details>";
 }
 

@@ -41,7 +41,8 @@ struct Whole {
 /// Colour goes with the last collision, so points in flight repeat it.
 void add_all(Whole& whole, const State& state, double time) {
   for (std::size_t i = 0; i < state.size(); ++i)
-    add(whole.grains[i], time, state.position[i], whole.grains[i].contact.empty() ? no_contact : whole.grains[i].contact.back());
+    add(whole.grains[i], time, state.position[i],
+        whole.grains[i].contact.empty() ? no_contact : whole.grains[i].contact.back());
   add(whole.box, time, Vec3(state.x_box, 0, 0), no_contact);
 }
 
@@ -56,8 +57,10 @@ Whole whole_run(const StoredRun& run, double until) {
     if (next_sample < replay.next_time()) {
       replay.advance_to(next_sample);
       const State state = replay.state();
-      if (sample % static_cast<std::int64_t>(bent_flight_step / box_step) == 0) add_all(whole, state, next_sample);
-      else add(whole.box, next_sample, Vec3(state.x_box, 0, 0), no_contact);
+      if (sample % static_cast<std::int64_t>(bent_flight_step / box_step) == 0)
+        add_all(whole, state, next_sample);
+      else
+        add(whole.box, next_sample, Vec3(state.x_box, 0, 0), no_contact);
       next_sample = static_cast<double>(++sample) * box_step;
       continue;
     }
@@ -67,14 +70,16 @@ Whole whole_run(const StoredRun& run, double until) {
     const auto i = static_cast<std::size_t>(event->grain), j = static_cast<std::size_t>(event->partner);
     const std::uint8_t contact = event->kind == EventKind::pair ? 0 : event->partner == 0 ? 1 : 2;
     add(whole.grains[i], event->time, state.position[i], contact);
-    if (event->kind == EventKind::pair) add(whole.grains[j], event->time, state.position[j], contact);
-    else if (event->partner == 0) add(whole.box, event->time, Vec3(state.x_box, 0, 0), no_contact);
+    if (event->kind == EventKind::pair)
+      add(whole.grains[j], event->time, state.position[j], contact);
+    else if (event->partner == 0)
+      add(whole.box, event->time, Vec3(state.x_box, 0, 0), no_contact);
   }
   return whole;
 }
 
-/// Points are left out while one straight flight stays within the tolerance of all of them: the interval of slopes that do so narrows with
-/// each point (along each axis) until the next point is outside of it.
+/// Points are left out while one straight flight stays within the tolerance of all of them: the interval of
+/// slopes that do so narrows with each point (along each axis) until the next point is outside of it.
 Track thinned(const Track& track, double tolerance, double exact_from, double exact_to) {
   struct Slopes {
     double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
@@ -82,7 +87,8 @@ Track thinned(const Track& track, double tolerance, double exact_from, double ex
   const std::array<const std::vector<double>*, 3> axes{&track.x, &track.y, &track.z};
   Track kept;
   const auto keep = [&](std::size_t i) {
-    add(kept, rounded(track.time[i]), {rounded(track.x[i]), rounded(track.y[i]), rounded(track.z[i])}, track.contact[i]);
+    add(kept, rounded(track.time[i]), {rounded(track.x[i]), rounded(track.y[i]), rounded(track.z[i])},
+        track.contact[i]);
   };
   std::array<Slopes, 3> slopes;
   std::size_t last = 0;
@@ -129,12 +135,14 @@ ReportReplay replay_of(const StoredRun& run, const ReplayPlan& plan) {
   replay.exact_to = std::clamp(plan.exact_to, replay.exact_from, whole.end);
   for (replay.tolerance = plan.tolerance; replay.tolerance < 1e-2; replay.tolerance *= 1.6) {
     replay.grains.clear();
-    for (const Track& track : whole.grains) replay.grains.push_back(thinned(track, replay.tolerance, replay.exact_from, replay.exact_to));
+    for (const Track& track : whole.grains)
+      replay.grains.push_back(thinned(track, replay.tolerance, replay.exact_from, replay.exact_to));
     replay.box = thinned(whole.box, std::min(replay.tolerance, 5e-5), replay.exact_from, replay.exact_to);
     if (gzip(packed(replay).bytes).size() <= plan.largest) break;
   }
   replay.caption = fmt::format(
-      "Blue box: simulated (run {}). Drag or use the arrow keys to turn the view. Between {:.2f} and {:.2f} s every impact is kept; elsewhere "
+      "Blue box: simulated (run {}). Drag or use the arrow keys to turn the view. Between {:.2f} and {:.2f} "
+      "s every impact is kept; elsewhere "
       "no grain is drawn further than {:.2g} mm from where it was.",
       run.run, replay.exact_from, replay.exact_to, replay.tolerance * 1e3);
   return replay;

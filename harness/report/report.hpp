@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A report as plain data: what is said, in which order, with the numbers behind every picture. A command fills it in; write_report() makes
-// one HTML file of it that needs nothing else: no network, no server, no other file.
+// A report as plain data: what is said, in which order, with the numbers behind every picture. A command
+// fills it in; write_report() makes one HTML file of it that needs nothing else: no network, no server, no
+// other file.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +18,7 @@ enum class Tone { plain, good, bad, unsure };
 enum class CurveRole { measured, model, as_given, band_low, band_high, other, points };
 
 struct ReportCurve {
-  std::string name;       ///< "measured"
+  std::string name;  ///< "measured"
   CurveRole role = CurveRole::other;
   std::vector<double> y;  ///< in the plot's unit; NaN: a gap
 };
@@ -25,10 +26,13 @@ struct ReportCurve {
 struct ReportPlot {
   std::string title, caption;
   std::string x_label, y_label;  ///< with the unit: "time, s"
-  /// Plots of one section with different groups (a box length, a run) are shown one group at a time; all sections switch together.
+  /// Plots of one section with different groups (a box length, a run) are shown one group at a time; all
+  /// sections switch together.
   std::string group;
-  bool over_time = false;  ///< x is the time of a run, s: the cursor is shared with the other plots and with the replay
-  double level = std::numeric_limits<double>::quiet_NaN();  ///< draws +-level as a tolerance (for residuals in units of their spread)
+  bool over_time =
+      false;  ///< x is the time of a run, s: the cursor is shared with the other plots and with the replay
+  double level = std::numeric_limits<double>::quiet_NaN();  ///< draws +-level as a tolerance (for residuals
+                                                            ///< in units of their spread)
   bool logarithmic_y = false;
   std::vector<double> x;
   std::vector<ReportCurve> curves;
@@ -53,8 +57,8 @@ struct ReportBars {
   std::vector<std::string> names;  ///< of the values of a line
   struct Line {
     std::string label, note;
-    std::vector<double> values;       ///< NaN: none
-    std::vector<double> errors{};     ///< standard errors; may be empty
+    std::vector<double> values;    ///< NaN: none
+    std::vector<double> errors{};  ///< standard errors; may be empty
     Tone tone = Tone::plain;
   };
   std::vector<Line> lines;
@@ -65,21 +69,22 @@ struct ReportBars {
 /// Where something fails: a row a run, a column a time.
 struct ReportStrip {
   std::string title, caption, x_label;
-  std::string value_name;             ///< "units of the expected spread"
-  std::vector<double> edges;          ///< of the columns, ascending, one more than values
+  std::string value_name;     ///< "units of the expected spread"
+  std::vector<double> edges;  ///< of the columns, ascending, one more than values
   struct Row {
     std::string name;
-    std::string group;                ///< a click shows this group at that time
-    std::vector<double> values;       ///< NaN: nothing there
+    std::string group;           ///< a click shows this group at that time
+    std::vector<double> values;  ///< NaN: nothing there
   };
   std::vector<Row> rows;
-  double top = 5;                     ///< value of the strongest colour
+  double top = 5;  ///< value of the strongest colour
 };
 
 /// A number with its interval.
 struct ReportInterval {
   std::string name, unit, word;  ///< word: a value that is no number (a packing)
-  double value = 0, low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
+  double value = 0, low = std::numeric_limits<double>::quiet_NaN(),
+         high = std::numeric_limits<double>::quiet_NaN();
   double given = std::numeric_limits<double>::quiet_NaN();  ///< what the setup said before
 };
 
@@ -108,26 +113,27 @@ struct ReportReplay {
   double exact_from = 0, exact_to = 0;       ///< s, interval in which every impact is kept
   std::vector<double> radius;                ///< m, one a grain
   struct Track {
-    std::vector<double> time, x, y, z;   ///< s, m (lab)
-    std::vector<std::uint8_t> contact;   ///< class of the impact there: 0 grain-grain, 1 end wall, 2 side wall, 3 none
+    std::vector<double> time, x, y, z;  ///< s, m (lab)
+    std::vector<std::uint8_t>
+        contact;  ///< class of the impact there: 0 grain-grain, 1 end wall, 2 side wall, 3 none
   };
   std::vector<Track> grains;
-  Track box;                              ///< centre of the box
+  Track box;                                          ///< centre of the box
   std::vector<double> measured_time, measured_x_box;  ///< s, m; may be empty
 };
 
 struct Report {
-  std::string kind;              ///< "diagnose", "compare", "run" ...
+  std::string kind;  ///< "diagnose", "compare", "run" ...
   std::string title, subtitle;
-  std::string verdict;           ///< one word or two: "missing effect"
-  std::string sentence;          ///< the verdict in a sentence
+  std::string verdict;   ///< one word or two: "missing effect"
+  std::string sentence;  ///< the verdict in a sentence
   Tone tone = Tone::plain;
-  std::vector<ReportFact> facts; ///< a few key numbers
+  std::vector<ReportFact> facts;  ///< a few key numbers
   std::vector<ReportReplay> replays;
   std::vector<ReportSection> sections;
-  std::string command;           ///< that makes it again
-  std::string setup;             ///< as used, TOML
-  std::string program;           ///< version line
+  std::string command;                 ///< that makes it again
+  std::string setup;                   ///< as used, TOML
+  std::string program;                 ///< version line
   std::vector<std::string> health;     ///< how well the engines kept their promises, a line each
   std::vector<std::string> citations;  ///< of the effects used
 };

@@ -15,58 +15,102 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr int report_schema_version = 1;
 
-template <class F> void fields(F& f, ReportCurve& c) { f("name", c.name), f("role", c.role), f("y", c.y); }
-template <class F> void fields(F& f, ReportPlot::Mark& m) { f("x", m.x), f("label", m.label); }
-template <class F> void fields(F& f, ReportPlot& p) {
-  f("title", p.title), f("caption", p.caption), f("x_label", p.x_label), f("y_label", p.y_label), f("group", p.group), f("over_time", p.over_time);
-  f("level", p.level), f("logarithmic_y", p.logarithmic_y), f("x", p.x), f("curves", p.curves), f("marks", p.marks);
+template <class F>
+void fields(F& f, ReportCurve& c) {
+  f("name", c.name), f("role", c.role), f("y", c.y);
 }
-template <class F> void fields(F& f, ReportTable& t) {
-  f("title", t.title), f("caption", t.caption), f("columns", t.columns), f("rows", t.rows), f("folded", t.folded);
+template <class F>
+void fields(F& f, ReportPlot::Mark& m) {
+  f("x", m.x), f("label", m.label);
 }
-template <class F> void fields(F& f, ReportBars::Line& l) {
+template <class F>
+void fields(F& f, ReportPlot& p) {
+  f("title", p.title), f("caption", p.caption), f("x_label", p.x_label), f("y_label", p.y_label),
+      f("group", p.group), f("over_time", p.over_time);
+  f("level", p.level), f("logarithmic_y", p.logarithmic_y), f("x", p.x), f("curves", p.curves),
+      f("marks", p.marks);
+}
+template <class F>
+void fields(F& f, ReportTable& t) {
+  f("title", t.title), f("caption", t.caption), f("columns", t.columns), f("rows", t.rows),
+      f("folded", t.folded);
+}
+template <class F>
+void fields(F& f, ReportBars::Line& l) {
   f("label", l.label), f("note", l.note), f("values", l.values), f("errors", l.errors), f("tone", l.tone);
 }
-template <class F> void fields(F& f, ReportBars& b) {
-  f("title", b.title), f("caption", b.caption), f("unit", b.unit), f("names", b.names), f("lines", b.lines), f("floor", b.floor), f("floor_name", b.floor_name);
+template <class F>
+void fields(F& f, ReportBars& b) {
+  f("title", b.title), f("caption", b.caption), f("unit", b.unit), f("names", b.names), f("lines", b.lines),
+      f("floor", b.floor), f("floor_name", b.floor_name);
 }
-template <class F> void fields(F& f, ReportStrip::Row& r) { f("name", r.name), f("group", r.group), f("values", r.values); }
-template <class F> void fields(F& f, ReportStrip& s) {
-  f("title", s.title), f("caption", s.caption), f("x_label", s.x_label), f("value_name", s.value_name), f("edges", s.edges), f("rows", s.rows), f("top", s.top);
+template <class F>
+void fields(F& f, ReportStrip::Row& r) {
+  f("name", r.name), f("group", r.group), f("values", r.values);
 }
-template <class F> void fields(F& f, ReportInterval& i) {
-  f("name", i.name), f("unit", i.unit), f("word", i.word), f("value", i.value), f("low", i.low), f("high", i.high), f("given", i.given);
+template <class F>
+void fields(F& f, ReportStrip& s) {
+  f("title", s.title), f("caption", s.caption), f("x_label", s.x_label), f("value_name", s.value_name),
+      f("edges", s.edges), f("rows", s.rows), f("top", s.top);
 }
-template <class F> void fields(F& f, ReportSection& s) {
-  f("title", s.title), f("paragraphs", s.paragraphs), f("plots", s.plots), f("strips", s.strips), f("bars", s.bars), f("intervals", s.intervals);
+template <class F>
+void fields(F& f, ReportInterval& i) {
+  f("name", i.name), f("unit", i.unit), f("word", i.word), f("value", i.value), f("low", i.low),
+      f("high", i.high), f("given", i.given);
+}
+template <class F>
+void fields(F& f, ReportSection& s) {
+  f("title", s.title), f("paragraphs", s.paragraphs), f("plots", s.plots), f("strips", s.strips),
+      f("bars", s.bars), f("intervals", s.intervals);
   f("tables", s.tables), f("list", s.list);
 }
-template <class F> void fields(F& f, ReportFact& x) { f("label", x.label), f("value", x.value), f("note", x.note), f("tone", x.tone); }
-template <class F> void fields(F& f, ReportReplay::Track& t) { f("time", t.time), f("x", t.x), f("y", t.y), f("z", t.z), f("contact", t.contact); }
-template <class F> void fields(F& f, ReportReplay& r) {
-  f("group", r.group), f("title", r.title), f("caption", r.caption), f("length", r.length), f("width", r.width), f("height", r.height);
-  f("duration", r.duration), f("tolerance", r.tolerance), f("exact_from", r.exact_from), f("exact_to", r.exact_to), f("radius", r.radius);
-  f("grains", r.grains), f("box", r.box), f("measured_time", r.measured_time), f("measured_x_box", r.measured_x_box);
+template <class F>
+void fields(F& f, ReportFact& x) {
+  f("label", x.label), f("value", x.value), f("note", x.note), f("tone", x.tone);
 }
-template <class F> void fields(F& f, Report& r) {
-  f("kind", r.kind), f("title", r.title), f("subtitle", r.subtitle), f("verdict", r.verdict), f("sentence", r.sentence), f("tone", r.tone);
-  f("facts", r.facts), f("replays", r.replays), f("sections", r.sections), f("command", r.command), f("setup", r.setup), f("program", r.program);
+template <class F>
+void fields(F& f, ReportReplay::Track& t) {
+  f("time", t.time), f("x", t.x), f("y", t.y), f("z", t.z), f("contact", t.contact);
+}
+template <class F>
+void fields(F& f, ReportReplay& r) {
+  f("group", r.group), f("title", r.title), f("caption", r.caption), f("length", r.length),
+      f("width", r.width), f("height", r.height);
+  f("duration", r.duration), f("tolerance", r.tolerance), f("exact_from", r.exact_from),
+      f("exact_to", r.exact_to), f("radius", r.radius);
+  f("grains", r.grains), f("box", r.box), f("measured_time", r.measured_time),
+      f("measured_x_box", r.measured_x_box);
+}
+template <class F>
+void fields(F& f, Report& r) {
+  f("kind", r.kind), f("title", r.title), f("subtitle", r.subtitle), f("verdict", r.verdict),
+      f("sentence", r.sentence), f("tone", r.tone);
+  f("facts", r.facts), f("replays", r.replays), f("sections", r.sections), f("command", r.command),
+      f("setup", r.setup), f("program", r.program);
   f("health", r.health), f("citations", r.citations);
 }
 
 struct ToJson {
   Json object = Json::object();
-  template <class T> void operator()(const char* name, T& value) { object[name] = of(value); }
+  template <class T>
+  void operator()(const char* name, T& value) {
+    object[name] = of(value);
+  }
 
-  template <class T> static Json of(std::vector<T>& values) {
+  template <class T>
+  static Json of(std::vector<T>& values) {
     Json array = Json::array();
     for (T& value : values) array.push_back(of(value));
     return array;
   }
-  template <class T> static Json of(T& value) {
-    if constexpr (std::is_same_v<T, double>) return std::isfinite(value) ? Json(value) : Json(nullptr);
-    else if constexpr (std::is_enum_v<T> || std::is_same_v<T, std::uint8_t>) return static_cast<int>(value);
-    else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>) return value;
+  template <class T>
+  static Json of(T& value) {
+    if constexpr (std::is_same_v<T, double>)
+      return std::isfinite(value) ? Json(value) : Json(nullptr);
+    else if constexpr (std::is_enum_v<T> || std::is_same_v<T, std::uint8_t>)
+      return static_cast<int>(value);
+    else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>)
+      return value;
     else {
       ToJson inner;
       fields(inner, value);
@@ -77,7 +121,8 @@ struct ToJson {
 
 struct FromJson {
   const Json& object;
-  template <class T> void operator()(const char* name, T& value) {
+  template <class T>
+  void operator()(const char* name, T& value) {
     if (const auto found = object.find(name); found != object.end()) read(*found, value);
   }
 
@@ -85,11 +130,13 @@ struct FromJson {
   static void read(const Json& from, bool& to) { to = from.get<bool>(); }
   static void read(const Json& from, std::uint8_t& to) { to = from.get<std::uint8_t>(); }
   static void read(const Json& from, std::string& to) { to = from.get<std::string>(); }
-  template <class T> static void read(const Json& from, std::vector<T>& to) {
+  template <class T>
+  static void read(const Json& from, std::vector<T>& to) {
     to.clear();
     for (const Json& one : from) read(one, to.emplace_back());
   }
-  template <class T> static void read(const Json& from, T& to) {
+  template <class T>
+  static void read(const Json& from, T& to) {
     if constexpr (std::is_enum_v<T>) {
       to = static_cast<T>(from.get<int>());
     } else {
@@ -112,13 +159,16 @@ std::string report_json(const Report& report) {
 Report read_report(std::filesystem::path file) {
   if (std::filesystem::is_directory(file)) file /= report_file_name;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw FileError(file.string() + ": there is no such report; commands with --out DIR leave one in their folder");
+  if (!stream)
+    throw FileError(file.string() +
+                    ": there is no such report; commands with --out DIR leave one in their folder");
   std::ostringstream contents;
   contents << stream.rdbuf();
   try {
     const Json json = Json::parse(contents.str());
     if (json.at("schema_version") != report_schema_version)
-      throw FileError(file.string() + ": was written by another version of the program; run its command again");
+      throw FileError(file.string() +
+                      ": was written by another version of the program; run its command again");
     Report report;
     FromJson reader{json};
     fields(reader, report);

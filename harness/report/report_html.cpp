@@ -15,29 +15,38 @@ namespace shakedown {
 
 namespace {
 
-constexpr std::array<const char*, 7> role_names{"measured", "model", "as_given", "band_low", "band_high", "other", "points"};
+constexpr std::array<const char*, 7> role_names{"measured",  "model", "as_given", "band_low",
+                                                "band_high", "other", "points"};
 
 /// Scripts of the page run by this name; nothing that a report holds could.
-std::string nonce_of(const std::string& data) { return fmt::format("{:016x}", std::hash<std::string>{}(data)); }
+std::string nonce_of(const std::string& data) {
+  return fmt::format("{:016x}", std::hash<std::string>{}(data));
+}
 
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 
 std::string plot_json(const ReportPlot& plot) {
   std::string curves;
   for (const ReportCurve& curve : plot.curves)
-    curves += fmt::format("{}{{\"n\":{},\"r\":\"{}\",\"y\":{}}}", curves.empty() ? "" : ",", quoted(curve.name),
-                          role_names[static_cast<std::size_t>(curve.role)], packed_json(curve.y));
+    curves +=
+        fmt::format("{}{{\"n\":{},\"r\":\"{}\",\"y\":{}}}", curves.empty() ? "" : ",", quoted(curve.name),
+                    role_names[static_cast<std::size_t>(curve.role)], packed_json(curve.y));
   std::string marks;
-  for (const ReportPlot::Mark& mark : plot.marks) marks += fmt::format("{}[{},{}]", marks.empty() ? "" : ",", mark.x, quoted(mark.label));
-  return fmt::format("{{\"group\":{},\"time\":{},\"log\":{},\"level\":{},\"xl\":{},\"yl\":{},\"x\":{},\"curves\":[{}],\"marks\":[{}]}}", quoted(plot.group), plot.over_time,
-                     plot.logarithmic_y, std::isfinite(plot.level) ? fmt::format("{}", plot.level) : "null", quoted(plot.x_label),
-                     quoted(plot.y_label), packed_json(plot.x), curves, marks);
+  for (const ReportPlot::Mark& mark : plot.marks)
+    marks += fmt::format("{}[{},{}]", marks.empty() ? "" : ",", mark.x, quoted(mark.label));
+  return fmt::format(
+      "{{\"group\":{},\"time\":{},\"log\":{},\"level\":{},\"xl\":{},\"yl\":{},\"x\":{},\"curves\":[{}],"
+      "\"marks\":[{}]}}",
+      quoted(plot.group), plot.over_time, plot.logarithmic_y,
+      std::isfinite(plot.level) ? fmt::format("{}", plot.level) : "null", quoted(plot.x_label),
+      quoted(plot.y_label), packed_json(plot.x), curves, marks);
 }
 
 /// The headline, and what follows it.
 std::pair<std::string, std::string> first_sentence(const std::string& text) {
   for (std::size_t i = text.find(". "); i != std::string::npos; i = text.find(". ", i + 1))
-    if (i + 2 < text.size() && std::isupper(static_cast<unsigned char>(text[i + 2]))) return {text.substr(0, i + 1), text.substr(i + 2)};
+    if (i + 2 < text.size() && std::isupper(static_cast<unsigned char>(text[i + 2])))
+      return {text.substr(0, i + 1), text.substr(i + 2)};
   return {text, ""};
 }
 
@@ -45,7 +54,8 @@ double top_speed(const ReportReplay& replay) {
   double top = 0;
   const ReportReplay::Track& box = replay.box;
   for (std::size_t i = 1; i < box.time.size(); ++i)
-    if (box.time[i] > box.time[i - 1]) top = std::max(top, std::abs(box.x[i] - box.x[i - 1]) / (box.time[i] - box.time[i - 1]));
+    if (box.time[i] > box.time[i - 1])
+      top = std::max(top, std::abs(box.x[i] - box.x[i - 1]) / (box.time[i] - box.time[i - 1]));
   return top > 0 ? top : 1;
 }
 
@@ -62,11 +72,13 @@ std::string replay_json(const ReportReplay& replay, const PackedReplay& units) {
   nlohmann::json points = nlohmann::json::array(), radius = replay.radius;
   for (const ReportReplay::Track& track : replay.grains) points.push_back(track.time.size());
   points.push_back(replay.box.time.size());
-  return fmt::format("{{\"group\":{},\"length\":{},\"width\":{},\"height\":{},\"duration\":{},\"from\":{},\"tq\":{},\"xq\":{},\"reach\":{},\"top_speed\":{},"
-                     "\"radius\":{},\"points\":{},\"measured\":{{\"t\":{},\"x\":{}}}}}",
-                     quoted(replay.group), replay.length, replay.width, replay.height, replay.duration, replay.exact_from, units.time_unit,
-                     units.length_unit, reach(replay), top_speed(replay), radius.dump(), points.dump(), packed_json(replay.measured_time),
-                     packed_json(replay.measured_x_box));
+  return fmt::format(
+      "{{\"group\":{},\"length\":{},\"width\":{},\"height\":{},\"duration\":{},\"from\":{},\"tq\":{},\"xq\":{"
+      "},\"reach\":{},\"top_speed\":{},"
+      "\"radius\":{},\"points\":{},\"measured\":{{\"t\":{},\"x\":{}}}}}",
+      quoted(replay.group), replay.length, replay.width, replay.height, replay.duration, replay.exact_from,
+      units.time_unit, units.length_unit, reach(replay), top_speed(replay), radius.dump(), points.dump(),
+      packed_json(replay.measured_time), packed_json(replay.measured_x_box));
 }
 
 /// Numbers its plots as they come, so that page and data agree.
@@ -81,15 +93,18 @@ class Page {
   }
   std::string data() const {
     std::string replays;
-    for (std::size_t i = 0; i < report_.replays.size(); ++i) replays += (i > 0 ? "," : "") + replay_json(report_.replays[i], packed(report_.replays[i]));
+    for (std::size_t i = 0; i < report_.replays.size(); ++i)
+      replays += (i > 0 ? "," : "") + replay_json(report_.replays[i], packed(report_.replays[i]));
     return "{\"plots\":[" + plots_ + "],\"replays\":[" + replays + "]}";
   }
 
  private:
   std::string header() const {
-    std::string text = "<header><p class=\"kicker\"><b>shakedown " + escaped(report_.kind) + "</b><span>" + escaped(report_.title) + "</span></p>";
+    std::string text = "<header><p class=\"kicker\"><b>shakedown " + escaped(report_.kind) + "</b><span>" +
+                       escaped(report_.title) + "</span></p>";
     if (!report_.verdict.empty())
-      text += fmt::format("<p class=\"ui\"><span class=\"verdict {}\">{}</span></p>", css_class(report_.tone), escaped(report_.verdict));
+      text += fmt::format("<p class=\"ui\"><span class=\"verdict {}\">{}</span></p>", css_class(report_.tone),
+                          escaped(report_.verdict));
     const auto [first, rest] = first_sentence(report_.sentence.empty() ? report_.title : report_.sentence);
     text += (first.size() > 70 ? "<h1 class=\"long\">" : "<h1>") + escaped(first) + "</h1>";
     if (!rest.empty()) text += "<p class=\"lead\">" + escaped(rest) + "</p>";
@@ -98,8 +113,11 @@ class Page {
     if (report_.facts.empty()) return text;
     text += "<dl class=\"facts\">";
     for (const ReportFact& fact : report_.facts)
-      text += fmt::format("<div class=\"fact\"><dt>{}</dt><dd>{}<small{}>{}</small></dd></div>", escaped(fact.label), escaped(fact.value),
-                          fact.tone == Tone::plain ? "" : fmt::format(" class=\"mark {}\"", css_class(fact.tone)), escaped(fact.note));
+      text +=
+          fmt::format("<div class=\"fact\"><dt>{}</dt><dd>{}<small{}>{}</small></dd></div>",
+                      escaped(fact.label), escaped(fact.value),
+                      fact.tone == Tone::plain ? "" : fmt::format(" class=\"mark {}\"", css_class(fact.tone)),
+                      escaped(fact.note));
     return text + "</dl>";
   }
 
@@ -116,14 +134,19 @@ class Page {
 
   std::string tools() const {
     const std::vector<std::string> names = groups();
-    std::string text = fmt::format("<nav class=\"tools{}\" aria-label=\"View\">", names.size() > 1 ? "" : " bare");
+    std::string text =
+        fmt::format("<nav class=\"tools{}\" aria-label=\"View\">", names.size() > 1 ? "" : " bare");
     if (!names.empty()) {
-      text += fmt::format("<div class=\"tabs{}\" role=\"tablist\" aria-label=\"Run\">", names.size() > 1 ? "" : " hidden");
+      text += fmt::format("<div class=\"tabs{}\" role=\"tablist\" aria-label=\"Run\">",
+                          names.size() > 1 ? "" : " hidden");
       for (std::size_t i = 0; i < names.size(); ++i)
-        text += fmt::format("<button role=\"tab\" data-tab=\"{0}\" aria-selected=\"{1}\" tabindex=\"{2}\">{0}</button>", escaped(names[i]), i == 0, i == 0 ? 0 : -1);
+        text += fmt::format(
+            "<button role=\"tab\" data-tab=\"{0}\" aria-selected=\"{1}\" tabindex=\"{2}\">{0}</button>",
+            escaped(names[i]), i == 0, i == 0 ? 0 : -1);
       text += "</div>";
     }
-    return text + "<span class=\"spring\"></span><button id=\"theme\" type=\"button\">Light or dark</button></nav>";
+    return text +
+           "<span class=\"spring\"></span><button id=\"theme\" type=\"button\">Light or dark</button></nav>";
   }
 
   /// The first section stands beside the replay.
@@ -138,17 +161,27 @@ class Page {
 
   static std::string replay(const ReportReplay& replay, std::size_t number) {
     return fmt::format(
-        "<section data-group=\"{0}\"><h2>{1}</h2><figure data-replay=\"{2}\"><canvas tabindex=\"0\" role=\"img\" aria-label=\"Grains in their box; "
-        "arrow keys turn the view, space plays\"></canvas><div class=\"controls\"><button type=\"button\" data-play aria-pressed=\"false\">Play</button>"
-        "<input type=\"range\" min=\"0\" max=\"1\" step=\"any\" value=\"0\" aria-label=\"Time\"><output>0 s</output></div><div class=\"controls\">"
-        "<label>Clock <select data-pace><option value=\"1\">as it was</option><option value=\"0.1\">10 times slower</option><option value=\"0.01\">100 "
-        "times slower</option><option value=\"0.001\">1000 times slower</option></select></label><label>Colour <select data-colour><option "
-        "value=\"speed\">speed</option><option value=\"class\">last collision</option></select></label><label>View <select data-view><option value=\"all\">the whole way</option><option value=\"box\">with the "
+        "<section data-group=\"{0}\"><h2>{1}</h2><figure data-replay=\"{2}\"><canvas tabindex=\"0\" "
+        "role=\"img\" aria-label=\"Grains in their box; "
+        "arrow keys turn the view, space plays\"></canvas><div class=\"controls\"><button type=\"button\" "
+        "data-play aria-pressed=\"false\">Play</button>"
+        "<input type=\"range\" min=\"0\" max=\"1\" step=\"any\" value=\"0\" aria-label=\"Time\"><output>0 "
+        "s</output></div><div class=\"controls\">"
+        "<label>Clock <select data-pace><option value=\"1\">as it was</option><option value=\"0.1\">10 times "
+        "slower</option><option value=\"0.01\">100 "
+        "times slower</option><option value=\"0.001\">1000 times "
+        "slower</option></select></label><label>Colour <select data-colour><option "
+        "value=\"speed\">speed</option><option value=\"class\">last "
+        "collision</option></select></label><label>View <select data-view><option value=\"all\">the whole "
+        "way</option><option value=\"box\">with the "
         "box</option></select></label></div><div class=\"scale of-speed\">0 "
-        "<span class=\"speed\"></span> {3} m/s and more</div><div class=\"scale of-class hidden\"><b style=\"background:var(--c0)\"></b> between grains "
-        "<b style=\"background:var(--c1)\"></b> end wall <b style=\"background:var(--c2)\"></b> side wall <b style=\"background:var(--c3)\"></b> none "
+        "<span class=\"speed\"></span> {3} m/s and more</div><div class=\"scale of-class hidden\"><b "
+        "style=\"background:var(--c0)\"></b> between grains "
+        "<b style=\"background:var(--c1)\"></b> end wall <b style=\"background:var(--c2)\"></b> side wall <b "
+        "style=\"background:var(--c3)\"></b> none "
         "yet</div><figcaption>{4}</figcaption></figure></section>",
-        escaped(replay.group), escaped(replay.title), number, for_people(top_speed(replay)), escaped(replay.caption));
+        escaped(replay.group), escaped(replay.title), number, for_people(top_speed(replay)),
+        escaped(replay.caption));
   }
 
   std::string plot(const ReportPlot& plot) {
@@ -157,25 +190,30 @@ class Page {
     std::string name = plot.title + (plot.group.empty() ? "" : " " + plot.group);
     for (char& letter : name)
       if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
-    std::string text = fmt::format("<figure data-group=\"{}\"><div class=\"figure-head\"><h3>{}</h3><button type=\"button\" data-csv=\"{}\" data-name=\"{}.csv\">"
-                                   "CSV</button></div><ul class=\"legend\">",
-                                   escaped(plot.group), escaped(plot.title), number, name);
+    std::string text = fmt::format(
+        "<figure data-group=\"{}\"><div class=\"figure-head\"><h3>{}</h3><button type=\"button\" "
+        "data-csv=\"{}\" data-name=\"{}.csv\">"
+        "CSV</button></div><ul class=\"legend\">",
+        escaped(plot.group), escaped(plot.title), number, name);
     for (std::size_t k = 0, others = 0; k < plot.curves.size(); ++k) {
       const ReportCurve& curve = plot.curves[k];
       if (curve.role == CurveRole::band_low) continue;
       const bool band = curve.role == CurveRole::band_high;
-      text += fmt::format("<li><i class=\"{}\"></i>{}{}</li>", band                              ? "band"
+      text += fmt::format("<li><i class=\"{}\"></i>{}{}</li>",
+                          band                             ? "band"
                           : curve.role == CurveRole::other ? fmt::format("other{}", others++ % 4)
                                                            : role_names[static_cast<std::size_t>(curve.role)],
                           escaped(curve.name),
                           band ? "" : fmt::format(" <output data-curve=\"{}\"></output>", k));
     }
-    return text + fmt::format("</ul><div class=\"plot\" data-plot=\"{}\"></div>", number) + (plot.caption.empty() ? "" : "<figcaption>" + escaped(plot.caption) + "</figcaption>") +
+    return text + fmt::format("</ul><div class=\"plot\" data-plot=\"{}\"></div>", number) +
+           (plot.caption.empty() ? "" : "<figcaption>" + escaped(plot.caption) + "</figcaption>") +
            numbers_html(plot) + "</figure>";
   }
 
   std::string section(const ReportSection& section, const char* css) {
-    std::string text = fmt::format("<section{}><h2>{}</h2>", *css ? fmt::format(" class=\"{}\"", css) : "", escaped(section.title));
+    std::string text = fmt::format("<section{}><h2>{}</h2>", *css ? fmt::format(" class=\"{}\"", css) : "",
+                                   escaped(section.title));
     for (const std::string& paragraph : section.paragraphs) text += "<p>" + escaped(paragraph) + "</p>";
     if (!section.list.empty()) {
       text += "<ul>";
@@ -195,7 +233,9 @@ class Page {
   std::string reproduce() const {
     std::string text = "<section><h2>How to make this again</h2>";
     if (!report_.command.empty()) text += "<pre>" + escaped(report_.command) + "</pre>";
-    if (!report_.setup.empty()) text += "<details class=\"plain\"><summary>Setup as used</summary><pre>" + escaped(report_.setup) + "</pre></details>";
+    if (!report_.setup.empty())
+      text += "<details class=\"plain\"><summary>Setup as used</summary><pre>" + escaped(report_.setup) +
+              "</pre></details>";
     const auto list = [&](const char* title, const std::vector<std::string>& items) {
       if (items.empty()) return;
       text += std::string("<h3>") + title + "</h3><ul>";
@@ -205,7 +245,8 @@ class Page {
     list("How well the engine kept its promises", report_.health);
     list("Sources of the effects used", report_.citations);
     return text + "</section><footer><p>" + escaped(report_.program) +
-           ". This page holds everything it shows and asks no network. Plots by uPlot 1.6.32 (MIT licence, Leon Sorokin).</p></footer>";
+           ". This page holds everything it shows and asks no network. Plots by uPlot 1.6.32 (MIT licence, "
+           "Leon Sorokin).</p></footer>";
   }
 
   const Report& report_;
@@ -219,18 +260,26 @@ std::string report_html(const Report& report) {
   Page page(report);
   const std::string body = page.body(), data = page.data(), nonce = nonce_of(data);
   std::string html = fmt::format(
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-      "script-src 'nonce-{0}'; style-src 'unsafe-inline'; img-src data:; connect-src 'none'; form-action 'none'; base-uri 'none'\"><meta "
-      "name=\"viewport\" content=\"width=device-width, initial-scale=1\"><link rel=\"icon\" href=\"data:,\"><title>{1}</title>\n<style>{2}</style>\n"
-      "<style>{3}</style></head>\n<body><main>{4}</main>\n<noscript><main><p>Without scripts there are no plots; every plot's numbers stand in the table "
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta "
+      "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+      "script-src 'nonce-{0}'; style-src 'unsafe-inline'; img-src data:; connect-src 'none'; form-action "
+      "'none'; base-uri 'none'\"><meta "
+      "name=\"viewport\" content=\"width=device-width, initial-scale=1\"><link rel=\"icon\" "
+      "href=\"data:,\"><title>{1}</title>\n<style>{2}</style>\n"
+      "<style>{3}</style></head>\n<body><main>{4}</main>\n<noscript><main><p>Without scripts there are no "
+      "plots; every plot's numbers stand in the table "
       "below it.</p></main></noscript>\n<script type=\"text/plain\" id=\"data\">{5}</script>\n",
       nonce, escaped(report.title), plot_style, page_style, body, base64(gzip(data)));
   for (std::size_t i = 0; i < report.replays.size(); ++i)
-    html += fmt::format("<script type=\"text/plain\" id=\"replay-{}\">{}</script>\n", i, base64(gzip(packed(report.replays[i]).bytes)));
-  for (const char* script : {plot_script, replay_script, page_script}) html += fmt::format("<script nonce=\"{}\">{}</script>\n", nonce, script);
+    html += fmt::format("<script type=\"text/plain\" id=\"replay-{}\">{}</script>\n", i,
+                        base64(gzip(packed(report.replays[i]).bytes)));
+  for (const char* script : {plot_script, replay_script, page_script})
+    html += fmt::format("<script nonce=\"{}\">{}</script>\n", nonce, script);
   return html + "</body></html>\n";
 }
 
-void write_report(const std::filesystem::path& file, const Report& report) { write_file(file, report_html(report)); }
+void write_report(const std::filesystem::path& file, const Report& report) {
+  write_file(file, report_html(report));
+}
 
 }  // namespace shakedown

@@ -9,7 +9,9 @@ namespace shakedown {
 
 namespace {
 
-void put_before(std::string& group, const std::string& name) { group = group.empty() ? name : name + ": " + group; }
+void put_before(std::string& group, const std::string& name) {
+  group = group.empty() ? name : name + ": " + group;
+}
 
 void rename_groups(Report& report, const std::string& name) {
   for (ReportReplay& replay : report.replays) put_before(replay.group, name);
@@ -48,7 +50,8 @@ Report joined(std::vector<NamedReport> reports) {
     for (std::string& line : report.health) line = name + ": " + line;
     move_to_end(all.health, report.health);
     for (std::string& line : report.citations)
-      if (std::find(all.citations.begin(), all.citations.end(), line) == all.citations.end()) all.citations.push_back(line);
+      if (std::find(all.citations.begin(), all.citations.end(), line) == all.citations.end())
+        all.citations.push_back(line);
   }
   all.sentence = std::to_string(reports.size()) + " results side by side";
   first.tables = {verdicts};

@@ -39,20 +39,26 @@ ReportPlot time_plot(std::string title, std::string y_label, std::string group, 
 }
 
 std::vector<ReportCurve> band(std::string name, std::vector<double> low, std::vector<double> high) {
-  return {{"", CurveRole::band_low, std::move(low)}, {std::move(name), CurveRole::band_high, std::move(high)}};
+  return {{"", CurveRole::band_low, std::move(low)},
+          {std::move(name), CurveRole::band_high, std::move(high)}};
 }
 
-ReportPlot energy_plot(std::string group, std::vector<double> time, std::vector<double> left, const std::array<std::vector<double>, contact_classes>& lost) {
+ReportPlot energy_plot(std::string group, std::vector<double> time, std::vector<double> left,
+                       const std::array<std::vector<double>, contact_classes>& lost) {
   ReportPlot plot = time_plot("Energy", "energy, mJ", std::move(group), std::move(time));
   plot.curves = {{"left", CurveRole::model, std::move(left)}};
-  const std::array<const char*, contact_classes> names{"lost between grains", "lost at end walls", "lost at side walls"};
-  for (std::size_t c = 0; c < contact_classes; ++c) plot.curves.push_back({names[c], CurveRole::other, lost[c]});
+  const std::array<const char*, contact_classes> names{"lost between grains", "lost at end walls",
+                                                       "lost at side walls"};
+  for (std::size_t c = 0; c < contact_classes; ++c)
+    plot.curves.push_back({names[c], CurveRole::other, lost[c]});
   return plot;
 }
 
-ReportTable numbers_of(const ReportBars& bars, std::string first_column, const std::vector<MoreColumn>& more) {
+ReportTable numbers_of(const ReportBars& bars, std::string first_column,
+                       const std::vector<MoreColumn>& more) {
   ReportTable table{"The same as numbers", "", {std::move(first_column)}, {}, true};
-  for (const std::string& name : bars.names) table.columns.push_back(bars.unit.empty() ? name : name + ", " + bars.unit);
+  for (const std::string& name : bars.names)
+    table.columns.push_back(bars.unit.empty() ? name : name + ", " + bars.unit);
   for (const MoreColumn& column : more) table.columns.push_back(column.title);
   for (std::size_t i = 0; i < bars.lines.size(); ++i) {
     std::vector<std::string> row{bars.lines[i].label};
@@ -75,8 +81,10 @@ Health worse_of(Health a, const Health& b) {
 }
 
 std::vector<std::string> health_in_words(const Health& worst, const std::string& of) {
-  std::vector<std::string> lines{fmt::format("{}: energy ledger open by {:.1e} of the initial energy, momentum off by {:.1e}, deepest overlap {:.1e} m.", of, worst.ledger_error,
-                                             worst.momentum_error, worst.deepest_overlap)};
+  std::vector<std::string> lines{
+      fmt::format("{}: energy ledger open by {:.1e} of the initial energy, momentum off by {:.1e}, deepest "
+                  "overlap {:.1e} m.",
+                  of, worst.ledger_error, worst.momentum_error, worst.deepest_overlap)};
   lines.insert(lines.end(), worst.notes.begin(), worst.notes.end());
   return lines;
 }

@@ -22,7 +22,8 @@ ReportPlot time_plot(std::string title, std::string y_label, std::string group, 
 std::vector<ReportCurve> band(std::string name, std::vector<double> low, std::vector<double> high);
 
 /// Box and grains' energy over time, mJ: what is left and what each class of contact took.
-ReportPlot energy_plot(std::string group, std::vector<double> time, std::vector<double> left, const std::array<std::vector<double>, contact_classes>& lost);
+ReportPlot energy_plot(std::string group, std::vector<double> time, std::vector<double> left,
+                       const std::array<std::vector<double>, contact_classes>& lost);
 
 /// The numbers of bars as a table opened by a click; `more` columns follow, a cell a line.
 struct MoreColumn {

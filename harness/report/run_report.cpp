@@ -17,8 +17,9 @@ constexpr double longest_series = 2500;  // points that a plot of 1000 pixels ca
 
 std::string plus_minus(const Statistic& value, double factor, const char* unit) {
   if (value.n == 0) return "–";
-  return value.n > 1 ? fmt::format("{} ± {} {}", for_people(factor * value.mean), for_people(factor * value.sd), unit)
-                     : fmt::format("{} {}", for_people(factor * value.mean), unit);
+  return value.n > 1
+             ? fmt::format("{} ± {} {}", for_people(factor * value.mean), for_people(factor * value.sd), unit)
+             : fmt::format("{} {}", for_people(factor * value.mean), unit);
 }
 
 std::vector<double> thinned(const std::vector<double>& values, std::size_t step, double factor) {
@@ -49,7 +50,8 @@ ReportSection peaks_section(const Ensemble& ensemble) {
 std::vector<std::string> health_of(const Ensemble& ensemble) {
   Health worst;
   for (const RunResult& run : ensemble.runs) worst = worse_of(std::move(worst), run.trajectory.health);
-  std::vector<std::string> lines = health_in_words(worst, fmt::format("Worst of all runs ({})", ensemble.runs.size()));
+  std::vector<std::string> lines =
+      health_in_words(worst, fmt::format("Worst of all runs ({})", ensemble.runs.size()));
   lines.insert(lines.begin() + 1, fmt::format("{} impacts made elastic.", worst.elastic_rescues));
   return lines;
 }
@@ -57,14 +59,17 @@ std::vector<std::string> health_of(const Ensemble& ensemble) {
 }  // namespace
 
 void RunCurves::add(const Trajectory& t) {
-  const auto step = static_cast<std::size_t>(std::ceil(std::max(1.0, static_cast<double>(t.time.size()) / longest_series)));
-  const std::array<const std::vector<double>*, 6> series{&t.x_box, &t.x_com, &t.total_energy, &t.loss[0], &t.loss[1], &t.loss[2]};
+  const auto step =
+      static_cast<std::size_t>(std::ceil(std::max(1.0, static_cast<double>(t.time.size()) / longest_series)));
+  const std::array<const std::vector<double>*, 6> series{&t.x_box,   &t.x_com,   &t.total_energy,
+                                                         &t.loss[0], &t.loss[1], &t.loss[2]};
   if (++runs_ == 1) {
     time_ = thinned(t.time, step, 1);
     first_box_ = thinned(t.x_box, step, 1e3);
     first_centre_ = thinned(t.x_com, step, 1e3);
     log_ = t.collision_log;
-    for (Moments& m : moments_) m = {std::vector<double>(time_.size(), 0), std::vector<double>(time_.size(), 0)};
+    for (Moments& m : moments_)
+      m = {std::vector<double>(time_.size(), 0), std::vector<double>(time_.size(), 0)};
   }
   for (std::size_t s = 0; s < series.size(); ++s) {
     const std::vector<double> values = thinned(*series[s], step, 1e3);
@@ -82,16 +87,27 @@ Report RunCurves::report(const Ensemble& ensemble, const Setup& setup, const std
   report.title = name;
   const auto decay = ensemble.over_runs([](const RunResult& r) { return r.observables.slope; });
   const auto frequency = ensemble.over_runs([](const RunResult& r) { return r.observables.frequency; });
-  const auto gone = ensemble.over_runs([](const RunResult& r) { return r.observables.seconds_to_energy_fraction[3]; });
-  report.sentence = gone.n > 0 ? fmt::format("{} grains in a {:.4g} mm box take 95 % of the energy in {} s.", setup.grains.count, setup.box.length * 1e3, for_people(gone.mean))
-                               : fmt::format("{} grains in a {:.4g} mm box for {:.4g} s.", setup.grains.count, setup.box.length * 1e3, setup.run.duration);
-  report.subtitle = fmt::format("Engine {}, {} run{}, seed {}.", ensemble.engine, ensemble.runs.size(), ensemble.runs.size() == 1 ? "" : "s", setup.run.seed);
-  report.facts = {{"Fall of the peaks", plus_minus(decay, 1e3, "mm/s"), "straight line, t < 8 s", Tone::plain},
-                  {"Frequency", plus_minus(frequency, 1, "Hz"), "first ten zero crossings", Tone::plain},
-                  {"95 % of the energy gone", plus_minus(gone, 1, "s"), "", Tone::plain}};
-  const std::array<const char*, contact_classes> classes{"Lost between grains", "Lost at end walls", "Lost at side walls"};
+  const auto gone =
+      ensemble.over_runs([](const RunResult& r) { return r.observables.seconds_to_energy_fraction[3]; });
+  report.sentence = gone.n > 0
+                        ? fmt::format("{} grains in a {:.4g} mm box take 95 % of the energy in {} s.",
+                                      setup.grains.count, setup.box.length * 1e3, for_people(gone.mean))
+                        : fmt::format("{} grains in a {:.4g} mm box for {:.4g} s.", setup.grains.count,
+                                      setup.box.length * 1e3, setup.run.duration);
+  report.subtitle = fmt::format("Engine {}, {} run{}, seed {}.", ensemble.engine, ensemble.runs.size(),
+                                ensemble.runs.size() == 1 ? "" : "s", setup.run.seed);
+  report.facts = {
+      {"Fall of the peaks", plus_minus(decay, 1e3, "mm/s"), "straight line, t < 8 s", Tone::plain},
+      {"Frequency", plus_minus(frequency, 1, "Hz"), "first ten zero crossings", Tone::plain},
+      {"95 % of the energy gone", plus_minus(gone, 1, "s"), "", Tone::plain}};
+  const std::array<const char*, contact_classes> classes{"Lost between grains", "Lost at end walls",
+                                                         "Lost at side walls"};
   for (std::size_t c = 0; c < contact_classes; ++c)
-    report.facts.push_back({classes[c], plus_minus(ensemble.over_runs([c](const RunResult& r) { return r.observables.energy_loss[c]; }), 100, "%"), "of the initial energy", Tone::plain});
+    report.facts.push_back(
+        {classes[c],
+         plus_minus(ensemble.over_runs([c](const RunResult& r) { return r.observables.energy_loss[c]; }), 100,
+                    "%"),
+         "of the initial energy", Tone::plain});
   const auto position = [&](const char* title, std::size_t s, const std::vector<double>& first) {
     ReportPlot plot = time_plot(title, "position, mm", log_ ? "run" : "", time_);
     if (runs_ > 1) {
@@ -113,11 +129,14 @@ Report RunCurves::report(const Ensemble& ensemble, const Setup& setup, const std
   if (setup.grains.count > 0) motion.plots.push_back(position("Centre of the grains", 1, first_centre_));
   ReportSection energies;
   energies.title = "Where the energy goes";
-  energies.plots = {energy_plot(log_ ? "run" : "", time_, moments_[2].mean, {moments_[3].mean, moments_[4].mean, moments_[5].mean})};
+  energies.plots = {energy_plot(log_ ? "run" : "", time_, moments_[2].mean,
+                                {moments_[3].mean, moments_[4].mean, moments_[5].mean})};
   report.sections = {motion, peaks_section(ensemble), energies};
   if (log_) {
     const double first_landing = 0.25 / setup.spring.frequency;
-    report.replays = {replay_of({"", setup, ensemble.runs.front().run, *log_}, {"run", "The grains", first_landing, first_landing + 0.5, setup.run.duration, 500'000, 2e-5})};
+    report.replays = {replay_of(
+        {"", setup, ensemble.runs.front().run, *log_},
+        {"run", "The grains", first_landing, first_landing + 0.5, setup.run.duration, 500'000, 2e-5})};
   }
   say_how_to_reproduce(report, setup);
   report.health = health_of(ensemble);

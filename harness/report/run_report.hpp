@@ -5,7 +5,8 @@
 
 namespace shakedown {
 
-/// The motion of an ensemble, collected while its runs go on (hand add() to EnsembleOptions::each; runs must come in order).
+/// The motion of an ensemble, collected while its runs go on (hand add() to EnsembleOptions::each; runs must
+/// come in order).
 class RunCurves {
  public:
   void add(const Trajectory& trajectory);

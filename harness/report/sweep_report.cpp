@@ -26,29 +26,48 @@ struct Drawn {
 const std::vector<Drawn>& drawn() {
   static const std::vector<Drawn> all{
       {"Steady amplitude under forcing", "amplitude, mm", {{"steady_amplitude_mm", "amplitude"}}},
-      {"Loss factor under forcing", "loss factor", {{"loss_factor", "energy lost per cycle over 2 pi times stored"}}},
-      {"Time to lose the energy", "time, s", {{"seconds_to_lose_95_percent", "95 %"}, {"seconds_to_lose_90_percent", "90 %"}, {"seconds_to_lose_75_percent", "75 %"}, {"seconds_to_lose_50_percent", "50 %"}}},
+      {"Loss factor under forcing",
+       "loss factor",
+       {{"loss_factor", "energy lost per cycle over 2 pi times stored"}}},
+      {"Time to lose the energy",
+       "time, s",
+       {{"seconds_to_lose_95_percent", "95 %"},
+        {"seconds_to_lose_90_percent", "90 %"},
+        {"seconds_to_lose_75_percent", "75 %"},
+        {"seconds_to_lose_50_percent", "50 %"}}},
       {"Fall of the peaks", "slope, mm/s", {{"slope_mm_per_s", "straight line, t < 8 s"}}},
       {"Frequency", "frequency, Hz", {{"frequency_hz", "first ten zero crossings"}}},
       {"First peak below 10 mm", "time, s", {{"first_peak_below_10mm_s", "first peak below 10 mm"}}},
-      {"Where the energy goes", "fraction of the initial energy", {{"energy_left", "left"}, {"loss_grain_grain", "between grains"}, {"loss_end_wall", "at end walls"}, {"loss_side_wall", "at side walls"}}},
+      {"Where the energy goes",
+       "fraction of the initial energy",
+       {{"energy_left", "left"},
+        {"loss_grain_grain", "between grains"},
+        {"loss_end_wall", "at end walls"},
+        {"loss_side_wall", "at side walls"}}},
   };
   return all;
 }
 
 std::size_t column_of(std::string_view name) {
   const auto numbers = run_numbers();
-  return static_cast<std::size_t>(std::find_if(numbers.begin(), numbers.end(), [&](const RunNumber& n) { return n.name == name; }) - numbers.begin());
+  return static_cast<std::size_t>(
+      std::find_if(numbers.begin(), numbers.end(), [&](const RunNumber& n) { return n.name == name; }) -
+      numbers.begin());
 }
 
-double at(const std::vector<double>& values, std::size_t i) { return i < values.size() ? values[i] : std::nan(""); }
+double at(const std::vector<double>& values, std::size_t i) {
+  return i < values.size() ? values[i] : std::nan("");
+}
 
-std::string axis_label(const SweepAxis& axis) { return axis.key + (axis.unit.empty() ? "" : ", " + axis.unit); }
+std::string axis_label(const SweepAxis& axis) {
+  return axis.key + (axis.unit.empty() ? "" : ", " + axis.unit);
+}
 
 /// The sweep along its longer axis; the other's values are curves.
 class Sheet {
  public:
-  Sheet(const SweepIdentity& identity, const std::vector<PointSummary>& points) : identity_(identity), points_(points) {
+  Sheet(const SweepIdentity& identity, const std::vector<PointSummary>& points)
+      : identity_(identity), points_(points) {
     std::vector<std::set<double>> values(identity.axes.size());
     for (const PointSummary& point : points)
       for (std::size_t a = 0; a < values.size(); ++a) values[a].insert(point.varied[a]);
@@ -62,10 +81,13 @@ class Sheet {
     std::vector<ReportPlot> found;
     if (across_.empty()) return one_axis(drawn);
     for (const auto& [number, name] : drawn.numbers) {
-      ReportPlot plot = empty(drawn.numbers.size() > 1 ? std::string(drawn.title) + ": " + name : drawn.title, drawn.y_label);
+      ReportPlot plot = empty(drawn.numbers.size() > 1 ? std::string(drawn.title) + ": " + name : drawn.title,
+                              drawn.y_label);
       for (const double across : some_across()) {
         const SweepAxis& axis = identity_.axes[1 - along_];
-        plot.curves.push_back({fmt::format("{} = {:g}{}", axis.key, across, axis.unit.empty() ? "" : " " + axis.unit), CurveRole::other, means(number, across)});
+        plot.curves.push_back(
+            {fmt::format("{} = {:g}{}", axis.key, across, axis.unit.empty() ? "" : " " + axis.unit),
+             CurveRole::other, means(number, across)});
       }
       if (has_numbers(plot)) found.push_back(std::move(plot));
     }
@@ -76,7 +98,14 @@ class Sheet {
   std::vector<ReportStrip> strips(const Drawn& drawn) const {
     if (across_.size() < 4 || x_.size() < 4) return {};
     const SweepAxis &x = identity_.axes[along_], &y = identity_.axes[1 - along_];
-    ReportStrip strip{drawn.title, "Each row: " + axis_label(y) + ". Each column: " + axis_label(x) + ". White: the least, full: the most.", axis_label(x), drawn.y_label, {}, {}, 1};
+    ReportStrip strip{drawn.title,
+                      "Each row: " + axis_label(y) + ". Each column: " + axis_label(x) +
+                          ". White: the least, full: the most.",
+                      axis_label(x),
+                      drawn.y_label,
+                      {},
+                      {},
+                      1};
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const double across : across_) {
       strip.rows.push_back({fmt::format("{:g}", across), "", means(drawn.numbers.front().first, across)});
@@ -109,11 +138,14 @@ class Sheet {
     if (drawn.numbers.size() == 1) {
       std::vector<double> low, high;
       const std::vector<double> sd = spreads(drawn.numbers.front().first);
-      for (std::size_t i = 0; i < mean.size(); ++i) low.push_back(mean[i] - 2 * sd[i]), high.push_back(mean[i] + 2 * sd[i]);
-      if (std::any_of(sd.begin(), sd.end(), [](double v) { return std::isfinite(v); })) plot.curves = band("two standard deviations of a run", low, high);
+      for (std::size_t i = 0; i < mean.size(); ++i)
+        low.push_back(mean[i] - 2 * sd[i]), high.push_back(mean[i] + 2 * sd[i]);
+      if (std::any_of(sd.begin(), sd.end(), [](double v) { return std::isfinite(v); }))
+        plot.curves = band("two standard deviations of a run", low, high);
     }
     for (std::size_t k = 0; k < drawn.numbers.size(); ++k)
-      plot.curves.push_back({drawn.numbers[k].second, k == 0 ? CurveRole::model : CurveRole::other, means(drawn.numbers[k].first, 0)});
+      plot.curves.push_back({drawn.numbers[k].second, k == 0 ? CurveRole::model : CurveRole::other,
+                             means(drawn.numbers[k].first, 0)});
     if (!has_numbers(plot)) return {};
     return {plot};
   }
@@ -127,7 +159,8 @@ class Sheet {
     return some;
   }
 
-  std::vector<double> numbers(const char* number, double across, std::vector<double> PointSummary::*what) const {
+  std::vector<double> numbers(const char* number, double across,
+                              std::vector<double> PointSummary::*what) const {
     std::vector<double> values(x_.size(), std::nan(""));
     for (const PointSummary& point : points_) {
       if (!across_.empty() && point.varied[1 - along_] != across) continue;
@@ -136,12 +169,15 @@ class Sheet {
     }
     return values;
   }
-  std::vector<double> means(const char* number, double across) const { return numbers(number, across, &PointSummary::mean); }
+  std::vector<double> means(const char* number, double across) const {
+    return numbers(number, across, &PointSummary::mean);
+  }
   std::vector<double> spreads(const char* number) const { return numbers(number, 0, &PointSummary::sd); }
 
   static bool has_numbers(const ReportPlot& plot) {
     return std::any_of(plot.curves.begin(), plot.curves.end(), [](const ReportCurve& curve) {
-      return curve.role != CurveRole::band_low && curve.role != CurveRole::band_high && std::any_of(curve.y.begin(), curve.y.end(), [](double v) { return std::isfinite(v); });
+      return curve.role != CurveRole::band_low && curve.role != CurveRole::band_high &&
+             std::any_of(curve.y.begin(), curve.y.end(), [](double v) { return std::isfinite(v); });
     });
   }
 
@@ -157,7 +193,8 @@ ReportTable all_numbers(const SweepIdentity& identity, const std::vector<PointSu
   table.columns.insert(table.columns.end(), {"runs", "failures"});
   std::vector<std::size_t> shown;
   for (std::size_t n = 0; n < run_numbers().size(); ++n)
-    if (std::any_of(points.begin(), points.end(), [&](const PointSummary& p) { return std::isfinite(at(p.mean, n)); })) {
+    if (std::any_of(points.begin(), points.end(),
+                    [&](const PointSummary& p) { return std::isfinite(at(p.mean, n)); })) {
       shown.push_back(n);
       table.columns.push_back(std::string(run_numbers()[n].name));
     }
@@ -174,20 +211,29 @@ ReportTable all_numbers(const SweepIdentity& identity, const std::vector<PointSu
 std::string place(const SweepIdentity& identity, const PointSummary& point) {
   std::string text;
   for (std::size_t a = 0; a < identity.axes.size(); ++a)
-    text += fmt::format("{}{} = {:g}{}", text.empty() ? "" : ", ", identity.axes[a].key, point.varied[a], identity.axes[a].unit.empty() ? "" : " " + identity.axes[a].unit);
+    text += fmt::format("{}{} = {:g}{}", text.empty() ? "" : ", ", identity.axes[a].key, point.varied[a],
+                        identity.axes[a].unit.empty() ? "" : " " + identity.axes[a].unit);
   return text;
 }
 
 /// What stands out, in a sentence.
 std::string sentence_of(const SweepIdentity& identity, const std::vector<PointSummary>& points) {
-  const std::size_t amplitude = column_of("steady_amplitude_mm"), time = column_of("seconds_to_lose_95_percent");
+  const std::size_t amplitude = column_of("steady_amplitude_mm"),
+                    time = column_of("seconds_to_lose_95_percent");
   const PointSummary *most = nullptr, *soonest = nullptr;
   for (const PointSummary& point : points) {
-    if (std::isfinite(at(point.mean, amplitude)) && (most == nullptr || point.mean[amplitude] > most->mean[amplitude])) most = &point;
-    if (std::isfinite(at(point.mean, time)) && (soonest == nullptr || point.mean[time] < soonest->mean[time])) soonest = &point;
+    if (std::isfinite(at(point.mean, amplitude)) &&
+        (most == nullptr || point.mean[amplitude] > most->mean[amplitude]))
+      most = &point;
+    if (std::isfinite(at(point.mean, time)) && (soonest == nullptr || point.mean[time] < soonest->mean[time]))
+      soonest = &point;
   }
-  if (most != nullptr) return fmt::format("Forced, the box swings most at {}: {} mm.", place(identity, *most), for_people(most->mean[amplitude]));
-  if (soonest != nullptr) return fmt::format("95 % of the energy is gone soonest at {}: after {} s.", place(identity, *soonest), for_people(soonest->mean[time]));
+  if (most != nullptr)
+    return fmt::format("Forced, the box swings most at {}: {} mm.", place(identity, *most),
+                       for_people(most->mean[amplitude]));
+  if (soonest != nullptr)
+    return fmt::format("95 % of the energy is gone soonest at {}: after {} s.", place(identity, *soonest),
+                       for_people(soonest->mean[time]));
   return fmt::format("{} points swept.", points.size());
 }
 
@@ -197,15 +243,20 @@ Report report_of(const ResultFile& file, const std::string& name) {
   const std::vector<ResultRow> rows = file.rows();
   const std::vector<PointSummary> points = summaries_of(rows);
   const SweepIdentity& identity = file.identity();
-  const auto failed = std::count_if(rows.begin(), rows.end(), [](const ResultRow& row) { return !row.failure.empty(); });
+  const auto failed =
+      std::count_if(rows.begin(), rows.end(), [](const ResultRow& row) { return !row.failure.empty(); });
   Report report;
   report.kind = "sweep";
   report.title = name;
   report.sentence = sentence_of(identity, points);
-  report.subtitle = fmt::format("Engine {}; {} point{}, {} runs.", identity.engine, points.size(), points.size() == 1 ? "" : "s", rows.size());
+  report.subtitle = fmt::format("Engine {}; {} point{}, {} runs.", identity.engine, points.size(),
+                                points.size() == 1 ? "" : "s", rows.size());
   report.facts = {{"Points", fmt::format("{}", points.size()), "", Tone::plain},
-                  {"Runs", fmt::format("{}", rows.size()), failed > 0 ? fmt::format("{} of them failed", failed) : "none failed", failed > 0 ? Tone::bad : Tone::good},
-                  {"Digest of all results", results_digest(rows), "the same for any threads, shards and order", Tone::plain}};
+                  {"Runs", fmt::format("{}", rows.size()),
+                   failed > 0 ? fmt::format("{} of them failed", failed) : "none failed",
+                   failed > 0 ? Tone::bad : Tone::good},
+                  {"Digest of all results", results_digest(rows),
+                   "the same for any threads, shards and order", Tone::plain}};
   if (!points.empty()) {
     const Sheet sheet(identity, points);
     ReportSection section;

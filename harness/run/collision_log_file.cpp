@@ -38,7 +38,8 @@ class Writer {
 class Reader {
  public:
   Reader(std::string bytes, const std::filesystem::path& file) : bytes_(std::move(bytes)), file_(file) {
-    if (!bytes_.starts_with(first_line)) fail("is not a collision log of this program's version; make the run again with --log");
+    if (!bytes_.starts_with(first_line))
+      fail("is not a collision log of this program's version; make the run again with --log");
     at_ = first_line.size();
   }
   template <class Number>
@@ -126,7 +127,9 @@ std::string collision_log_bytes(const StoredRun& stored) {
 StoredRun read_collision_log(std::filesystem::path file, std::span<const EffectRecord* const> known) {
   if (std::filesystem::is_directory(file)) file /= collision_log_name;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw FileError(file.string() + ": there is no such collision log; `shakedown run SETUP --out DIR --log` makes one");
+  if (!stream)
+    throw FileError(file.string() +
+                    ": there is no such collision log; `shakedown run SETUP --out DIR --log` makes one");
   std::ostringstream contents;
   contents << stream.rdbuf();
   Reader from(contents.str(), file);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A collision log as a file, from which a run can be replayed anywhere that the same program runs. Little-endian:
+// A collision log as a file, from which a run can be replayed anywhere that the same program runs.
+// Little-endian:
 //   "shakedown collision log 1\n"
-//   text: program that wrote it; text: setup (TOML)                          a text is its length (8 bytes) and its bytes
-//   run, end time, entries, impacts                                          8 bytes each
-//   number of grains, 1 where they spin; x_box, v_box; of each grain position, velocity, spin (if any), radius, mass    8 bytes a number
-//   number of digests and the digests; number of bytes of packed events and the events (hardsphere/event_log.hpp)
+//   text: program that wrote it; text: setup (TOML)                          a text is its length (8 bytes)
+//   and its bytes run, end time, entries, impacts                                          8 bytes each
+//   number of grains, 1 where they spin; x_box, v_box; of each grain position, velocity, spin (if any),
+//   radius, mass    8 bytes a number number of digests and the digests; number of bytes of packed events and
+//   the events (hardsphere/event_log.hpp)
 #pragma once
 #include <filesystem>
 #include <span>

@@ -162,8 +162,8 @@ double ContactTimeLimit::Value::deviation() const {
 }
 
 bool Crosscheck::any(Verdict verdict) const {
-  return std::ranges::any_of(comparisons,
-                             [&](const Comparison& comparison) { return comparison.found.verdict == verdict; });
+  return std::ranges::any_of(
+      comparisons, [&](const Comparison& comparison) { return comparison.found.verdict == verdict; });
 }
 
 LineAtZero line_at_zero(std::span<const double> x, std::span<const double> y,
@@ -209,10 +209,10 @@ Crosscheck crosscheck(const std::string& name, const Setup& setup, const Crossch
     for (std::size_t j = i + 1; j < found.engines.size(); ++j)
       compare(found.engines[i], found.engines[j], setup, options.margins, found.comparisons);
   if (!options.contact_times.empty())
-    found.limit = limit_of(
-        options.contact_times,
-        {limit_begin, limit_begin + static_cast<std::ptrdiff_t>(options.contact_times.size())},
-        *std::ranges::find(results, "hard", &EngineResult::engine));
+    found.limit =
+        limit_of(options.contact_times,
+                 {limit_begin, limit_begin + static_cast<std::ptrdiff_t>(options.contact_times.size())},
+                 *std::ranges::find(results, "hard", &EngineResult::engine));
   return found;
 }
 

@@ -17,7 +17,8 @@ using Json = nlohmann::ordered_json;
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json statistic_json(const Statistic& statistic, double per_si) {
-  return {{"mean", number(per_si * statistic.mean)}, {"sd", number(per_si * statistic.sd)}, {"n", statistic.n}};
+  return {
+      {"mean", number(per_si * statistic.mean)}, {"sd", number(per_si * statistic.sd)}, {"n", statistic.n}};
 }
 
 double standard_error(const Statistic& statistic) { return statistic.sd / std::sqrt(statistic.n); }
@@ -85,9 +86,8 @@ std::string table(const Crosscheck& crosscheck) {
     text += '\n';
   };
   for (std::size_t i = 0; i < crosscheck_numbers().size(); ++i)
-    row(label(crosscheck_numbers()[i]), [&](const EngineResult& result) {
-      return cell(result.numbers[i], crosscheck_numbers()[i].per_si);
-    });
+    row(label(crosscheck_numbers()[i]),
+        [&](const EngineResult& result) { return cell(result.numbers[i], crosscheck_numbers()[i].per_si); });
   for (std::size_t i = 0; i < 8; ++i)
     row(fmt::format("peak {}, mm", i + 1), [&](const EngineResult& result) {
       return i < result.peaks.size() ? cell(result.peaks[i], 1e3) : "-";
@@ -101,17 +101,18 @@ std::string verdicts(const Crosscheck& crosscheck) {
   for (const Comparison& comparison : crosscheck.comparisons) {
     const Equivalence& found = comparison.found;
     const double per_si = comparison.number->per_si;
-    text += fmt::format(
-        "  {:<28}{:<16}{:>9.4f} [{:>8.4f}, {:>8.4f}] +-{:<7.4g} {}\n", label(*comparison.number),
-        fmt::format("{} - {}", comparison.first, comparison.second), per_si * found.difference,
-        per_si * found.low, per_si * found.high, per_si * found.margin, in_words(found));
+    text +=
+        fmt::format("  {:<28}{:<16}{:>9.4f} [{:>8.4f}, {:>8.4f}] +-{:<7.4g} {}\n", label(*comparison.number),
+                    fmt::format("{} - {}", comparison.first, comparison.second), per_si * found.difference,
+                    per_si * found.low, per_si * found.high, per_si * found.margin, in_words(found));
   }
   return text;
 }
 
 std::string limit_table(const ContactTimeLimit& limit) {
   std::string text = fmt::format("  soft engine by contact time, mean +- its error\n  {:<28}", "");
-  for (const double time : limit.contact_times) text += fmt::format("{:>19}", fmt::format("{:g} ms", 1e3 * time));
+  for (const double time : limit.contact_times)
+    text += fmt::format("{:>19}", fmt::format("{:g} ms", 1e3 * time));
   text += fmt::format("{:>19}{:>19}\n", "to 0", "hard");
   const auto value = [](double mean, double error) {
     return fmt::format("{:>19}", std::isnan(mean) ? "-" : fmt::format("{:.4f} +- {:.4f}", mean, error));
@@ -169,9 +170,9 @@ std::string crosscheck_numbers_csv(const std::vector<Crosscheck>& crosschecks) {
   for (const Crosscheck& crosscheck : crosschecks)
     for (const EngineResult& result : crosscheck.engines) {
       const auto line = [&](const std::string& name, const Statistic& statistic, double per_si) {
-        text += fmt::format("{},{},{},{},{},{}\n", quoted(crosscheck.name), result.engine, name,
-                            csv_number(per_si * statistic.mean), csv_number(per_si * statistic.sd),
-                            statistic.n);
+        text +=
+            fmt::format("{},{},{},{},{},{}\n", quoted(crosscheck.name), result.engine, name,
+                        csv_number(per_si * statistic.mean), csv_number(per_si * statistic.sd), statistic.n);
       };
       for (std::size_t i = 0; i < result.numbers.size(); ++i)
         line(crosscheck_numbers()[i].key, result.numbers[i], crosscheck_numbers()[i].per_si);

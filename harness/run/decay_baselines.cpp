@@ -71,7 +71,8 @@ std::filesystem::path default_decay_baselines() { return DECAY_BASELINES; }
 std::vector<DecayBaseline> read_decay_baselines(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream)
-    throw FileError(file.string() + ": cannot be read; name the baselines with --baselines, or make them with --update");
+    throw FileError(file.string() +
+                    ": cannot be read; name the baselines with --baselines, or make them with --update");
   try {
     const Json json = Json::parse(stream);
     std::vector<DecayBaseline> baselines;
@@ -86,11 +87,12 @@ std::vector<DecayBaseline> read_decay_baselines(const std::filesystem::path& fil
 }
 
 void write_decay_baselines(const std::filesystem::path& file, const std::vector<DecayBaseline>& baselines) {
-  Json json{{"schema_version", 1},
-            {"about",
-             "shakedown check linear-decay: intervals for the mean over 8 runs or more of the paper's damper, "
-             "mean +- 4 sd sqrt(1/8 + 1/runs); rewritten by --update"},
-            {"baselines", Json::array()}};
+  Json json{
+      {"schema_version", 1},
+      {"about",
+       "shakedown check linear-decay: intervals for the mean over 8 runs or more of the paper's damper, "
+       "mean +- 4 sd sqrt(1/8 + 1/runs); rewritten by --update"},
+      {"baselines", Json::array()}};
   for (const DecayBaseline& baseline : baselines) json["baselines"].push_back(baseline_json(baseline));
   write_file(file, json.dump(2) + "\n");
 }
@@ -109,7 +111,8 @@ std::vector<DecayBaseline> updated(std::vector<DecayBaseline> baselines,
                   [&](const DecayBaseline& old) { return same_case(old, entry.engine, entry.length); });
     baselines.push_back(entry);
   }
-  std::ranges::sort(baselines, {}, [](const DecayBaseline& entry) { return std::tie(entry.engine, entry.length); });
+  std::ranges::sort(baselines, {},
+                    [](const DecayBaseline& entry) { return std::tie(entry.engine, entry.length); });
   return baselines;
 }
 

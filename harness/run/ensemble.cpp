@@ -67,7 +67,8 @@ Ensemble run_ensemble(const Engine& engine, const Setup& setup, const EnsembleOp
     auto result = std::make_shared<RunResult>();
     result->run = options.first_run + index;
     try {
-      result->trajectory = engine.run(setup, {result->run, progress.of_run(index), options.stop, options.log_collisions});
+      result->trajectory =
+          engine.run(setup, {result->run, progress.of_run(index), options.stop, options.log_collisions});
     } catch (const Interrupted&) {
       return {};
     }

@@ -14,9 +14,9 @@ namespace shakedown {
 
 struct EnsembleOptions {
   int runs = 1;
-  int first_run = 0;          ///< number of the first run; the number addresses a run's random numbers
-  int threads = 1;            ///< 0: one for each core; the results do not depend on it
-  bool keep_samples = false;  ///< keep the sampled motion of every run in memory, not only its totals
+  int first_run = 0;            ///< number of the first run; the number addresses a run's random numbers
+  int threads = 1;              ///< 0: one for each core; the results do not depend on it
+  bool keep_samples = false;    ///< keep the sampled motion of every run in memory, not only its totals
   bool log_collisions = false;  ///< each run's Trajectory::collision_log; kept in memory as its samples are
   /// Called with the fraction of the whole that is done, one call at a time, from any thread; may be empty.
   std::function<void(double fraction)> progress;

@@ -19,8 +19,7 @@ double probability_within(double angle, double nu) {
   const auto density = [&](double a) { return std::pow(std::cos(a), nu - 1); };
   double sum = density(0) + density(angle);
   for (int i = 1; i < steps; ++i) sum += (i % 2 == 1 ? 4 : 2) * density(angle * i / steps);
-  const double norm =
-      std::exp(std::lgamma((nu + 1) / 2) - std::lgamma(nu / 2)) / std::sqrt(std::numbers::pi);
+  const double norm = std::exp(std::lgamma((nu + 1) / 2) - std::lgamma(nu / 2)) / std::sqrt(std::numbers::pi);
   return 2 * norm * sum * angle / (3.0 * steps);
 }
 

@@ -96,14 +96,14 @@ int threads_or_all(int threads) {
 
 void work_in_parallel_deliver_in_order(int count, int threads,
                                        const std::function<std::function<void()>(int)>& work) {
-  // Runs of one batch differ tenfold in cost: with room for few results the quick ones would wait for the slow ones.
+  // Runs of one batch differ tenfold in cost: with room for few results the quick ones would wait for the
+  // slow ones.
   constexpr int results_a_thread = 16;
   const int all = threads_or_all(threads);
   Line line(count, all > 1 ? results_a_thread * all : 1, work);
   {
     std::vector<std::jthread> helpers;
-    for (int i = 1; i < std::min(all, count); ++i)
-      helpers.emplace_back([&] { line.serve(); });
+    for (int i = 1; i < std::min(all, count); ++i) helpers.emplace_back([&] { line.serve(); });
     line.serve();
   }
   line.rethrow();

@@ -21,10 +21,15 @@ Interval interval_around(const Statistic& found) {
 
 DecayCheck linearity(const DecayMeasurement& measured) {
   const double ratio = measured.rms_ratio.mean;
-  return {measured.engine, measured.length, "linearity", ratio < largest_rms_ratio, ratio,
+  return {measured.engine,
+          measured.length,
+          "linearity",
+          ratio < largest_rms_ratio,
+          ratio,
           Interval{0, largest_rms_ratio},
-          fmt::format("rms about a straight line / rms about an exponential, first {} peaks ({:.3f} down to 10 mm)", regime_peaks,
-                      measured.whole_rms_ratio.mean)};
+          fmt::format(
+              "rms about a straight line / rms about an exponential, first {} peaks ({:.3f} down to 10 mm)",
+              regime_peaks, measured.whole_rms_ratio.mean)};
 }
 
 DecayCheck against(const DecayMeasurement& measured, const char* name, const Statistic& found,
@@ -44,8 +49,8 @@ DecayCheck against(const DecayMeasurement& measured, const char* name, const Sta
 std::string curvature_finding(const Statistic& curvature) {
   const double error = curvature.sd / std::sqrt(curvature.n);
   if (!(std::abs(curvature.mean) > 3 * error)) return ", no curvature beyond 3 standard errors";
-  return fmt::format(", {:.0f} standard errors from straight: the decay {}",
-                     std::abs(curvature.mean) / error, curvature.mean > 0 ? "slows down" : "speeds up");
+  return fmt::format(", {:.0f} standard errors from straight: the decay {}", std::abs(curvature.mean) / error,
+                     curvature.mean > 0 ? "slows down" : "speeds up");
 }
 
 }  // namespace
@@ -84,7 +89,9 @@ DecayMeasurement measure_decay(const Engine& engine, double length, std::uint64_
   const auto over = [&](auto of_decay) {
     return ensemble.over_runs([&](const RunResult& run) { return of_decay(run.observables.decay); });
   };
-  return {std::string(engine.name()), length, seed,
+  return {std::string(engine.name()),
+          length,
+          seed,
           ensemble.over_runs([](const RunResult& run) {
             std::vector<Peak> peaks = peaks_of_the_decay(run.observables.peaks);
             if (peaks.size() > regime_peaks) peaks.resize(regime_peaks);

@@ -64,7 +64,8 @@ void RunResults::add(int run, const Trajectory& trajectory, const Observables& o
 void RunResults::write_collisions(int run, const CollisionLog& log) const {
   const std::string bytes = collision_log_bytes({version_line(), *logged_, run, log});
   if (runs_ == 1) folder_.write(collision_log_name, bytes);
-  if (every_series_) folder_.write(std::filesystem::path("collisions") / fmt::format("run_{:04}.log", run), bytes);
+  if (every_series_)
+    folder_.write(std::filesystem::path("collisions") / fmt::format("run_{:04}.log", run), bytes);
 }
 
 void RunResults::finish(const Ensemble& ensemble, const Setup& setup, const Provenance& provenance) {

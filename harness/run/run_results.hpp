@@ -20,7 +20,8 @@ class RunResults {
   /// Throws FileError when the folder cannot be written to.
   RunResults(OutputFolder folder, bool every_series);
 
-  /// Writes collision logs too: collisions.log of the first run and, with the series of every run, collisions/run_NNNN.log.
+  /// Writes collision logs too: collisions.log of the first run and, with the series of every run,
+  /// collisions/run_NNNN.log.
   void keep_collisions_of(const Setup& setup) { logged_ = setup; }
 
   /// Hand it to EnsembleOptions::each.

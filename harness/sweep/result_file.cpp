@@ -41,7 +41,8 @@ std::string tables_for(const SweepIdentity& identity) {
   for (const RunNumber& number : run_numbers()) numbers += ", " + column_name(number.name) + " REAL";
   return "CREATE TABLE IF NOT EXISTS about(name TEXT PRIMARY KEY, value TEXT);"
          "CREATE TABLE IF NOT EXISTS sessions(program TEXT, started TEXT DEFAULT CURRENT_TIMESTAMP);"
-         "CREATE TABLE IF NOT EXISTS runs(point TEXT, run INTEGER" + varied + ", failure TEXT, engine_seconds REAL" + numbers +
+         "CREATE TABLE IF NOT EXISTS runs(point TEXT, run INTEGER" +
+         varied + ", failure TEXT, engine_seconds REAL" + numbers +
          ", PRIMARY KEY(point, run)) WITHOUT ROWID;";
 }
 
@@ -54,7 +55,8 @@ std::string axes_text(const std::vector<SweepAxis>& axes) {
 std::vector<SweepAxis> axes_of(const std::string& text) {
   std::vector<SweepAxis> axes;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) axes.push_back({line.substr(0, line.find('\t')), line.substr(line.find('\t') + 1), {}});
+  for (std::string line; std::getline(lines, line);)
+    axes.push_back({line.substr(0, line.find('\t')), line.substr(line.find('\t') + 1), {}});
   return axes;
 }
 
@@ -78,27 +80,34 @@ std::map<std::string, std::string> about(const SweepIdentity& identity) {
 /// What two sweeps differ in, or nothing.
 std::string difference(std::map<std::string, std::string> a, std::map<std::string, std::string> b) {
   if (a["schema_version"] != b["schema_version"]) return "was written by another version of this program";
-  if (a["engine"] != b["engine"]) return fmt::format("holds results of engine {}, not {}", a["engine"], b["engine"]);
+  if (a["engine"] != b["engine"])
+    return fmt::format("holds results of engine {}, not {}", a["engine"], b["engine"]);
   if (a["axes"] != b["axes"]) return "holds a sweep over other keys";
   if (a["base_digest"] != b["base_digest"]) return "holds a sweep of another setup";
   return "";
 }
 
-/// A write-ahead log costs no wait for the disk after each run, but needs memory shared by all writers and so one machine; on file systems
-/// that may be shared by several the rollback journal works wherever locks do. With both a killed program loses nothing.
+/// A write-ahead log costs no wait for the disk after each run, but needs memory shared by all writers and so
+/// one machine; on file systems that may be shared by several the rollback journal works wherever locks do.
+/// With both a killed program loses nothing.
 const char* journal_for(const std::filesystem::path& file) {
-  constexpr std::array<long, 7> local{0xEF53, 0x58465342, 0x9123683E, 0x01021994, 0x794c7630, 0x2fc12fc1, 0xF2F52010};  // ext, xfs, btrfs, tmpfs, overlay, zfs, f2fs
+  // ext, xfs, btrfs, tmpfs, overlay, zfs, f2fs
+  constexpr std::array<long, 7> local{0xEF53,     0x58465342, 0x9123683E, 0x01021994,
+                                      0x794c7630, 0x2fc12fc1, 0xF2F52010};
   struct statfs found {};
-  const bool is_local = ::statfs(file.c_str(), &found) == 0 && std::find(local.begin(), local.end(), static_cast<long>(found.f_type)) != local.end();
+  const bool is_local = ::statfs(file.c_str(), &found) == 0 &&
+                        std::find(local.begin(), local.end(), static_cast<long>(found.f_type)) != local.end();
   return is_local ? "WAL" : "TRUNCATE";
 }
 
-/// One process after another: of several that make the same file at once SQLite refuses all but one the change of journal, however long they
-/// would wait. Locks the folder, since the file itself carries SQLite's locks; where a file system has no such locks nothing is gained or lost.
+/// One process after another: of several that make the same file at once SQLite refuses all but one the
+/// change of journal, however long they would wait. Locks the folder, since the file itself carries SQLite's
+/// locks; where a file system has no such locks nothing is gained or lost.
 class OpeningTurn {
  public:
   explicit OpeningTurn(const std::filesystem::path& file)
-      : folder_(::open((file.has_parent_path() ? file.parent_path() : std::filesystem::path(".")).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+      : folder_(::open((file.has_parent_path() ? file.parent_path() : std::filesystem::path(".")).c_str(),
+                       O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (folder_ >= 0) (void)::flock(folder_, LOCK_EX);
   }
   ~OpeningTurn() {
@@ -154,28 +163,38 @@ ResultFile::ResultFile(const std::filesystem::path& file, const SweepIdentity& i
   inside_ = std::make_unique<Inside>(file, Database::Access::write);
   Inside& in = *inside_;
   in.identity = identity;
-  in.database.execute(fmt::format("PRAGMA journal_mode = {}; PRAGMA synchronous = NORMAL;", journal_for(file)));
+  in.database.execute(
+      fmt::format("PRAGMA journal_mode = {}; PRAGMA synchronous = NORMAL;", journal_for(file)));
   Transaction transaction(in.database);
   const std::map<std::string, std::string> held = about(in.database);
   if (!held.empty()) {
-    if (const std::string other = difference(held, about(identity)); !other.empty()) refuse(file, other, "choose another file");
+    if (const std::string other = difference(held, about(identity)); !other.empty())
+      refuse(file, other, "choose another file");
     if (opening == Opening::fresh && SqlStatement(in.database, "SELECT 1 FROM runs").step())
       refuse(file, "holds results already", "go on with --resume, or choose another file");
   }
   in.database.execute(tables_for(identity));
-  if (column_count(in.database) != in.columns()) refuse(file, "has other columns than this version of the program writes", "choose another file");
-  for (const auto& [name, value] : about(identity)) SqlStatement(in.database, "INSERT OR IGNORE INTO about VALUES(?, ?)").bind(0, name).bind(1, value).run();
+  if (column_count(in.database) != in.columns())
+    refuse(file, "has other columns than this version of the program writes", "choose another file");
+  for (const auto& [name, value] : about(identity))
+    SqlStatement(in.database, "INSERT OR IGNORE INTO about VALUES(?, ?)").bind(0, name).bind(1, value).run();
   transaction.commit();
   in.prepare_insert();
 }
 
 ResultFile::ResultFile(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) throw FileError(file.string() + ": is not there; name a file that `shakedown sweep` wrote");
-  inside_ = std::make_unique<Inside>(file, Database::Access::write);  // a killed writer's journal may have to be rolled back
+  if (!std::filesystem::exists(file))
+    throw FileError(file.string() + ": is not there; name a file that `shakedown sweep` wrote");
+  // a killed writer's journal may have to be rolled back
+  inside_ = std::make_unique<Inside>(file, Database::Access::write);
   std::map<std::string, std::string> held = about(inside_->database);
-  if (held["schema_version"] != schema_version) refuse(file, "holds no results of a sweep by this version of the program", "name a file that `shakedown sweep` wrote");
+  if (held["schema_version"] != schema_version)
+    refuse(file, "holds no results of a sweep by this version of the program",
+           "name a file that `shakedown sweep` wrote");
   inside_->identity = {held["engine"], held["base_digest"], held["base_setup"], axes_of(held["axes"])};
-  if (column_count(inside_->database) != inside_->columns()) refuse(file, "has other columns than this version of the program writes", "read it with the version that wrote it");
+  if (column_count(inside_->database) != inside_->columns())
+    refuse(file, "has other columns than this version of the program writes",
+           "read it with the version that wrote it");
 }
 
 ResultFile::~ResultFile() = default;
@@ -209,7 +228,8 @@ std::vector<ResultRow> ResultFile::rows() const {
     int place = 0;
     row.point = lines.text(place++);
     row.run = lines.whole(place++);
-    for (std::size_t i = 0; i < inside_->identity.axes.size(); ++i) row.varied.push_back(lines.number(place++));
+    for (std::size_t i = 0; i < inside_->identity.axes.size(); ++i)
+      row.varied.push_back(lines.number(place++));
     row.failure = lines.text(place++);
     row.engine_seconds = lines.number(place++);
     while (place < inside_->columns()) row.numbers.push_back(lines.number(place++));
@@ -234,7 +254,9 @@ std::vector<std::string> ResultFile::begin_session(const std::string& program) {
 std::string results_digest(const std::vector<ResultRow>& rows) {
   std::vector<const ResultRow*> order;
   for (const ResultRow& row : rows) order.push_back(&row);
-  std::sort(order.begin(), order.end(), [](const ResultRow* a, const ResultRow* b) { return std::tie(a->point, a->run) < std::tie(b->point, b->run); });
+  std::sort(order.begin(), order.end(), [](const ResultRow* a, const ResultRow* b) {
+    return std::tie(a->point, a->run) < std::tie(b->point, b->run);
+  });
   std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
   const auto add = [&](std::string_view text) {
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
@@ -286,18 +308,24 @@ ResultFile merge_results(const std::filesystem::path& into, const std::vector<st
   std::map<std::pair<std::string, int>, std::pair<ResultRow, std::filesystem::path>> all;
   std::map<std::string, std::string> common;
   SweepIdentity identity;
-  const auto same = [](const ResultRow& a, const ResultRow& b) { return results_digest({a}) == results_digest({b}); };
+  const auto same = [](const ResultRow& a, const ResultRow& b) {
+    return results_digest({a}) == results_digest({b});
+  };
   const auto take = [&](const std::filesystem::path& file) {
     const ResultFile part(file);
     if (common.empty()) common = about(part.identity()), identity = part.identity();
-    if (const std::string other = difference(about(part.identity()), common); !other.empty()) refuse(file, other, "merge files of one sweep");
+    if (const std::string other = difference(about(part.identity()), common); !other.empty())
+      refuse(file, other, "merge files of one sweep");
     for (const ResultRow& row : part.rows()) {
       const std::pair key(row.point, row.run);
       const auto [held, fresh] = all.try_emplace(key, row, file);
       if (!fresh && !same(held->second.first, row))
-        refuse(file, fmt::format("run {} of point {} differs from that in {} (another build of the program gives other chaos)", key.second, key.first,
-                                 held->second.second.string()),
-               "leave one of the files out");
+        refuse(
+            file,
+            fmt::format(
+                "run {} of point {} differs from that in {} (another build of the program gives other chaos)",
+                key.second, key.first, held->second.second.string()),
+            "leave one of the files out");
     }
   };
   for (const std::filesystem::path& file : files) take(file);

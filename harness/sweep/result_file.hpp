@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Results of a sweep in one SQLite file, a row a run. A row is there, whole, once add() has returned: a program killed at any moment loses
-// what it was computing and nothing else. Several processes may add to one file; nothing depends on who came first.
+// Results of a sweep in one SQLite file, a row a run. A row is there, whole, once add() has returned: a
+// program killed at any moment loses what it was computing and nothing else. Several processes may add to one
+// file; nothing depends on who came first.
 #pragma once
 #include <filesystem>
 #include <memory>
@@ -23,7 +24,7 @@ struct SweepIdentity {
 };
 
 struct ResultRow {
-  std::string point;            ///< digest of the setup of this run
+  std::string point;  ///< digest of the setup of this run
   int run = 0;
   std::vector<double> varied;   ///< values of the axes, each in its own unit
   std::string failure;          ///< why an engine gave no numbers; empty: it did
@@ -67,7 +68,8 @@ class ResultFile {
   std::unique_ptr<Inside> inside_;
 };
 
-/// 16 hexadecimal digits over all numbers of all rows: the same whatever the threads, shards, order and interruptions.
+/// 16 hexadecimal digits over all numbers of all rows: the same whatever the threads, shards, order and
+/// interruptions.
 std::string results_digest(const std::vector<ResultRow>& rows);
 
 /// In the order of the axes' values.
@@ -76,8 +78,8 @@ std::vector<PointSummary> summaries_of(const std::vector<ResultRow>& rows);
 /// A line a point: values of the axes, runs, failures, then mean and sd of each number.
 std::string summary_csv(const SweepIdentity& identity, const std::vector<PointSummary>& points);
 
-/// Puts the results of several files into one. Throws InputError when they are not of one sweep, or when two disagree about a run (other
-/// builds of the program give other chaos).
+/// Puts the results of several files into one. Throws InputError when they are not of one sweep, or when two
+/// disagree about a run (other builds of the program give other chaos).
 ResultFile merge_results(const std::filesystem::path& into, const std::vector<std::filesystem::path>& files);
 
 }  // namespace shakedown

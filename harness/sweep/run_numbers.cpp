@@ -22,7 +22,9 @@ double loss(const SeenRun& run) {
 }
 
 double energy_left(const SeenRun& run) {
-  return run.trajectory.total_energy.empty() ? absent : run.trajectory.total_energy.back() / run.trajectory.initial_energy;
+  return run.trajectory.total_energy.empty()
+             ? absent
+             : run.trajectory.total_energy.back() / run.trajectory.initial_energy;
 }
 
 constexpr std::array table{
@@ -34,8 +36,10 @@ constexpr std::array table{
     RunNumber{"peak_3_mm", peak_mm<2>},
     RunNumber{"peak_4_mm", peak_mm<3>},
     RunNumber{"rms_line_mm", [](const SeenRun& run) { return 1e3 * run.observables.decay.linear.rms; }},
-    RunNumber{"rms_exponential_mm", [](const SeenRun& run) { return 1e3 * run.observables.decay.exponential.rms; }},
-    RunNumber{"curvature_mm_per_s2", [](const SeenRun& run) { return 1e3 * run.observables.decay.curvature; }},
+    RunNumber{"rms_exponential_mm",
+              [](const SeenRun& run) { return 1e3 * run.observables.decay.exponential.rms; }},
+    RunNumber{"curvature_mm_per_s2",
+              [](const SeenRun& run) { return 1e3 * run.observables.decay.curvature; }},
     RunNumber{"seconds_to_lose_50_percent", seconds_to<0>},
     RunNumber{"seconds_to_lose_75_percent", seconds_to<1>},
     RunNumber{"seconds_to_lose_90_percent", seconds_to<2>},
@@ -51,7 +55,8 @@ constexpr std::array table{
     RunNumber{"loss_factor", [](const SeenRun& run) { return run.steady.loss_factor; }},
     RunNumber{"ledger_error", [](const SeenRun& run) { return run.trajectory.health.ledger_error; }},
     RunNumber{"deepest_overlap_m", [](const SeenRun& run) { return run.trajectory.health.deepest_overlap; }},
-    RunNumber{"elastic_rescues", [](const SeenRun& run) { return static_cast<double>(run.trajectory.health.elastic_rescues); }},
+    RunNumber{"elastic_rescues",
+              [](const SeenRun& run) { return static_cast<double>(run.trajectory.health.elastic_rescues); }},
     RunNumber{"events", [](const SeenRun& run) { return static_cast<double>(run.trajectory.events); }},
 };
 
@@ -61,7 +66,8 @@ std::span<const RunNumber> run_numbers() { return table; }
 
 std::vector<double> numbers_of_run(const Setup& setup, const Trajectory& trajectory) {
   const Observables observables = observe(trajectory, setup);
-  const SteadyState steady = steady_forcing_of(setup) ? steady_state(setup, trajectory) : SteadyState{absent, absent, absent, absent};
+  const SteadyState steady = steady_forcing_of(setup) ? steady_state(setup, trajectory)
+                                                      : SteadyState{absent, absent, absent, absent};
   std::vector<double> numbers;
   for (const RunNumber& number : table) numbers.push_back(number.of({trajectory, observables, steady}));
   return numbers;

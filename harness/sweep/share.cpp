@@ -25,7 +25,8 @@ std::optional<int> whole_number(std::string_view text) {
 
 Share share_of(std::string source, int index, int of) {
   if (of < 1 || index < 0 || index >= of)
-    refuse(std::move(source), fmt::format("says {} of {} (counted from 0), which is no share", index, of), "say which share with --shard i/n");
+    refuse(std::move(source), fmt::format("says {} of {} (counted from 0), which is no share", index, of),
+           "say which share with --shard i/n");
   return {index, of, std::move(source)};
 }
 
@@ -37,7 +38,8 @@ class Reader {
     const std::optional<std::string> text = environment_(name);
     if (!text || *text == "undefined") return {};  // Grid Engine says so outside arrays
     const std::optional<int> value = whole_number(*text);
-    if (!value) refuse(name, fmt::format("is \"{}\", not a whole number", *text), "say which share with --shard i/n");
+    if (!value)
+      refuse(name, fmt::format("is \"{}\", not a whole number", *text), "say which share with --shard i/n");
     return value;
   }
 
@@ -61,12 +63,15 @@ Share among_processes(const Reader& read) {
 
 /// A member of an array of jobs.
 Share among_array_members(const Reader& read) {
-  if (const std::optional<int> id = read.number("SLURM_ARRAY_TASK_ID"); id && read.has("SLURM_ARRAY_TASK_COUNT")) {
-    const int first = read.number("SLURM_ARRAY_TASK_MIN").value_or(0), step = read.number("SLURM_ARRAY_TASK_STEP").value_or(1);
+  if (const std::optional<int> id = read.number("SLURM_ARRAY_TASK_ID");
+      id && read.has("SLURM_ARRAY_TASK_COUNT")) {
+    const int first = read.number("SLURM_ARRAY_TASK_MIN").value_or(0),
+              step = read.number("SLURM_ARRAY_TASK_STEP").value_or(1);
     return share_of("SLURM_ARRAY_TASK_ID", (*id - first) / step, *read.number("SLURM_ARRAY_TASK_COUNT"));
   }
   if (const std::optional<int> id = read.number("SGE_TASK_ID"); id && read.number("SGE_TASK_LAST")) {
-    const int first = read.number("SGE_TASK_FIRST").value_or(1), step = read.number("SGE_TASK_STEPSIZE").value_or(1);
+    const int first = read.number("SGE_TASK_FIRST").value_or(1),
+              step = read.number("SGE_TASK_STEPSIZE").value_or(1);
     return share_of("SGE_TASK_ID", (*id - first) / step, (*read.number("SGE_TASK_LAST") - first) / step + 1);
   }
   return {};
@@ -79,7 +84,8 @@ Share parse_share(std::string_view text) {
   const std::optional<int> index = whole_number(text.substr(0, slash));
   const std::optional<int> of = slash == text.npos ? std::nullopt : whole_number(text.substr(slash + 1));
   if (!index || !of || *of < 1 || *index < 1 || *index > *of)
-    refuse("--shard", fmt::format("\"{}\" is no share", text), "write i/n with i from 1 to n, e.g. --shard 2/8");
+    refuse("--shard", fmt::format("\"{}\" is no share", text),
+           "write i/n with i from 1 to n, e.g. --shard 2/8");
   return {*index - 1, *of, "--shard"};
 }
 

@@ -9,11 +9,13 @@
 namespace shakedown {
 
 struct Share {
-  int index = 0;       ///< 0 ... of - 1
+  int index = 0;  ///< 0 ... of - 1
   int of = 1;
   std::string source{};  ///< what said so, for people; empty: nobody, everything is done here
 
-  bool has(std::size_t job) const { return job % static_cast<std::size_t>(of) == static_cast<std::size_t>(index); }
+  bool has(std::size_t job) const {
+    return job % static_cast<std::size_t>(of) == static_cast<std::size_t>(index);
+  }
 };
 
 /// "2/8": the second of eight. Throws InputError.
@@ -23,9 +25,9 @@ Share parse_share(std::string_view text);
 using Environment = std::function<std::optional<std::string>(const char* name)>;
 Environment process_environment();
 
-/// The share that a launcher gave: ranks of Open MPI, MVAPICH, or any with PMI; tasks of srun; Slurm job arrays and Grid Engine arrays,
-/// and tasks within array members. A Slurm batch script itself is no task of srun: without a step it does everything. Throws
-/// InputError when rank and size contradict each other.
+/// The share that a launcher gave: ranks of Open MPI, MVAPICH, or any with PMI; tasks of srun; Slurm job
+/// arrays and Grid Engine arrays, and tasks within array members. A Slurm batch script itself is no task of
+/// srun: without a step it does everything. Throws InputError when rank and size contradict each other.
 Share share_from_launcher(const Environment& environment);
 
 }  // namespace shakedown

@@ -19,7 +19,8 @@ void Database::Close::operator()(sqlite3* handle) const { sqlite3_close(handle);
 
 Database::Database(const std::filesystem::path& file, Access access) : file_(file) {
   sqlite3* opened = nullptr;
-  const int flags = access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int flags =
+      access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   const int code = sqlite3_open_v2(file.c_str(), &opened, flags, nullptr);
   handle_.reset(opened);
   if (code != SQLITE_OK) fail("cannot be opened");
@@ -31,23 +32,27 @@ void Database::execute(const std::string& sql) const {
 }
 
 void Database::fail(std::string_view doing) const {
-  throw FileError(file_.string() + ": " + std::string(doing) + " (" + sqlite3_errmsg(handle()) + "); choose another file or make room there");
+  throw FileError(file_.string() + ": " + std::string(doing) + " (" + sqlite3_errmsg(handle()) +
+                  "); choose another file or make room there");
 }
 
 SqlStatement::SqlStatement(const Database& database, std::string_view sql) : database_(&database) {
   sqlite3_stmt* prepared = nullptr;
-  const int code = sqlite3_prepare_v2(database.handle(), sql.data(), static_cast<int>(sql.size()), &prepared, nullptr);
+  const int code =
+      sqlite3_prepare_v2(database.handle(), sql.data(), static_cast<int>(sql.size()), &prepared, nullptr);
   statement_.reset(prepared);
   if (code != SQLITE_OK) database.fail("cannot be read");
 }
 
 SqlStatement& SqlStatement::bind(int parameter, std::string_view text) {
-  sqlite3_bind_text(statement_.get(), parameter + 1, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
+  sqlite3_bind_text(statement_.get(), parameter + 1, text.data(), static_cast<int>(text.size()),
+                    SQLITE_TRANSIENT);
   return *this;
 }
 
 SqlStatement& SqlStatement::bind(int parameter, double number) {
-  std::isnan(number) ? sqlite3_bind_null(statement_.get(), parameter + 1) : sqlite3_bind_double(statement_.get(), parameter + 1, number);
+  std::isnan(number) ? sqlite3_bind_null(statement_.get(), parameter + 1)
+                     : sqlite3_bind_double(statement_.get(), parameter + 1, number);
   return *this;
 }
 
@@ -83,7 +88,9 @@ double SqlStatement::number(int column) const {
 
 int SqlStatement::whole(int column) const { return sqlite3_column_int(statement_.get(), column); }
 
-Transaction::Transaction(const Database& database) : database_(database) { database_.execute("BEGIN IMMEDIATE"); }
+Transaction::Transaction(const Database& database) : database_(database) {
+  database_.execute("BEGIN IMMEDIATE");
+}
 
 Transaction::~Transaction() {
   if (open_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);

@@ -56,7 +56,8 @@ class Database {
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
-/// Everything until commit() happens or nothing does. Writers wait for each other before they read what they will change.
+/// Everything until commit() happens or nothing does. Writers wait for each other before they read what they
+/// will change.
 class Transaction {
  public:
   explicit Transaction(const Database& database);

@@ -23,12 +23,15 @@ double value_at(const std::vector<double>& values, double place) {
   return (1 - part) * values[i] + part * values[i + 1];
 }
 
-/// Integral of f(k) over samples from place `from` to `to` (fractional), trapezoids with cut ends; in units of one sample.
+/// Integral of f(k) over samples from place `from` to `to` (fractional), trapezoids with cut ends; in units
+/// of one sample.
 template <class F>
 auto integral(F f, double from, double to) {
-  const auto first = static_cast<std::size_t>(std::ceil(from)), last = static_cast<std::size_t>(std::floor(to));
+  const auto first = static_cast<std::size_t>(std::ceil(from)),
+             last = static_cast<std::size_t>(std::floor(to));
   auto sum = 0.5 * (static_cast<double>(first) - from) * (f(from) + f(static_cast<double>(first)));
-  for (std::size_t k = first; k < last; ++k) sum += 0.5 * (f(static_cast<double>(k)) + f(static_cast<double>(k + 1)));
+  for (std::size_t k = first; k < last; ++k)
+    sum += 0.5 * (f(static_cast<double>(k)) + f(static_cast<double>(k + 1)));
   return sum + 0.5 * (to - static_cast<double>(last)) * (f(static_cast<double>(last)) + f(to));
 }
 
@@ -65,7 +68,8 @@ SteadyState steady_state(const Setup& setup, const Trajectory& trajectory) {
   const auto angle = [&](double place) { return omega * place / rate + forcing->phase; };
   /// First moment of mass: its acceleration is what the forcing works on.
   const auto moment = [&](double place) {
-    return physics.box_mass * value_at(trajectory.x_box, place) + (grains > 0 ? grains * value_at(trajectory.x_com, place) : 0.0);
+    return physics.box_mass * value_at(trajectory.x_box, place) +
+           (grains > 0 ? grains * value_at(trajectory.x_com, place) : 0.0);
   };
 
   std::vector<double> amplitudes;
@@ -78,17 +82,21 @@ SteadyState steady_state(const Setup& setup, const Trajectory& trajectory) {
   const Statistic amplitude = statistic_of(amplitudes);
   SteadyState state{amplitude.mean, amplitude.sd / amplitude.mean, 0, 0};
 
-  const std::complex<double> fundamental =
-      integral([&](double place) { return value_at(trajectory.x_box, place) * std::polar(1.0, -angle(place)); }, begin, end);
+  const std::complex<double> fundamental = integral(
+      [&](double place) { return value_at(trajectory.x_box, place) * std::polar(1.0, -angle(place)); }, begin,
+      end);
   // x = A sin(wt + phi - lag) has the Fourier component A/(2i) exp(-i lag).
   state.phase_lag = -std::arg(fundamental * std::complex<double>(0, 1));
 
   const auto boundary = [&](double place) { return std::sin(angle(place)) * moment(place); };
   const double work =
-      forcing->acceleration * (boundary(end) - boundary(begin) -
-                               omega / rate * integral([&](double place) { return std::cos(angle(place)) * moment(place); }, begin, end));
+      forcing->acceleration *
+      (boundary(end) - boundary(begin) -
+       omega / rate *
+           integral([&](double place) { return std::cos(angle(place)) * moment(place); }, begin, end));
   const double growth = value_at(trajectory.total_energy, end) - value_at(trajectory.total_energy, begin);
-  state.loss_factor = (work - growth) / steady_cycles / (two_pi * physics.stiffness * state.amplitude * state.amplitude / 2);
+  state.loss_factor =
+      (work - growth) / steady_cycles / (two_pi * physics.stiffness * state.amplitude * state.amplitude / 2);
   return state;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The damper under harmonic forcing along its axis (effect oscillating_acceleration), once the start is forgotten.
+// The damper under harmonic forcing along its axis (effect oscillating_acceleration), once the start is
+// forgotten.
 #pragma once
 #include <optional>
 
@@ -21,20 +22,21 @@ struct SteadyForcing {
 /// The setup's forcing along the axis; nothing when there is none or more than one.
 std::optional<SteadyForcing> steady_forcing_of(const Setup& setup);
 
-/// The setup with its duration set to the cycles above and at least 200 samples a cycle; unchanged without forcing.
+/// The setup with its duration set to the cycles above and at least 200 samples a cycle; unchanged without
+/// forcing.
 Setup long_enough_for_forcing(const Setup& setup);
 
 struct SteadyState {
-  double amplitude = 0;    ///< m, half of highest minus lowest position in a cycle, mean over the last cycles
-  double variation = 0;    ///< relative standard deviation of that from cycle to cycle: how steady it is
-  double phase_lag = 0;    ///< rad in (-pi, pi], of the fundamental of x_box behind the forcing
-  /// D / (2 pi k A^2 / 2): energy lost per cycle, by whatever takes it, over 2 pi times the energy stored in the spring at the
-  /// amplitude (Lazan, Damping of Materials and Members, 1968).
+  double amplitude = 0;  ///< m, half of highest minus lowest position in a cycle, mean over the last cycles
+  double variation = 0;  ///< relative standard deviation of that from cycle to cycle: how steady it is
+  double phase_lag = 0;  ///< rad in (-pi, pi], of the fundamental of x_box behind the forcing
+  /// D / (2 pi k A^2 / 2): energy lost per cycle, by whatever takes it, over 2 pi times the energy stored in
+  /// the spring at the amplitude (Lazan, Damping of Materials and Members, 1968).
   double loss_factor = 0;
 };
 
-/// Needs a trajectory of long_enough_for_forcing(setup), with its samples. The loss is the work of the forcing,
-/// int (M a v_box + N m a v_com) dt, less what the energy grew by: by parts it needs positions only.
+/// Needs a trajectory of long_enough_for_forcing(setup), with its samples. The loss is the work of the
+/// forcing, int (M a v_box + N m a v_com) dt, less what the energy grew by: by parts it needs positions only.
 SteadyState steady_state(const Setup& setup, const Trajectory& trajectory);
 
 }  // namespace shakedown

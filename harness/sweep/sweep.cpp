@@ -20,8 +20,9 @@ struct Job {
   int run;
 };
 
-/// Calls work(0) ... work(count - 1) on some threads, in no particular order: a result is kept as soon as it is there, so nobody waits for
-/// his turn. When one throws, no more are begun, and the first exception is thrown on.
+/// Calls work(0) ... work(count - 1) on some threads, in no particular order: a result is kept as soon as it
+/// is there, so nobody waits for his turn. When one throws, no more are begun, and the first exception is
+/// thrown on.
 void work_in_any_order(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
   std::exception_ptr failure;
@@ -39,7 +40,8 @@ void work_in_any_order(std::size_t count, int threads, const std::function<void(
   };
   {
     std::vector<std::jthread> helpers;
-    for (int i = 1; i < std::min<int>(threads, static_cast<int>(std::min<std::size_t>(count, 1024))); ++i) helpers.emplace_back(serve);
+    for (int i = 1; i < std::min<int>(threads, static_cast<int>(std::min<std::size_t>(count, 1024))); ++i)
+      helpers.emplace_back(serve);
     serve();
   }
   if (failure) std::rethrow_exception(failure);
@@ -71,7 +73,8 @@ class Sweeper {
     cost.seconds = cost.seconds_a_run * static_cast<double>(left) / threads_or_all(options_.threads);
     const bool go_on = !options_.announce || options_.announce(cost);
     whole_ = left;
-    if (go_on) work_in_any_order(left, threads_or_all(options_.threads), [&](std::size_t job) { do_one(jobs_[job]); });
+    if (go_on)
+      work_in_any_order(left, threads_or_all(options_.threads), [&](std::size_t job) { do_one(jobs_[job]); });
     outcome_.interrupted = cost.done + outcome_.added < cost.here;
     return outcome_;
   }
@@ -82,13 +85,15 @@ class Sweeper {
   /// First, middle and last point of what is left: their time tells the cost.
   void pilot() {
     if (jobs_.empty()) return;
-    std::set<std::size_t> chosen{0, std::min(jobs_.size(), plan_.points.size()) / 2, std::min(jobs_.size(), plan_.points.size()) - 1};
+    std::set<std::size_t> chosen{0, std::min(jobs_.size(), plan_.points.size()) / 2,
+                                 std::min(jobs_.size(), plan_.points.size()) - 1};
     std::vector<Job> pilots;
     for (auto place = chosen.rbegin(); place != chosen.rend(); ++place) {
       pilots.push_back(jobs_[*place]);
       jobs_.erase(jobs_.begin() + static_cast<std::ptrdiff_t>(*place));
     }
-    work_in_any_order(pilots.size(), threads_or_all(options_.threads), [&](std::size_t job) { do_one(pilots[job]); });
+    work_in_any_order(pilots.size(), threads_or_all(options_.threads),
+                      [&](std::size_t job) { do_one(pilots[job]); });
     outcome_.cost.seconds_a_run = seconds_ / static_cast<double>(std::max<std::size_t>(1, outcome_.added));
   }
 
@@ -96,7 +101,8 @@ class Sweeper {
     if (stopped()) return;
     const auto start = std::chrono::steady_clock::now();
     ResultRow row{job.point->digest, job.run, {}, "", 0, std::vector<double>(run_numbers().size(), absent)};
-    for (std::size_t a = 0; a < plan_.axes.size(); ++a) row.varied.push_back(plan_.axes[a].shown(job.point->values[a]));
+    for (std::size_t a = 0; a < plan_.axes.size(); ++a)
+      row.varied.push_back(plan_.axes[a].shown(job.point->values[a]));
     try {
       const Trajectory trajectory = engine_.run(job.point->setup, {job.run, {}, options_.stop});
       if (trajectory.interrupted) return;
@@ -116,7 +122,8 @@ class Sweeper {
     ++outcome_.added;
     seconds_ += row.engine_seconds;
     if (!row.failure.empty() && outcome_.failed++ == 0) outcome_.first_failure = row.failure;
-    if (whole_ > 0 && options_.progress) options_.progress(static_cast<double>(++finished_) / static_cast<double>(whole_));
+    if (whole_ > 0 && options_.progress)
+      options_.progress(static_cast<double>(++finished_) / static_cast<double>(whole_));
   }
 
   const Engine& engine_;
@@ -132,7 +139,8 @@ class Sweeper {
 
 }  // namespace
 
-SweepOutcome run_sweep(const Engine& engine, const SweepPlan& plan, ResultFile& file, const SweepOptions& options) {
+SweepOutcome run_sweep(const Engine& engine, const SweepPlan& plan, ResultFile& file,
+                       const SweepOptions& options) {
   return Sweeper(engine, plan, file, options).run();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Many setups, many runs of each, on every core of every machine that a scheduler gives; results go into a file as they come.
+// Many setups, many runs of each, on every core of every machine that a scheduler gives; results go into a
+// file as they come.
 #pragma once
 #include <atomic>
 #include <functional>
@@ -14,11 +15,11 @@ namespace shakedown {
 /// What a sweep will cost, from up to three runs of this share, which are kept.
 struct SweepCost {
   std::size_t points = 0;
-  std::size_t jobs = 0;        ///< points times runs, of all shares
-  std::size_t here = 0;        ///< of them this process' share
-  std::size_t done = 0;        ///< of the share, in the file already when this process came
-  double seconds_a_run = 0;    ///< on one thread
-  double seconds = 0;          ///< what is left, on the threads given
+  std::size_t jobs = 0;      ///< points times runs, of all shares
+  std::size_t here = 0;      ///< of them this process' share
+  std::size_t done = 0;      ///< of the share, in the file already when this process came
+  double seconds_a_run = 0;  ///< on one thread
+  double seconds = 0;        ///< what is left, on the threads given
 };
 
 struct SweepOptions {
@@ -33,12 +34,15 @@ struct SweepOptions {
 
 struct SweepOutcome {
   SweepCost cost;
-  std::size_t added = 0, failed = 0;  ///< runs added by this process; those of them in which the engine gave up
+  std::size_t added = 0,
+              failed = 0;  ///< runs added by this process; those of them in which the engine gave up
   std::string first_failure;
-  bool interrupted = false;           ///< something of the share is left to do
+  bool interrupted = false;  ///< something of the share is left to do
 };
 
-/// Runs what the file does not hold yet of the share. A run in which the engine breaks its promise is kept as a failure.
-SweepOutcome run_sweep(const Engine& engine, const SweepPlan& plan, ResultFile& file, const SweepOptions& options);
+/// Runs what the file does not hold yet of the share. A run in which the engine breaks its promise is kept as
+/// a failure.
+SweepOutcome run_sweep(const Engine& engine, const SweepPlan& plan, ResultFile& file,
+                       const SweepOptions& options);
 
 }  // namespace shakedown

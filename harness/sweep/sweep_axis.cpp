@@ -47,10 +47,13 @@ std::vector<std::string> parts_of(std::string_view text, char separator) {
   return parts;
 }
 
-bool is_bare(const std::string& text) { return !text.empty() && text.find_first_not_of("0123456789.eE+-") == text.npos; }
+bool is_bare(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789.eE+-") == text.npos;
+}
 
 /// Each part in SI. Parts without a unit take that of the last one.
-std::vector<double> numbers_in(const std::string& key, std::vector<std::string> parts, const std::string& unit) {
+std::vector<double> numbers_in(const std::string& key, std::vector<std::string> parts,
+                               const std::string& unit) {
   const std::string& last = parts.back();
   const std::size_t digits = last.find_first_not_of("0123456789.eE+- ");
   const std::string common = digits == last.npos ? "" : last.substr(digits);
@@ -58,7 +61,8 @@ std::vector<double> numbers_in(const std::string& key, std::vector<std::string> 
   for (std::string& part : parts) {
     if (is_bare(part)) part += " " + common;
     const auto parsed = parse_quantity(part);
-    if (const auto* reason = std::get_if<std::string>(&parsed)) refuse(key, fmt::format("\"{}\" {}", part, *reason));
+    if (const auto* reason = std::get_if<std::string>(&parsed))
+      refuse(key, fmt::format("\"{}\" {}", part, *reason));
     const Quantity quantity = std::get<Quantity>(parsed);
     const Dimension due = std::get<Unit>(parse_unit(unit)).dimension;
     if (quantity.dimension != due)
@@ -71,10 +75,13 @@ std::vector<double> numbers_in(const std::string& key, std::vector<std::string> 
 }
 
 /// from, from + step ... in decimal, so that values are what a setup file would say.
-std::vector<double> steps(const std::string& key, double from, double to, double step, const std::string& unit) {
-  if (step == 0 || (to - from) / step < 0) refuse(key, "never gets from the first value to the last", "give a step other than 0 that leads there");
+std::vector<double> steps(const std::string& key, double from, double to, double step,
+                          const std::string& unit) {
+  if (step == 0 || (to - from) / step < 0)
+    refuse(key, "never gets from the first value to the last", "give a step other than 0 that leads there");
   const double count = std::floor((to - from) / step * (1 + 1e-9) + 1e-9) + 1;
-  if (count > most_values) refuse(key, fmt::format("has {:.0f} values (at most {:.0f})", count, most_values), "take a larger step");
+  if (count > most_values)
+    refuse(key, fmt::format("has {:.0f} values (at most {:.0f})", count, most_values), "take a larger step");
   const double si = std::get<Unit>(parse_unit(unit)).si;
   std::vector<double> values;
   for (int i = 0; i < count; ++i) {
@@ -106,16 +113,19 @@ SweepAxis parse_axis(std::string_view text, std::span<const EffectRecord* const>
   const std::string_view range = text.substr(equals + 1);
   const bool stepped = range.find(':') != range.npos;
   const std::vector<std::string> parts = parts_of(range, stepped ? ':' : ',');
-  if (stepped && parts.size() != 3) refuse(axis.key, fmt::format("\"{}\" has {} parts (a range has 3)", range, parts.size()));
+  if (stepped && parts.size() != 3)
+    refuse(axis.key, fmt::format("\"{}\" has {} parts (a range has 3)", range, parts.size()));
   const std::vector<double> numbers = numbers_in(axis.key, parts, axis.unit);
   axis.values = stepped ? steps(axis.key, numbers[0], numbers[1], numbers[2], axis.unit) : numbers;
   std::vector<double> sorted = axis.values;
   std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) refuse(axis.key, "has one value twice", "name each value once");
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    refuse(axis.key, "has one value twice", "name each value once");
   return axis;
 }
 
-std::vector<SweepAxis> parse_axes(const std::vector<std::string>& texts, std::span<const EffectRecord* const> known) {
+std::vector<SweepAxis> parse_axes(const std::vector<std::string>& texts,
+                                  std::span<const EffectRecord* const> known) {
   std::vector<SweepAxis> axes;
   std::vector<Violation> found;
   for (const std::string& text : texts) {
@@ -127,7 +137,11 @@ std::vector<SweepAxis> parse_axes(const std::vector<std::string>& texts, std::sp
       found.insert(found.end(), error.violations.begin(), error.violations.end());
     }
   }
-  if (texts.size() > 2) found.push_back({{"--vary", 0, 0}, "", fmt::format("given {} times (a sweep has one or two dimensions)", texts.size()), "fix the others with --set"});
+  if (texts.size() > 2)
+    found.push_back({{"--vary", 0, 0},
+                     "",
+                     fmt::format("given {} times (a sweep has one or two dimensions)", texts.size()),
+                     "fix the others with --set"});
   if (!found.empty()) throw InputError(std::move(found));
   return axes;
 }

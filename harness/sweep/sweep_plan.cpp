@@ -16,18 +16,26 @@ namespace {
 constexpr std::size_t most_reported = 8;
 
 /// An effect that a setup does not have can be varied only when it needs nothing else.
-std::vector<Violation> effects_that_need_more(const Setup& base, const std::vector<SweepAxis>& axes, std::span<const EffectRecord* const> known) {
+std::vector<Violation> effects_that_need_more(const Setup& base, const std::vector<SweepAxis>& axes,
+                                              std::span<const EffectRecord* const> known) {
   std::vector<Violation> found;
   for (const SweepAxis& axis : axes) {
     const std::string name = axis.key.substr(0, axis.key.find('.'));
-    if (std::any_of(base.effects.begin(), base.effects.end(), [&](const EffectChoice& choice) { return choice.record->name == name; })) continue;
+    if (std::any_of(base.effects.begin(), base.effects.end(),
+                    [&](const EffectChoice& choice) { return choice.record->name == name; }))
+      continue;
     for (const EffectRecord* record : known)
-      for (const Parameter& parameter : record->name == name ? record->parameters : std::vector<Parameter>{}) {
+      for (const Parameter& parameter :
+           record->name == name ? record->parameters : std::vector<Parameter>{}) {
         const std::string needed = name + "." + std::string(parameter.name);
-        const bool varied = std::any_of(axes.begin(), axes.end(), [&](const SweepAxis& other) { return other.key.starts_with(needed); });
+        const bool varied = std::any_of(
+            axes.begin(), axes.end(), [&](const SweepAxis& other) { return other.key.starts_with(needed); });
         if (parameter.required && !varied)
-          found.push_back({{"--vary", 0, 0}, axis.key, fmt::format("is of an effect that the setup does not have, and {} must be given too", needed),
-                           "add the effect to the setup, or --set it"});
+          found.push_back(
+              {{"--vary", 0, 0},
+               axis.key,
+               fmt::format("is of an effect that the setup does not have, and {} must be given too", needed),
+               "add the effect to the setup, or --set it"});
       }
   }
   return found;
@@ -35,13 +43,16 @@ std::vector<Violation> effects_that_need_more(const Setup& base, const std::vect
 
 std::string shown(const std::vector<SweepAxis>& axes, const std::vector<double>& values) {
   std::string text;
-  for (std::size_t a = 0; a < axes.size(); ++a) text += (a > 0 ? ", " : "") + axes[a].key + " = " + write_quantity(values[a], axes[a].unit);
+  for (std::size_t a = 0; a < axes.size(); ++a)
+    text += (a > 0 ? ", " : "") + axes[a].key + " = " + write_quantity(values[a], axes[a].unit);
   return text;
 }
 
-std::vector<Violation> violations_at(const SweepPlan& plan, SweepPoint& point, const Engine& engine, std::span<const EffectRecord* const> known) {
+std::vector<Violation> violations_at(const SweepPlan& plan, SweepPoint& point, const Engine& engine,
+                                     std::span<const EffectRecord* const> known) {
   try {
-    for (std::size_t a = 0; a < plan.axes.size(); ++a) set_number(point.setup, plan.axes[a].key, point.values[a], known);
+    for (std::size_t a = 0; a < plan.axes.size(); ++a)
+      set_number(point.setup, plan.axes[a].key, point.values[a], known);
     std::vector<Violation> found = violations_of(point.setup);
     if (!found.empty()) return found;
     refuse_what_is_not_modelled(engine, point.setup);
@@ -82,20 +93,28 @@ void add_points(SweepPlan& plan, const Engine& engine, std::span<const EffectRec
     found.insert(found.end(), here.begin(), here.end());
   }
   if (bad > most_reported)
-    found.push_back({{"--vary", 0, 0}, "", fmt::format("{} more points are no possible setups", bad - most_reported), "narrow the range"});
+    found.push_back({{"--vary", 0, 0},
+                     "",
+                     fmt::format("{} more points are no possible setups", bad - most_reported),
+                     "narrow the range"});
   if (!found.empty()) throw InputError(std::move(found));
 }
 
 }  // namespace
 
-SweepPlan plan_sweep(const Setup& base, std::vector<SweepAxis> axes, int runs, const Engine& engine, std::span<const EffectRecord* const> known) {
+SweepPlan plan_sweep(const Setup& base, std::vector<SweepAxis> axes, int runs, const Engine& engine,
+                     std::span<const EffectRecord* const> known) {
   EXPECT(!axes.empty() && runs >= 1);
-  if (std::vector<Violation> found = effects_that_need_more(base, axes, known); !found.empty()) throw InputError(std::move(found));
+  if (std::vector<Violation> found = effects_that_need_more(base, axes, known); !found.empty())
+    throw InputError(std::move(found));
   SweepPlan plan{base, std::move(axes), {}, runs, {}};
   add_points(plan, engine, known);
-  if (std::any_of(plan.points.begin(), plan.points.end(), [](const SweepPoint& point) { return steady_forcing_of(point.setup).has_value(); }))
-    plan.notes.push_back(fmt::format("steady forcing: each run lasts {} cycles of it instead of run.duration; steady numbers are means of the last {}",
-                                     forcing_cycles, steady_cycles));
+  if (std::any_of(plan.points.begin(), plan.points.end(),
+                  [](const SweepPoint& point) { return steady_forcing_of(point.setup).has_value(); }))
+    plan.notes.push_back(
+        fmt::format("steady forcing: each run lasts {} cycles of it instead of run.duration; steady numbers "
+                    "are means of the last {}",
+                    forcing_cycles, steady_cycles));
   return plan;
 }
 

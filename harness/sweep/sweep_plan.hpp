@@ -13,7 +13,7 @@ namespace shakedown {
 struct SweepPoint {
   std::vector<double> values;  ///< SI, one an axis
   Setup setup;
-  std::string digest;          ///< of that setup
+  std::string digest;  ///< of that setup
 };
 
 /// Every combination of the axes' values.
@@ -26,7 +26,8 @@ struct SweepPlan {
 };
 
 /// Throws InputError with the points that are no possible setup or that the engine does not model.
-SweepPlan plan_sweep(const Setup& base, std::vector<SweepAxis> axes, int runs, const Engine& engine, std::span<const EffectRecord* const> known);
+SweepPlan plan_sweep(const Setup& base, std::vector<SweepAxis> axes, int runs, const Engine& engine,
+                     std::span<const EffectRecord* const> known);
 
 SweepIdentity identity_of(const SweepPlan& plan, const Engine& engine);
 

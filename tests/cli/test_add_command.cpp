@@ -15,9 +15,11 @@ const std::string commented = "# my damper\n[box]\nlength = \"65 mm\"  # measure
 
 TEST_F(AddCommand, KeepsTheUsersFileAndAddsTheEffectAtItsEnd) {
   const std::string setup = file("setup.toml", commented);
-  const Outcome outcome = shakedown_program({"add", setup, "grain_friction", "grain_grain=0.2", "--out", in_folder("with.toml")});
+  const Outcome outcome =
+      shakedown_program({"add", setup, "grain_friction", "grain_grain=0.2", "--out", in_folder("with.toml")});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(contents(in_folder("with.toml")), commented + "\n[[effect]]\nname = \"grain_friction\"\ngrain_grain = 0.2\n");
+  EXPECT_EQ(contents(in_folder("with.toml")),
+            commented + "\n[[effect]]\nname = \"grain_friction\"\ngrain_grain = 0.2\n");
   EXPECT_EQ(contents(setup), commented);
 }
 
@@ -29,11 +31,13 @@ TEST_F(AddCommand, QuotesQuantitiesAndTakesComponentsTablesAndFormulas) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return outcome.out.substr(std::min(outcome.out.size(), commented.size() + 1));
   };
-  EXPECT_EQ(added({"blade_viscous_damping"}), "[[effect]]\nname = \"blade_viscous_damping\"\ndamping = \"0.05 N s/m\"\n");
+  EXPECT_EQ(added({"blade_viscous_damping"}),
+            "[[effect]]\nname = \"blade_viscous_damping\"\ndamping = \"0.05 N s/m\"\n");
   EXPECT_EQ(added({"constant_acceleration", "acceleration.z=0.2 m/s^2"}),
             "[[effect]]\nname = \"constant_acceleration\"\nacceleration.z = \"0.2 m/s^2\"\n");
-  EXPECT_EQ(added({"user_force", "force=-c*v*abs(v)", "constants={c = \"0.1 N s^2/m^2\"}"}),
-            "[[effect]]\nname = \"user_force\"\nforce = \"-c*v*abs(v)\"\nconstants = {c = \"0.1 N s^2/m^2\"}\n");
+  EXPECT_EQ(
+      added({"user_force", "force=-c*v*abs(v)", "constants={c = \"0.1 N s^2/m^2\"}"}),
+      "[[effect]]\nname = \"user_force\"\nforce = \"-c*v*abs(v)\"\nconstants = {c = \"0.1 N s^2/m^2\"}\n");
 }
 
 TEST_F(AddCommand, WritesAnewWhatCannotBeAddedTo) {
@@ -49,13 +53,16 @@ TEST_F(AddCommand, KeepsPathsWorkingFromAnotherFolder) {
   std::filesystem::create_directories(in_folder("deeper"));
   file("grains.csv", "id,x,y,z,vx,vy,vz\n");
   const std::string setup = file("setup.toml", "[release]\ninitial_grains = \"grains.csv\"\n");
-  const Outcome outcome = shakedown_program({"add", setup, "grain_friction", "--out", in_folder("deeper/setup.toml")});
+  const Outcome outcome =
+      shakedown_program({"add", setup, "grain_friction", "--out", in_folder("deeper/setup.toml")});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(contents(in_folder("deeper/setup.toml")).find("initial_grains = \"" + in_folder("grains.csv")), std::string::npos);
+  EXPECT_NE(contents(in_folder("deeper/setup.toml")).find("initial_grains = \"" + in_folder("grains.csv")),
+            std::string::npos);
 }
 
 TEST_F(AddCommand, RefusesWhatDoesNotFitWithTheReason) {
-  const std::string setup = file("setup.toml", commented + "[[effect]]\nname = \"grain_friction\"\ngrain_grain = 0.1\n");
+  const std::string setup =
+      file("setup.toml", commented + "[[effect]]\nname = \"grain_friction\"\ngrain_grain = 0.1\n");
   const auto refused = [&](std::vector<std::string> words) {
     words.insert(words.begin(), {"add", setup});
     const Outcome outcome = shakedown_program(words);
@@ -63,20 +70,24 @@ TEST_F(AddCommand, RefusesWhatDoesNotFitWithTheReason) {
     return outcome.err;
   };
   EXPECT_NE(refused({"grain_friction", "grain_wall=0.2"}).find("is in the setup already"), std::string::npos);
-  EXPECT_NE(refused({"blade_viscous_dampign"}).find("did you mean 'blade_viscous_damping'"), std::string::npos);
+  EXPECT_NE(refused({"blade_viscous_dampign"}).find("did you mean 'blade_viscous_damping'"),
+            std::string::npos);
   EXPECT_NE(refused({"blade_viscous_damping", "damping=0.05"}).find("is the bare number"), std::string::npos);
   EXPECT_NE(refused({"blade_viscous_damping", "damping=0 N s/m"}).find("does nothing"), std::string::npos);
   EXPECT_NE(refused({"blade_viscous_damping", "damping"}).find("key=value"), std::string::npos);
 }
 
 TEST_F(LadderCommand, ShowsTheErrorFallWhenTheHiddenEffectIsAdded) {
-  ASSERT_EQ(shakedown_program({"hide", example("L040.toml"), "--effect", "blade_viscous_damping=damping:0.2 N s/m", "--engine", "hard", "--lengths",
+  ASSERT_EQ(shakedown_program({"hide", example("L040.toml"), "--effect",
+                               "blade_viscous_damping=damping:0.2 N s/m", "--engine", "hard", "--lengths",
                                "40mm,65mm", "--duration", "3 s", "--out", in_folder("case")})
                 .code,
             0);
   const std::string setup = in_folder("case/setup.toml"), with = in_folder("case/with.toml");
-  ASSERT_EQ(shakedown_program({"add", setup, "blade_viscous_damping", "damping=0.2 N s/m", "--out", with}).code, 0);
-  const Outcome outcome = shakedown_program({"ladder", setup, with, "--data", in_folder("case/experiment.toml"), "--runs", "48", "--json"});
+  ASSERT_EQ(
+      shakedown_program({"add", setup, "blade_viscous_damping", "damping=0.2 N s/m", "--out", with}).code, 0);
+  const Outcome outcome = shakedown_program(
+      {"ladder", setup, with, "--data", in_folder("case/experiment.toml"), "--runs", "48", "--json"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   const nlohmann::json ladder = nlohmann::json::parse(outcome.out)["ladder"];
   ASSERT_EQ(ladder.size(), 2u);
@@ -86,5 +97,7 @@ TEST_F(LadderCommand, ShowsTheErrorFallWhenTheHiddenEffectIsAdded) {
   EXPECT_GT(ladder[0]["error_box_mm"].get<double>(), 4 * ladder[1]["error_box_mm"].get<double>());
   EXPECT_LT(ladder[1]["error_box_mm"].get<double>(), 1.6 * ladder[1]["noise_floor"]["box_mm"].get<double>());
   // Nothing that is wrong holds: exit 1.
-  EXPECT_EQ(shakedown_program({"ladder", setup, "--data", in_folder("case/experiment.toml"), "--runs", "32"}).code, 1);
+  EXPECT_EQ(
+      shakedown_program({"ladder", setup, "--data", in_folder("case/experiment.toml"), "--runs", "32"}).code,
+      1);
 }

@@ -12,8 +12,8 @@ class CrosscheckCommand : public WithFolder {
  protected:
   /// Two short runs of the hard and the soft engine, with coarse contacts.
   Outcome short_crosscheck(std::vector<std::string> more, const char* runs = "2") const {
-    std::vector<std::string> arguments{"crosscheck", example("L040.toml"), "--set", "run.duration=2.5 s", "--set",
-                                       "soft.contact_time=3 ms", "--runs", runs};
+    std::vector<std::string> arguments{"crosscheck", example("L040.toml"),     "--set",  "run.duration=2.5 s",
+                                       "--set",      "soft.contact_time=3 ms", "--runs", runs};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return shakedown_program(arguments);
   }
@@ -24,8 +24,8 @@ class CheckCommand : public WithFolder {};
 }  // namespace
 
 TEST_F(CrosscheckCommand, WithinWideMarginsItSucceedsAndWritesItsFiles) {
-  const Outcome outcome = short_crosscheck({"--slope-margin", "100", "--share-margin", "1", "--out",
-                                            in_folder("out"), "--json"});
+  const Outcome outcome =
+      short_crosscheck({"--slope-margin", "100", "--share-margin", "1", "--out", in_folder("out"), "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json one = json::parse(outcome.out)["crosschecks"][0];
   EXPECT_EQ(one["engines"][0]["engine"], "hard");
@@ -37,16 +37,17 @@ TEST_F(CrosscheckCommand, WithinWideMarginsItSucceedsAndWritesItsFiles) {
 }
 
 TEST_F(CrosscheckCommand, BeyondItsMarginADifferenceIsExitOne) {
-  // Two runs do not always tell the engines apart; with six the shares of energy differ by ten standard errors.
+  // Two runs do not always tell the engines apart; with six the shares of energy differ by ten standard
+  // errors.
   const Outcome outcome = short_crosscheck({"--engines", "hard,hard,soft", "--share-margin", "1e-12"}, "6");
   EXPECT_EQ(outcome.code, 1) << outcome.out;
   EXPECT_NE(outcome.out.find("standard errors"), std::string::npos) << outcome.out;
 }
 
 TEST_F(CrosscheckCommand, VariesAKey) {
-  const Outcome outcome = shakedown_program({"crosscheck", example("L040.toml"), "--vary",
-                                             "box.length=40mm,65mm", "--set", "run.duration=1.5 s", "--engines",
-                                             "hard", "--runs", "1", "--json"});
+  const Outcome outcome =
+      shakedown_program({"crosscheck", example("L040.toml"), "--vary", "box.length=40mm,65mm", "--set",
+                         "run.duration=1.5 s", "--engines", "hard", "--runs", "1", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json found = json::parse(outcome.out)["crosschecks"];
   ASSERT_EQ(found.size(), 2u);
@@ -59,8 +60,9 @@ TEST_F(CrosscheckCommand, RefusesWhatItCannotUse) {
 }
 
 TEST_F(CheckCommand, FailsWithoutABaselineAndPassesAfterAnUpdate) {
-  const std::vector<std::string> arguments{"check",   "linear-decay", "--engines", "hard", "--lengths",  "40",
-                                           "--runs",  "8",            "--baselines", in_folder("b.json")};
+  const std::vector<std::string> arguments{
+      "check", "linear-decay", "--engines", "hard",        "--lengths",
+      "40",    "--runs",       "8",         "--baselines", in_folder("b.json")};
   EXPECT_EQ(shakedown_program(arguments).code, 4);
   std::vector<std::string> update = arguments;
   update.emplace_back("--update");

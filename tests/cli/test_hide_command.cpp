@@ -8,9 +8,10 @@ class HideCommand : public WithFolder {};
 }  // namespace
 
 TEST_F(HideCommand, WritesMeasurementsTheUsersSetupAndTheAnswerApart) {
-  const Outcome outcome = shakedown_program({"hide", example("L040.toml"), "--effect", "blade_viscous_damping", "--engine", "hard", "--lengths",
-                                             "40mm,65mm", "--duration", "1 s", "--camera", "fps=100", "--out", in_folder("case"), "--truth",
-                                             in_folder("answers/case.json")});
+  const Outcome outcome =
+      shakedown_program({"hide", example("L040.toml"), "--effect", "blade_viscous_damping", "--engine",
+                         "hard", "--lengths", "40mm,65mm", "--duration", "1 s", "--camera", "fps=100",
+                         "--out", in_folder("case"), "--truth", in_folder("answers/case.json")});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.out.find("blade_viscous"), std::string::npos);
   EXPECT_EQ(contents(in_folder("case/setup.toml")).find("blade_viscous"), std::string::npos);
@@ -22,16 +23,19 @@ TEST_F(HideCommand, WritesMeasurementsTheUsersSetupAndTheAnswerApart) {
 }
 
 TEST_F(HideCommand, SaysWhatIsWrongWithItsArguments) {
-  const Outcome outcome = shakedown_program({"hide", example("L040.toml"), "--effect", "grain_frictoin", "--camera", "fsp=500", "--lengths", "40"});
+  const Outcome outcome = shakedown_program(
+      {"hide", example("L040.toml"), "--effect", "grain_frictoin", "--camera", "fsp=500", "--lengths", "40"});
   EXPECT_EQ(outcome.code, 2);
-  for (const char* each : {"--camera: fsp", "--lengths", "--out"}) EXPECT_NE(outcome.err.find(each), std::string::npos) << outcome.err;
+  for (const char* each : {"--camera: fsp", "--lengths", "--out"})
+    EXPECT_NE(outcome.err.find(each), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("did you mean 'grain_friction'"), std::string::npos) << outcome.err;
 }
 
 TEST_F(HideCommand, PowerCountsAnswersAndWritesNothing) {
   // A budget of nothing and a model that holds: one comparison, about a second.
-  const Outcome outcome = shakedown_program({"hide", example("L040.toml"), "--engine", "hard", "--lengths", "40mm", "--duration", "2 s", "--power", "--repeats",
-                                             "1", "--budget", "1", "--json"});
+  const Outcome outcome =
+      shakedown_program({"hide", example("L040.toml"), "--engine", "hard", "--lengths", "40mm", "--duration",
+                         "2 s", "--power", "--repeats", "1", "--budget", "1", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const nlohmann::json power = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(power["detected"]["trials"], 1);

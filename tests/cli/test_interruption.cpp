@@ -28,8 +28,8 @@ TEST_F(Interruption, KeepsThePartOfASingleRun) {
 }
 
 TEST_F(Interruption, KeepsFinishedRunsOfAnEnsemble) {
-  // The time left is shown from 2 % on: then two thousand runs are done, however slowly the machine got there (a bar alone can be shown by
-  // a first run that a busy machine held up).
+  // The time left is shown from 2 % on: then two thousand runs are done, however slowly the machine got there
+  // (a bar alone can be shown by a first run that a busy machine held up).
   const Outcome outcome =
       interrupted_program({"run", example("L040.toml"), "--set", "run.duration=0.01 s", "--runs", "100000",
                            "--threads", "2", "--out", in_folder("out")},

@@ -8,7 +8,8 @@ class ReportCommand : public WithFolder {
  protected:
   /// A short run with its log and a report, in folder "run".
   Outcome logged_run() const {
-    return shakedown_program({"run", example("L040.toml"), "--set", "run.duration=0.5s", "--out", in_folder("run"), "--log", "--report", in_folder("run.html")});
+    return shakedown_program({"run", example("L040.toml"), "--set", "run.duration=0.5s", "--out",
+                              in_folder("run"), "--log", "--report", in_folder("run.html")});
   }
 };
 
@@ -17,7 +18,8 @@ TEST_F(ReportCommand, ALoggedRunIsExportedAndShown) {
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("report: open "), std::string::npos) << run.out;
   EXPECT_TRUE(fs::exists(in_folder("run/collisions.log")));
-  const Outcome exported = shakedown_program({"export", in_folder("run"), "--as", "csv", "--rate", "1kHz", "--from", "0.1s", "--to", "0.2s"});
+  const Outcome exported = shakedown_program(
+      {"export", in_folder("run"), "--as", "csv", "--rate", "1kHz", "--from", "0.1s", "--to", "0.2s"});
   ASSERT_EQ(exported.code, 0) << exported.err;
   EXPECT_NE(exported.out.find("101 frames of 37 grains"), std::string::npos) << exported.out;
   EXPECT_TRUE(fs::exists(in_folder("run/export/motion.csv")));
@@ -28,8 +30,11 @@ TEST_F(ReportCommand, ALoggedRunIsExportedAndShown) {
 
 TEST_F(ReportCommand, TheLogIsTheSameForAnyNumberOfThreads) {
   for (const std::string threads : {"1", "2"})
-    ASSERT_EQ(shakedown_program({"run", example("L065.toml"), "--set", "run.duration=0.3s", "--runs", "3", "--threads", threads, "--log", "--every-series",
-                                 "--out", in_folder(threads)}).code, 0);
+    ASSERT_EQ(
+        shakedown_program({"run", example("L065.toml"), "--set", "run.duration=0.3s", "--runs", "3",
+                           "--threads", threads, "--log", "--every-series", "--out", in_folder(threads)})
+            .code,
+        0);
   for (const std::string name : {"collisions.log", "collisions/run_0000.log", "collisions/run_0002.log"})
     EXPECT_EQ(contents(in_folder("1/" + name)), contents(in_folder("2/" + name))) << name;
   EXPECT_EQ(contents(in_folder("1/collisions.log")), contents(in_folder("1/collisions/run_0000.log")));
@@ -39,7 +44,8 @@ TEST_F(ReportCommand, WhatCannotBeLoggedIsNamed) {
   const Outcome nowhere = shakedown_program({"run", example("L040.toml"), "--log"});
   EXPECT_EQ(nowhere.code, 2);
   EXPECT_NE(nowhere.err.find("--out DIR"), std::string::npos) << nowhere.err;
-  const Outcome soft = shakedown_program({"run", example("L040.toml"), "--log", "--engine", "soft", "--out", in_folder("soft")});
+  const Outcome soft = shakedown_program(
+      {"run", example("L040.toml"), "--log", "--engine", "soft", "--out", in_folder("soft")});
   EXPECT_EQ(soft.code, 2);
   EXPECT_NE(soft.err.find("--engine hard"), std::string::npos) << soft.err;
 }
@@ -58,12 +64,16 @@ TEST_F(ReportCommand, MistakesOfExportAreNamed) {
 class SlowReportCommand : public ReportCommand {};
 
 TEST_F(SlowReportCommand, ComparisonsLaddersFitsAndSweepsAreShownAlone) {
-  ASSERT_EQ(shakedown_program({"hide", example("L040.toml"), "--engine", "hard", "--lengths", "40mm,65mm", "--duration", "1 s", "--out", in_folder("case")}).code, 0);
+  ASSERT_EQ(shakedown_program({"hide", example("L040.toml"), "--engine", "hard", "--lengths", "40mm,65mm",
+                               "--duration", "1 s", "--out", in_folder("case")})
+                .code,
+            0);
   const std::string setup = in_folder("case/setup.toml"), data = in_folder("case/experiment.toml");
   const std::vector<std::pair<std::string, std::vector<std::string>>> commands{
       {"compare", {"compare", setup, "--data", data, "--runs", "16"}},
       {"ladder", {"ladder", setup, setup, "--data", data, "--runs", "16"}},
-      {"fit", {"fit", setup, "--data", data, "--free", "restitution.grain_wall", "--on", "L040", "--runs", "32"}}};
+      {"fit",
+       {"fit", setup, "--data", data, "--free", "restitution.grain_wall", "--on", "L040", "--runs", "32"}}};
   for (const auto& [name, words] : commands) {
     std::vector<std::string> all = words;
     all.insert(all.end(), {"--out", in_folder(name), "--report", in_folder(name + ".html")});
@@ -74,16 +84,20 @@ TEST_F(SlowReportCommand, ComparisonsLaddersFitsAndSweepsAreShownAlone) {
     ASSERT_EQ(shakedown_program({"report", in_folder(name), "--out", in_folder("again.html")}).code, 0);
     EXPECT_EQ(contents(in_folder("again.html")), contents(in_folder(name + ".html"))) << name;
   }
-  const Outcome swept = shakedown_program({"sweep", example("L040.toml"), "--vary", "box.length=40:80:10 mm", "--vary", "restitution.grain_grain=0.6:0.9:0.1", "--set", "run.duration=1 s",
-                                           "--out", in_folder("sweep.sqlite"), "--report", in_folder("sweep.html")});
+  const Outcome swept =
+      shakedown_program({"sweep", example("L040.toml"), "--vary", "box.length=40:80:10 mm", "--vary",
+                         "restitution.grain_grain=0.6:0.9:0.1", "--set", "run.duration=1 s", "--out",
+                         in_folder("sweep.sqlite"), "--report", in_folder("sweep.html")});
   ASSERT_EQ(swept.code, 0) << swept.err;
-  const Outcome all = shakedown_program({"report", in_folder("sweep.sqlite"), in_folder("fit/"), "--out", in_folder("all.html")});
+  const Outcome all = shakedown_program(
+      {"report", in_folder("sweep.sqlite"), in_folder("fit/"), "--out", in_folder("all.html")});
   ASSERT_EQ(all.code, 0) << all.err;
   EXPECT_NE(contents(in_folder("all.html")).find("fit: Parameters"), std::string::npos);
   EXPECT_NE(contents(in_folder("all.html")).find("sweep.sqlite: What changes"), std::string::npos);
 }
 
 TEST_F(ReportCommand, DiagnoseKeepsWhatIsKnownOtherwise) {
-  const Outcome wrong = shakedown_program({"diagnose", example("L040.toml"), "--data", example("L040.toml"), "--fixed", "box.mass"});
+  const Outcome wrong = shakedown_program(
+      {"diagnose", example("L040.toml"), "--data", example("L040.toml"), "--fixed", "box.mass"});
   EXPECT_EQ(wrong.code, 2);
 }

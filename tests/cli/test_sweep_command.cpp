@@ -9,7 +9,11 @@ namespace {
 class SweepCommand : public WithFolder {
  protected:
   std::vector<std::string> sweep(const std::string& out, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> words{"sweep", example("L040.toml"), "--vary", "box.length=40:60:10 mm", "--runs", "3", "--set", "run.duration=2 s", "--out", in_folder(out)};
+    std::vector<std::string> words{"sweep",  example("L040.toml"),
+                                   "--vary", "box.length=40:60:10 mm",
+                                   "--runs", "3",
+                                   "--set",  "run.duration=2 s",
+                                   "--out",  in_folder(out)};
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
@@ -20,7 +24,8 @@ class SweepCommand : public WithFolder {
 };
 
 TEST_F(SweepCommand, ShardsMergedEqualSerialAndTheTableHoldsThePoints) {
-  const Outcome serial = shakedown_program(sweep("serial.sqlite", {"--table", in_folder("table.csv"), "--json", in_folder("s.json")}));
+  const Outcome serial = shakedown_program(
+      sweep("serial.sqlite", {"--table", in_folder("table.csv"), "--json", in_folder("s.json")}));
   ASSERT_EQ(serial.code, 0) << serial.err;
   EXPECT_NE(serial.err.find("3 points, 9 runs"), std::string::npos) << serial.err;
   EXPECT_EQ(nlohmann::json::parse(contents(in_folder("s.json")))["digest"], digest_in(serial.out));
@@ -29,7 +34,8 @@ TEST_F(SweepCommand, ShardsMergedEqualSerialAndTheTableHoldsThePoints) {
   EXPECT_NE(table.find("\n50,3,0,"), std::string::npos);
   EXPECT_EQ(shakedown_program(sweep("one.sqlite", {"--shard", "1/2"})).code, 0);
   EXPECT_EQ(shakedown_program(sweep("two.sqlite", {"--shard", "2/2"})).code, 0);
-  const Outcome merged = shakedown_program({"merge", in_folder("all.sqlite"), in_folder("one.sqlite"), in_folder("two.sqlite")});
+  const Outcome merged =
+      shakedown_program({"merge", in_folder("all.sqlite"), in_folder("one.sqlite"), in_folder("two.sqlite")});
   EXPECT_EQ(merged.code, 0) << merged.err;
   EXPECT_EQ(digest_in(merged.out), digest_in(serial.out));
 }
@@ -44,8 +50,11 @@ TEST_F(SweepCommand, ResultsAreNeverOverwrittenUnasked) {
 }
 
 TEST_F(SweepCommand, BadInput) {
-  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
-           {"--shard", "3/2"}, {"--vary", "box.lenght=1mm,2mm"}, {"--vary", "box.length=50mm,60mm"}, {"--vary", "grains.count=1,2", "--vary", "box.mass=1,2g"}}) {
+  for (const std::vector<std::string>& more :
+       std::vector<std::vector<std::string>>{{"--shard", "3/2"},
+                                             {"--vary", "box.lenght=1mm,2mm"},
+                                             {"--vary", "box.length=50mm,60mm"},
+                                             {"--vary", "grains.count=1,2", "--vary", "box.mass=1,2g"}}) {
     const Outcome outcome = shakedown_program(sweep("a.sqlite", more));
     EXPECT_EQ(outcome.code, 2) << more.back();
     EXPECT_TRUE(outcome.out.empty());
@@ -56,9 +65,11 @@ TEST_F(SweepCommand, BadInput) {
 TEST_F(SweepCommand, UnderMpirun) {
   if (std::system("command -v mpirun >/dev/null 2>&1") != 0) GTEST_SKIP() << "there is no mpirun here";
   const Outcome serial = shakedown_program(sweep("serial.sqlite"));
-  std::string command = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 2 '" SHAKEDOWN "'";
+  std::string command =
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 2 '" SHAKEDOWN "'";
   for (const std::string& word : sweep("shared.sqlite")) command += " '" + word + "'";
-  ASSERT_EQ(std::system((command + " >'" + in_folder("out") + "' 2>&1").c_str()), 0) << contents(in_folder("out"));
+  ASSERT_EQ(std::system((command + " >'" + in_folder("out") + "' 2>&1").c_str()), 0)
+      << contents(in_folder("out"));
   const Outcome whole = shakedown_program(sweep("shared.sqlite", {"--resume"}));
   EXPECT_NE(whole.err.find("nothing is left"), std::string::npos) << whole.err;
   EXPECT_EQ(digest_in(whole.out), digest_in(serial.out));

@@ -42,7 +42,9 @@ TEST(Features, AreTheLevelsAtTheMiddleOfTheBinsWhateverFramesAreLost) {
       const Eigen::VectorXd values = measured_features(plan, audit, run);
       ASSERT_GT(values.size(), 20);
       for (Eigen::Index f = 0; f < values.size(); ++f)
-        EXPECT_NEAR(values[f], parabola(plan.features[static_cast<std::size_t>(f)].time), 1e-14) << rate << " Hz";  // rounding: 7e-16
+        // rounding: 7e-16
+        EXPECT_NEAR(values[f], parabola(plan.features[static_cast<std::size_t>(f)].time), 1e-14)
+            << rate << " Hz";
     }
 }
 
@@ -56,7 +58,8 @@ TEST(Features, SimulationsAreReadAtTheMeasuredFrames) {
     recording.x_box.push_back(parabola(recording.time.back()));
   }
   recording.x_com = recording.x_box;
-  const Eigen::VectorXd difference = simulated_features(plan, recording) - measured_features(plan, audit, run);
+  const Eigen::VectorXd difference =
+      simulated_features(plan, recording) - measured_features(plan, audit, run);
   EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-14);
 }
 

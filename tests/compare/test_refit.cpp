@@ -25,7 +25,8 @@ class DampedOscillation final : public Engine {
   Trajectory run(const Setup& setup, const RunOptions& options) const override {
     Random random(setup.run.seed, static_cast<std::uint64_t>(options.run), Stream::velocities);
     const double early = 5e-4 * random.normal(), late = 5e-4 * random.normal();
-    const double w = 2 * std::numbers::pi * setup.spring.frequency, rate = 0.3 * (1 - setup.restitution.grain_grain);
+    const double w = 2 * std::numbers::pi * setup.spring.frequency,
+                 rate = 0.3 * (1 - setup.restitution.grain_grain);
     const double drag = physics_of(setup).box.viscous / 2;
     Trajectory trajectory;
     for (int k = 0; k <= static_cast<int>(setup.run.duration * 500); ++k) {
@@ -41,7 +42,8 @@ class DampedOscillation final : public Engine {
 };
 
 /// Two box lengths measured on the stand-in with hidden values.
-std::vector<MeasuredFeatures> measured_on(const shakedown::Setup& truth, const shakedown::Setup& believed, int run) {
+std::vector<MeasuredFeatures> measured_on(const shakedown::Setup& truth, const shakedown::Setup& believed,
+                                          int run) {
   std::vector<MeasuredFeatures> measured;
   for (const double length : {0.040, 0.065}) {
     RunOptions options;
@@ -182,8 +184,8 @@ TEST(FitRound, TellsHowFarItsEmulatorsNoiseMovesTheMinimum) {
   }
 }
 
-/// The stand-in with a restitution that works along a bent curve, which no parabola over the whole box follows: a step where it is steep, or a curve
-/// that a parabola over a part of the box does follow.
+/// The stand-in with a restitution that works along a bent curve, which no parabola over the whole box
+/// follows: a step where it is steep, or a curve that a parabola over a part of the box does follow.
 class Bent final : public Engine {
  public:
   Bent(double centre, double width) : centre_(centre), width_(width) {}
@@ -229,18 +231,22 @@ TEST(Refit, SimulationsAtTheSolutionJudgeItAndWhatPromisedTooMuchLooksAgain) {
   const Bent step(0.82, 0.02);
   const double truth = 0.82;
   const TwoFits fits(step, truth);
-  const Refit at_promised = fits.simulated_at(fits.promised), at_confirmed = fits.simulated_at(fits.confirmed);
-  EXPECT_NEAR(fits.confirmed.error_box(), at_confirmed.error_box(), 0.05 * at_confirmed.error_box());  // seen: 0.017
-  EXPECT_GT(at_promised.scatter, 20 * fits.promised.scatter);   // the emulator promised far too much; seen: 190
-  EXPECT_LT(at_confirmed.scatter, 0.2 * at_promised.scatter);   // nearer boxes found better; seen: 0.02
-  EXPECT_NEAR(fits.confirmed.values[0].value, truth, 0.005);    // seen: 4e-4
+  const Refit at_promised = fits.simulated_at(fits.promised),
+              at_confirmed = fits.simulated_at(fits.confirmed);
+  // seen: 0.017
+  EXPECT_NEAR(fits.confirmed.error_box(), at_confirmed.error_box(), 0.05 * at_confirmed.error_box());
+  // the emulator promised far too much; seen: 190
+  EXPECT_GT(at_promised.scatter, 20 * fits.promised.scatter);
+  EXPECT_LT(at_confirmed.scatter, 0.2 * at_promised.scatter);  // nearer boxes found better; seen: 0.02
+  EXPECT_NEAR(fits.confirmed.values[0].value, truth, 0.005);   // seen: 4e-4
 }
 
 TEST(Refit, SimulationsAtTheSolutionMoveItToTheMinimum) {
   const Bent curve(0.75, 0.12);
   const double truth = 0.85;
   const TwoFits fits(curve, truth);
-  const double before = std::abs(fits.promised.values[0].value - truth), after = std::abs(fits.confirmed.values[0].value - truth);
+  const double before = std::abs(fits.promised.values[0].value - truth),
+               after = std::abs(fits.confirmed.values[0].value - truth);
   EXPECT_LT(after, 0.2 * before);  // seen: 0.015
   EXPECT_GT(fits.confirmed.p_value, 0.01);
 }
@@ -252,13 +258,15 @@ TEST(EnsembleCache, ChangesNoAnswerAndSimulatesOnce) {
   options.count = 32;
   shakedown::Setup longer = believed_setup();
   longer.run.duration = 9;
-  const std::vector<MeasuredFeatures> first = measured_on(believed_setup(), believed_setup(), 1), second = measured_on(longer, believed_setup(), 2);
+  const std::vector<MeasuredFeatures> first = measured_on(believed_setup(), believed_setup(), 1),
+                                      second = measured_on(longer, believed_setup(), 2);
   const Refit alone = refit(first, {}, workshop, options), other_alone = refit(second, {}, workshop, options);
   EnsembleCache cache;
   workshop.ensembles = &cache;
   EXPECT_EQ(refit(second, {}, workshop, options).chi2, other_alone.chi2);
   EXPECT_EQ(cache.reused(), 0);
-  EXPECT_EQ(refit(first, {}, workshop, options).chi2, alone.chi2);  // shorter runs are the beginnings of longer ones
+  // shorter runs are the beginnings of longer ones
+  EXPECT_EQ(refit(first, {}, workshop, options).chi2, alone.chi2);
   EXPECT_EQ(cache.reused(), 64);
 }
 
@@ -271,7 +279,8 @@ TEST(MethodFault, AWrongSignLeadsTheFitAstray) {
   EXPECT_NEAR(refit(measured, theta, workshop, {}).values[0].value, 0.85, 0.03);
   workshop.fault = MethodFault::wrong_sign;
   const Refit astray = refit(measured, theta, workshop, {});
-  EXPECT_TRUE(astray.p_value < 0.01 || std::abs(astray.values[0].value - 0.85) > 0.1) << astray.p_value << " " << astray.values[0].value;
+  EXPECT_TRUE(astray.p_value < 0.01 || std::abs(astray.values[0].value - 0.85) > 0.1)
+      << astray.p_value << " " << astray.values[0].value;
 }
 
 TEST(MethodFault, WeightsThatHaveSeenTheSpreadCallTheSameDataWorse) {
@@ -284,7 +293,8 @@ TEST(MethodFault, WeightsThatHaveSeenTheSpreadCallTheSameDataWorse) {
   for (int run = 0; run < 20; ++run)
     for (const bool fault : {false, true}) {
       workshop.fault = fault ? MethodFault::in_sample : MethodFault::none;
-      scatter[fault] += refit(measured_on(believed_setup(), believed_setup(), run), {}, workshop, few).scatter / 20;
+      scatter[fault] +=
+          refit(measured_on(believed_setup(), believed_setup(), run), {}, workshop, few).scatter / 20;
     }
   // Seen: .919 and .955; two shapes of chaos leave little to learn by heart.
   EXPECT_GT(scatter[1], scatter[0] + 0.01) << scatter[0] << " and " << scatter[1];

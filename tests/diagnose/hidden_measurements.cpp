@@ -6,7 +6,9 @@
 
 namespace shakedown {
 
-Setup believed(const std::string& duration) { return parse_setup("[run]\nduration = \"" + duration + "\"\n", "believed", all_effects()); }
+Setup believed(const std::string& duration) {
+  return parse_setup("[run]\nduration = \"" + duration + "\"\n", "believed", all_effects());
+}
 
 Experiment measured(const Hidden& hidden, const std::string& laboratory) {
   std::vector<Override> overrides = hidden.parameters;
@@ -15,7 +17,8 @@ Experiment measured(const Hidden& hidden, const std::string& laboratory) {
   overrides.push_back({"run.duration", hidden.duration});
   const std::unique_ptr<Engine> engine = engine_named(laboratory);
   const Laboratory with{engine.get(), all_effects(), hidden.seed, 2, nullptr};
-  return make_measurements(parse_setup("", "truth", all_effects(), overrides), runs_of_lengths(hidden.lengths), hidden.recording, with);
+  return make_measurements(parse_setup("", "truth", all_effects(), overrides),
+                           runs_of_lengths(hidden.lengths), hidden.recording, with);
 }
 
 }  // namespace shakedown

@@ -48,11 +48,16 @@ TEST(Diagnosis, AnotherPackingIsAParameterNotAnEffect) {
 
 TEST(Diagnosis, ABiasOfTheCameraIsNotTakenForAPacking) {
   const Experiment experiment = measured({{"camera_com_bias=bias:0.08"}, {}, {}, {0.040, 0.104}});
-  EXPECT_EQ(packing_before_release(believed(), experiment, audit(experiment), all_effects()), believed().release.packing);
+  EXPECT_EQ(packing_before_release(believed(), experiment, audit(experiment), all_effects()),
+            believed().release.packing);
 }
 
 TEST(Diagnosis, ForcesInNoListAreUnknownAndAFormulaIsOffered) {
-  const Diagnosis d = diagnosis_of({{"user_force=force:\"-c*v*exp(-((x-x0)/w)^2)\",constants.c:0.8 N s/m,constants.x0:45mm,constants.w:12mm"}, {}, {}, {0.040, 0.065}});
+  const Diagnosis d = diagnosis_of({{"user_force=force:\"-c*v*exp(-((x-x0)/w)^2)\",constants.c:0.8 N "
+                                     "s/m,constants.x0:45mm,constants.w:12mm"},
+                                    {},
+                                    {},
+                                    {0.040, 0.065}});
   EXPECT_EQ(d.verdict, Verdict::unknown) << d.sentence;
   EXPECT_NE(d.force_formula.find("user_force"), std::string::npos);
   ASSERT_FALSE(d.next_experiments.empty());
@@ -64,15 +69,24 @@ TEST(Diagnosis, ABalanceWithDryFrictionInTheSetupHoldsThoughTheBoxSticks) {
   shakedown::Setup amended = believed();
   set_number(amended, "clamp_dry_friction.force", 0.02, all_effects());
   const Audit found = audit(experiment);
-  EXPECT_LT(audit_momentum(experiment, found, setups_of_runs(believed(), experiment, all_effects())).as_given.p_value, 1e-6);
-  EXPECT_GT(audit_momentum(experiment, found, setups_of_runs(amended, experiment, all_effects())).as_given.p_value, 0.01);
+  EXPECT_LT(audit_momentum(experiment, found, setups_of_runs(believed(), experiment, all_effects()))
+                .as_given.p_value,
+            1e-6);
+  EXPECT_GT(
+      audit_momentum(experiment, found, setups_of_runs(amended, experiment, all_effects())).as_given.p_value,
+      0.01);
 }
 
 TEST(SlowDiagnosis, OtherRestitutionsAreARefitThatCoversThem) {
-  const Diagnosis d = diagnosis_of({{}, {{"restitution.grain_grain", "0.6"}, {"restitution.grain_wall", "0.7"}}, {}, {0.040, 0.065, 0.104}});
+  const Diagnosis d = diagnosis_of({{},
+                                    {{"restitution.grain_grain", "0.6"}, {"restitution.grain_wall", "0.7"}},
+                                    {},
+                                    {0.040, 0.065, 0.104}});
   EXPECT_EQ(d.verdict, Verdict::refit) << d.sentence;
   for (const DiagnosedParameter& p : d.parameters) {
-    const double truth = p.name == "restitution.grain_grain" ? 0.6 : p.name == "restitution.grain_wall" ? 0.7 : 1.23;
+    const double truth = p.name == "restitution.grain_grain"  ? 0.6
+                         : p.name == "restitution.grain_wall" ? 0.7
+                                                              : 1.23;
     EXPECT_LE(p.low, truth) << p.name;
     EXPECT_GE(p.high, truth) << p.name;
   }
@@ -90,8 +104,9 @@ TEST(SlowDiagnosis, FindsAForceOnTheBoxAndTheErrorFalls) {
 }
 
 TEST(SlowDiagnosis, FrictionOfGrainsAndOfWallsEachGetsItsOwnInterval) {
-  const Diagnosis d = diagnosis_of({{"grain_friction=grain_grain:0.4,grain_wall:0.1"}, {}, {}, {0.040, 0.065, 0.104}}, {"grain_friction"}, 2,
-                                   {"restitution.grain_grain", "restitution.grain_wall"});
+  const Diagnosis d =
+      diagnosis_of({{"grain_friction=grain_grain:0.4,grain_wall:0.1"}, {}, {}, {0.040, 0.065, 0.104}},
+                   {"grain_friction"}, 2, {"restitution.grain_grain", "restitution.grain_wall"});
   EXPECT_EQ(d.missing, std::vector<std::string>{"grain_friction"}) << d.sentence;
   int found = 0;
   for (const DiagnosedParameter& p : d.parameters) {
@@ -107,12 +122,15 @@ TEST(SlowDiagnosis, FrictionOfGrainsAndOfWallsEachGetsItsOwnInterval) {
   EXPECT_EQ(notes.size(), d.notes.size());  // what holds for both is said once
 }
 
-// Of two seeds the refit leaves p = 0.07 and 0.08, for the restitutions take up most of it, and the effect brings 71 and 65 of chi2.
+// Of two seeds the refit leaves p = 0.07 and 0.08, for the restitutions take up most of it, and the effect
+// brings 71 and 65 of chi2.
 TEST(SlowDiagnosis, AnEffectIsFoundBesideAModelThatTheDataAccept) {
-  const Diagnosis d = diagnosis_of({{"velocity_dependent_restitution=exponent:0.05"}, {}, {}, {0.040, 0.065, 0.104}, 5, "8 s"});
+  const Diagnosis d = diagnosis_of(
+      {{"velocity_dependent_restitution=exponent:0.05"}, {}, {}, {0.040, 0.065, 0.104}, 5, "8 s"});
   EXPECT_EQ(d.missing, std::vector<std::string>{"velocity_dependent_restitution"}) << d.sentence;
-  const auto exponent = std::find_if(d.parameters.begin(), d.parameters.end(),
-                                     [](const DiagnosedParameter& p) { return p.name == "velocity_dependent_restitution.exponent"; });
+  const auto exponent = std::find_if(
+      d.parameters.begin(), d.parameters.end(),
+      [](const DiagnosedParameter& p) { return p.name == "velocity_dependent_restitution.exponent"; });
   ASSERT_NE(exponent, d.parameters.end());
   EXPECT_LE(exponent->low, 0.05);
   EXPECT_GE(exponent->high, 0.05);
@@ -121,7 +139,8 @@ TEST(SlowDiagnosis, AnEffectIsFoundBesideAModelThatTheDataAccept) {
 
 TEST(SlowDiagnosis, TheAnswerDoesNotDependOnTheThreads) {
   const Hidden hidden{{}, {{"restitution.grain_grain", "0.6"}}};
-  Diagnosis one = diagnosis_of(hidden, {"grain_friction"}, 1), three = diagnosis_of(hidden, {"grain_friction"}, 3);
+  Diagnosis one = diagnosis_of(hidden, {"grain_friction"}, 1),
+            three = diagnosis_of(hidden, {"grain_friction"}, 3);
   one.seconds = three.seconds = 0;
   EXPECT_EQ(diagnosis_json(one), diagnosis_json(three));
 }
@@ -144,7 +163,10 @@ TEST(SlowNextExperiment, AStrongerEffectStandsOutMore) {
     shakedown::Setup setup = believed();
     set_number(setup, "velocity_dependent_restitution.exponent", exponent, all_effects());
     const std::vector<Knob> found{{"velocity_dependent_restitution.exponent", exponent, 0.05, 0, 1, true}};
-    sigmas.push_back(advise({{"N = 37", setup}}, free_parameters(setup), found, rival, 2e-4, 5e-4, workshop, 96, 1).front().sigmas);
+    sigmas.push_back(
+        advise({{"N = 37", setup}}, free_parameters(setup), found, rival, 2e-4, 5e-4, workshop, 96, 1)
+            .front()
+            .sigmas);
   }
   EXPECT_GT(sigmas[1], 2 * sigmas[0]);  // linear in the strength but for noise: seen 3.2
 }

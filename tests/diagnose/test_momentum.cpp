@@ -87,11 +87,14 @@ TEST(Momentum, ForcingIsFoundAtItsFrequency) {
   EXPECT_NEAR(audit.terms[0].phase, 0.7, (audit.terms[0].high - audit.terms[0].low) / audit.terms[0].value);
 }
 
-/// The longer windows cannot see so fast and strong a sine and choose slow ones in its place; none of them may stay.
+/// The longer windows cannot see so fast and strong a sine and choose slow ones in its place; none of them
+/// may stay.
 TEST(Momentum, AStrongFastSineStandsAlone) {
   PushedBox what;
   const double mass = 0.434 + 37 * 4.04e-3;
-  what.force = [=](double, double, double t) { return mass * 0.1 * std::sin(2 * std::numbers::pi * 3 * t + 1); };
+  what.force = [=](double, double, double t) {
+    return mass * 0.1 * std::sin(2 * std::numbers::pi * 3 * t + 1);
+  };
   const MomentumAudit audit = audited(what);
   expect_found(audit, "oscillating_acceleration", 0.1);
   EXPECT_NEAR(audit.terms[0].frequency, 3, 0.01);

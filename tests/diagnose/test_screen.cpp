@@ -17,20 +17,25 @@ namespace {
 ScreenedEffect screened(const std::string& hidden, const std::string& candidate) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const shakedown::Setup setup = believed("4 s");
-  const Experiment experiment = measured({hidden.empty() ? std::vector<std::string>{} : std::vector{hidden}, {}, {}, {0.065, 0.104}, 3, "4 s"}, "hard");
-  const std::vector<MeasuredFeatures> features = features_of(experiment, audit(experiment), setups_of_runs(setup, experiment, all_effects()));
+  const Experiment experiment = measured(
+      {hidden.empty() ? std::vector<std::string>{} : std::vector{hidden}, {}, {}, {0.065, 0.104}, 3, "4 s"},
+      "hard");
+  const std::vector<MeasuredFeatures> features =
+      features_of(experiment, audit(experiment), setups_of_runs(setup, experiment, all_effects()));
   Workshop workshop;
   workshop.engine = engine.get();
   workshop.known = all_effects();
   workshop.threads = 2;
   const std::vector<Candidate> candidates = candidates_for(setup, {candidate}, all_effects());
-  const std::vector<ScreenedEffect> list = screen(features, free_parameters(setup), candidates, workshop, 256, 1000);
+  const std::vector<ScreenedEffect> list =
+      screen(features, free_parameters(setup), candidates, workshop, 256, 1000);
   EXPECT_FALSE(list.empty());
   return list.empty() ? ScreenedEffect{} : list.front();
 }
 
 TEST(SlowScreen, AnArcIsRankedAtItsOwnLength) {
-  const ScreenedEffect strong = screened("blade_arc=blade_length:0.4 m", "blade_arc"), weak = screened("blade_arc=blade_length:1.2 m", "blade_arc"),
+  const ScreenedEffect strong = screened("blade_arc=blade_length:0.4 m", "blade_arc"),
+                       weak = screened("blade_arc=blade_length:1.2 m", "blade_arc"),
                        none = screened("", "blade_arc");
   EXPECT_GT(strong.gain, 10 * weak.gain);  // seen: 1135, 37, 6
   EXPECT_GT(weak.gain, 2 * none.gain);
@@ -39,8 +44,11 @@ TEST(SlowScreen, AnArcIsRankedAtItsOwnLength) {
 }
 
 TEST(SlowScreen, GravityAcrossIsRankedAtItsStrength) {
-  const ScreenedEffect strong = screened("constant_acceleration=acceleration.y:0.4 m/s^2", "constant_acceleration"),
-                       weak = screened("constant_acceleration=acceleration.y:0.15 m/s^2", "constant_acceleration"), none = screened("", "constant_acceleration");
+  const ScreenedEffect strong = screened("constant_acceleration=acceleration.y:0.4 m/s^2",
+                                         "constant_acceleration"),
+                       weak = screened("constant_acceleration=acceleration.y:0.15 m/s^2",
+                                       "constant_acceleration"),
+                       none = screened("", "constant_acceleration");
   EXPECT_GT(strong.gain, 1.5 * weak.gain);  // seen: 52, 20, 2
   EXPECT_GT(weak.gain, 3 * none.gain);
   EXPECT_NEAR(strong.value, 0.4, 0.15);  // seen: 0.45
@@ -49,7 +57,7 @@ TEST(SlowScreen, GravityAcrossIsRankedAtItsStrength) {
 
 TEST(SlowScreen, AReleaseWithVelocityIsRankedAtItsStrength) {
   const ScreenedEffect found = screened("initial_box_velocity=velocity:10 mm/s", "initial_box_velocity");
-  EXPECT_GT(found.gain, 300);  // seen: 1104
+  EXPECT_GT(found.gain, 300);             // seen: 1104
   EXPECT_NEAR(found.value, 0.01, 0.003);  // seen: 0.0003
 }
 

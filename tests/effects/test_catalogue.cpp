@@ -13,12 +13,14 @@ using namespace shakedown;
 TEST(Catalogue, ListsEveryEffectOnALine) {
   const std::string list = list_effects(all_effects());
   EXPECT_EQ(static_cast<std::size_t>(std::count(list.begin(), list.end(), '\n')), all_effects().size() + 2);
-  for (const EffectRecord* effect : all_effects()) EXPECT_NE(list.find("\n" + std::string(effect->name) + " "), std::string::npos);
+  for (const EffectRecord* effect : all_effects())
+    EXPECT_NE(list.find("\n" + std::string(effect->name) + " "), std::string::npos);
 }
 
 TEST(Catalogue, DescribesParametersWithUnitsAndBounds) {
   const std::string text = describe_effect(*find_effect("clamp_dry_friction"));
-  for (const char* part : {"F = -F0 sgn(v)", "den Hartog", "parameter force (required)", "Bounds: 0 N to 10 N.", "Absent at 0 N.", "force = \"0.02 N\""})
+  for (const char* part : {"F = -F0 sgn(v)", "den Hartog", "parameter force (required)",
+                           "Bounds: 0 N to 10 N.", "Absent at 0 N.", "force = \"0.02 N\""})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
@@ -30,7 +32,8 @@ TEST(Catalogue, JsonHoldsEveryRecord) {
   EXPECT_EQ(json[0]["parameters"][0]["neutral"], 0);
 }
 
-/// What a new measurement must keep: every effect that an engine sees, at both lengths, beside the plain model.
+/// What a new measurement must keep: every effect that an engine sees, at both lengths, beside the plain
+/// model.
 TEST(Catalogue, DifferencesOfTheEnginesAreThereAndSmallBesideTheEffect) {
   for (const EngineDifference& row : engine_differences()) {
     if (row.effect.empty()) continue;
@@ -45,7 +48,8 @@ TEST(Catalogue, DifferencesOfTheEnginesAreThereAndSmallBesideTheEffect) {
   }
   EXPECT_EQ(strength_uncertainty("camera_drift"), 0);
   EXPECT_EQ(strength_uncertainty(""), 0);
-  for (const EffectRecord* effect : all_effects()) EXPECT_LT(strength_uncertainty(effect->name), 1) << effect->name;
+  for (const EffectRecord* effect : all_effects())
+    EXPECT_LT(strength_uncertainty(effect->name), 1) << effect->name;
   EXPECT_FALSE(added_difference("grain_friction", 0.3));
   EXPECT_FALSE(added_difference("", 0.04));
   EXPECT_FALSE(added_difference("camera_drift", 0.04));
@@ -60,7 +64,9 @@ TEST(Catalogue, DifferencesOfTheEnginesAreThereAndSmallBesideTheEffect) {
 TEST(Catalogue, SchemaKnowsEveryKeyAndEffect) {
   const auto schema = nlohmann::json::parse(setup_schema(all_effects()));
   for (const SetupKey& key : setup_keys())
-    EXPECT_TRUE(schema["properties"][std::string(key.section())]["properties"].contains(std::string(key.name()))) << key.path;
+    EXPECT_TRUE(
+        schema["properties"][std::string(key.section())]["properties"].contains(std::string(key.name())))
+        << key.path;
   EXPECT_EQ(schema["properties"]["effect"]["items"]["oneOf"].size(), all_effects().size());
   EXPECT_EQ(schema["properties"]["box"]["properties"]["length"]["default"], "40 mm");
   EXPECT_EQ(schema["properties"]["grains"]["properties"]["count"]["type"], "integer");
@@ -68,5 +74,8 @@ TEST(Catalogue, SchemaKnowsEveryKeyAndEffect) {
 }
 
 TEST(Catalogue, KeysAsMarkdown) {
-  EXPECT_NE(setup_keys_markdown().find("| `box.length` | `\"40 mm\"` | > 0 mm | Inner length along the motion. |"), std::string::npos) << setup_keys_markdown();
+  EXPECT_NE(
+      setup_keys_markdown().find("| `box.length` | `\"40 mm\"` | > 0 mm | Inner length along the motion. |"),
+      std::string::npos)
+      << setup_keys_markdown();
 }

@@ -29,12 +29,17 @@ class Records : public testing::TestWithParam<const EffectRecord*> {
 
 void expect_sentence(std::string_view text, std::string_view what) {
   EXPECT_TRUE(text.ends_with('.')) << what << ": " << text;
-  EXPECT_FALSE(text.empty() || std::islower(static_cast<unsigned char>(text.front()))) << what << ": " << text;
+  EXPECT_FALSE(text.empty() || std::islower(static_cast<unsigned char>(text.front())))
+      << what << ": " << text;
 }
 
-bool is_number(const Parameter& parameter) { return parameter.kind == ParameterKind::number || parameter.kind == ParameterKind::vector; }
+bool is_number(const Parameter& parameter) {
+  return parameter.kind == ParameterKind::number || parameter.kind == ParameterKind::vector;
+}
 
-std::string name_of_case(const testing::TestParamInfo<const EffectRecord*>& info) { return std::string(info.param->name); }
+std::string name_of_case(const testing::TestParamInfo<const EffectRecord*>& info) {
+  return std::string(info.param->name);
+}
 
 }  // namespace
 
@@ -61,18 +66,24 @@ TEST_P(Records, ParametersAreSound) {
     EXPECT_NE(parameter.name, "name");
     EXPECT_EQ(parameter.kind == ParameterKind::choice, !parameter.choices.empty()) << parameter.name;
     if (parameter.kind == ParameterKind::choice) {
-      EXPECT_EQ(std::count(parameter.choices.begin(), parameter.choices.end(), std::get<std::string>(parameter.default_value)), 1);
+      EXPECT_EQ(std::count(parameter.choices.begin(), parameter.choices.end(),
+                           std::get<std::string>(parameter.default_value)),
+                1);
     }
     if (!is_number(parameter)) continue;
     const auto unit = parse_unit(parameter.unit);
     ASSERT_TRUE(std::holds_alternative<Unit>(unit)) << parameter.unit;
     EXPECT_EQ(std::get<Unit>(unit).si, 1) << "records are in SI: " << parameter.unit;
     EXPECT_LT(parameter.low, parameter.high);
-    EXPECT_TRUE(std::isfinite(parameter.low) && std::isfinite(parameter.high)) << "fits need bounds: " << parameter.name;
-    for (const double value : {parameter.typical, std::isnan(parameter.neutral) ? parameter.typical : parameter.neutral})
-      EXPECT_EQ(out_of_bounds(value, parameter.low, parameter.high, false, parameter.unit), "") << parameter.name;
+    EXPECT_TRUE(std::isfinite(parameter.low) && std::isfinite(parameter.high))
+        << "fits need bounds: " << parameter.name;
+    for (const double value :
+         {parameter.typical, std::isnan(parameter.neutral) ? parameter.typical : parameter.neutral})
+      EXPECT_EQ(out_of_bounds(value, parameter.low, parameter.high, false, parameter.unit), "")
+          << parameter.name;
     if (const auto* value = std::get_if<double>(&parameter.default_value)) {
-      EXPECT_EQ(out_of_bounds(*value, parameter.low, parameter.high, false, parameter.unit), "") << parameter.name;
+      EXPECT_EQ(out_of_bounds(*value, parameter.low, parameter.high, false, parameter.unit), "")
+          << parameter.name;
     }
   }
 }
@@ -96,8 +107,10 @@ TEST_P(Records, NeutralValueIsDroppedWhenRead) {
     if (!is_number(parameter) || std::isnan(parameter.neutral)) continue;
     has_neutral = true;
     const bool vector = parameter.kind == ParameterKind::vector;
-    for (const std::string& axis : vector ? std::vector<std::string>{".x", ".y", ".z"} : std::vector<std::string>{""})
-      set_number(setup, std::string(record.name) + "." + std::string(parameter.name) + axis, parameter.neutral, all_effects());
+    for (const std::string& axis :
+         vector ? std::vector<std::string>{".x", ".y", ".z"} : std::vector<std::string>{""})
+      set_number(setup, std::string(record.name) + "." + std::string(parameter.name) + axis,
+                 parameter.neutral, all_effects());
   }
   const shakedown::Setup read = parse_setup(write_setup(setup), "neutral", all_effects());
   EXPECT_EQ(read.effects.empty(), has_neutral);
@@ -110,7 +123,8 @@ TEST_P(Records, ListedTwiceNamesBothLines) {
     parse_setup(example_of(record) + example_of(record), "twice", all_effects());
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("is named twice (first at twice:2)"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("is named twice (first at twice:2)"), std::string::npos)
+        << error.what();
   }
 }
 
@@ -134,7 +148,8 @@ TEST_P(Records, NumbersBeyondTheirBoundsAreRefusedWithTheirPlace) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Records, testing::ValuesIn(all_effects().begin(), all_effects().end()), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Every, Records, testing::ValuesIn(all_effects().begin(), all_effects().end()),
+                         name_of_case);
 
 TEST(RecordList, NamesAreUniqueAndFound) {
   std::set<std::string_view> names;
@@ -147,11 +162,28 @@ TEST(RecordList, NamesAreUniqueAndFound) {
 
 /// Setups and measurements of years refer to these.
 TEST(RecordList, KeepsTheNamesOnceGiven) {
-  for (const std::string_view name :
-       {"grain_friction", "velocity_dependent_restitution", "grain_cohesion", "side_wall_restitution", "grain_polydispersity", "blade_viscous_damping",
-        "blade_quadratic_drag", "clamp_dry_friction", "spring_cubic", "blade_mass", "initial_box_velocity", "initial_packing", "constant_acceleration",
-        "oscillating_acceleration", "grain_air_drag", "blade_arc", "camera_com_bias", "camera_scale", "camera_time_offset", "camera_drift",
-        "camera_arc", "user_force"})
+  for (const std::string_view name : {"grain_friction",
+                                      "velocity_dependent_restitution",
+                                      "grain_cohesion",
+                                      "side_wall_restitution",
+                                      "grain_polydispersity",
+                                      "blade_viscous_damping",
+                                      "blade_quadratic_drag",
+                                      "clamp_dry_friction",
+                                      "spring_cubic",
+                                      "blade_mass",
+                                      "initial_box_velocity",
+                                      "initial_packing",
+                                      "constant_acceleration",
+                                      "oscillating_acceleration",
+                                      "grain_air_drag",
+                                      "blade_arc",
+                                      "camera_com_bias",
+                                      "camera_scale",
+                                      "camera_time_offset",
+                                      "camera_drift",
+                                      "camera_arc",
+                                      "user_force"})
     EXPECT_NE(find_effect(name), nullptr) << name;
 }
 
@@ -167,7 +199,8 @@ TEST(RecordList, EffectsCombineInAnyOrder) {
   EXPECT_EQ(one.box.constant, 0.1 * 0.444) << "an acceleration acts on the added mass too";
   for (const ContactClass kind : {ContactClass::grain_grain, ContactClass::end_wall, ContactClass::side_wall})
     EXPECT_EQ(one.contact.restitution_at(kind, 0.1), other.contact.restitution_at(kind, 0.1));
-  EXPECT_EQ(one.contact.restitution_at(ContactClass::side_wall, 0.3), 0.6) << "the side walls' own value at the reference speed";
+  EXPECT_EQ(one.contact.restitution_at(ContactClass::side_wall, 0.3), 0.6)
+      << "the side walls' own value at the reference speed";
   EXPECT_EQ(one.box.constant, other.box.constant);
   EXPECT_EQ(one.box.harmonics.at(0).amplitude, other.box.harmonics.at(0).amplitude);
 }
@@ -183,10 +216,14 @@ TEST(RecordList, KeysHaveTheirUnits) {
 
 TEST(RecordList, TwoArrangementsNameBothLines) {
   try {
-    parse_setup("[release]\npacking = \"fcc\"\n[[effect]]\nname = \"initial_packing\"\npacking = \"square\"\n", "s.toml", all_effects());
+    parse_setup(
+        "[release]\npacking = \"fcc\"\n[[effect]]\nname = \"initial_packing\"\npacking = \"square\"\n",
+        "s.toml", all_effects());
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "s.toml:4:8: initial_packing: sets what release.packing at s.toml:2 sets too; keep one of the two");
+    EXPECT_STREQ(
+        error.what(),
+        "s.toml:4:8: initial_packing: sets what release.packing at s.toml:2 sets too; keep one of the two");
   }
 }
 
@@ -205,8 +242,10 @@ TEST(RecordList, ForcesHaveTheSignsOfTheirFormulas) {
   EXPECT_EQ(gravity.grains.constant, Vec3(0.2, 0, 0));
   EXPECT_DOUBLE_EQ(gravity.box.constant, 0.434 * 0.2);
   EXPECT_EQ(physics_with("constant_acceleration.acceleration.y", "0.2 m/s^2").box.constant, 0);
-  const std::vector<Override> jitter{{"oscillating_acceleration.amplitude", "[\"0.1 m/s^2\", \"0 m/s^2\", \"0.3 m/s^2\"]"},
-                                     {"oscillating_acceleration.frequency", "7 Hz"}, {"oscillating_acceleration.phase", "90 deg"}};
+  const std::vector<Override> jitter{
+      {"oscillating_acceleration.amplitude", "[\"0.1 m/s^2\", \"0 m/s^2\", \"0.3 m/s^2\"]"},
+      {"oscillating_acceleration.frequency", "7 Hz"},
+      {"oscillating_acceleration.phase", "90 deg"}};
   const Physics shaken = physics_of(parse_setup("", "s", all_effects(), jitter));
   EXPECT_EQ(shaken.grains.harmonics.at(0).amplitude, Vec3(0.1, 0, 0.3));
   EXPECT_DOUBLE_EQ(shaken.box.harmonics.at(0).amplitude, 0.0434);
@@ -234,6 +273,7 @@ TEST(RecordList, PolydisperseGrainsKeepTheirTotalMass) {
 }
 
 TEST(RecordList, CubicSpringNeedsADisplacement) {
-  const std::vector<Override> overrides{{"spring_cubic.coefficient", "0.04"}, {"release.displacement", "0 mm"}};
+  const std::vector<Override> overrides{{"spring_cubic.coefficient", "0.04"},
+                                        {"release.displacement", "0 mm"}};
   EXPECT_THROW(physics_of(parse_setup("", "s", all_effects(), overrides)), InputError);
 }

@@ -32,7 +32,9 @@ class Stub : public Engine {
  public:
   explicit Stub(std::string_view name) : name_(name) {}
   std::string_view name() const override { return name_; }
-  Capability can_model(const EffectRecord& effect) const override { return name_ == "hard" ? effect.hard : effect.soft; }
+  Capability can_model(const EffectRecord& effect) const override {
+    return name_ == "hard" ? effect.hard : effect.soft;
+  }
   Trajectory run(const shakedown::Setup&, const RunOptions&) const override { return {}; }
 
  private:
@@ -42,16 +44,21 @@ class Stub : public Engine {
 }  // namespace
 
 TEST(UserForce, EvaluatesTheFormulaInSi) {
-  const auto setup = parse_setup(setup_text("-c*v*exp(-((x-x0)/w)^2)", "constants = {c = \"0.4 N s/m\", x0 = \"45 mm\", w = \"1.2 cm\"}\n"), "s", all_effects());
+  const auto setup =
+      parse_setup(setup_text("-c*v*exp(-((x-x0)/w)^2)",
+                             "constants = {c = \"0.4 N s/m\", x0 = \"45 mm\", w = \"1.2 cm\"}\n"),
+                  "s", all_effects());
   const Physics physics = physics_of(setup);
   ASSERT_EQ(physics.box.free.size(), 1u);
   EXPECT_EQ(physics.box.free[0].effect, 0);
-  EXPECT_DOUBLE_EQ(physics.box.free[0].newton(0.05, 0.7, 3), -0.4 * 0.7 * std::exp(-std::pow(0.005 / 0.012, 2)));
+  EXPECT_DOUBLE_EQ(physics.box.free[0].newton(0.05, 0.7, 3),
+                   -0.4 * 0.7 * std::exp(-std::pow(0.005 / 0.012, 2)));
   EXPECT_FALSE(physics.box.free[0].of_time_only);
 }
 
 TEST(UserForce, ActsOnGrainsWhenAsked) {
-  const Physics physics = physics_of(parse_setup(setup_text("0.01*sin(2*_pi*t)", "on = \"grains\"\n"), "s", all_effects()));
+  const Physics physics =
+      physics_of(parse_setup(setup_text("0.01*sin(2*_pi*t)", "on = \"grains\"\n"), "s", all_effects()));
   ASSERT_EQ(physics.grains.free.size(), 1u);
   EXPECT_TRUE(physics.box.free.empty());
   EXPECT_TRUE(physics.grains.free[0].of_time_only);
@@ -59,27 +66,46 @@ TEST(UserForce, ActsOnGrainsWhenAsked) {
 }
 
 TEST(UserForce, ErrorsHaveTheirPlaceInTheFormula) {
-  EXPECT_EQ(complaint("-c*v"), "s.toml:3:9: user_force.force: \"-c*v\" cannot be read at character 2 of the formula ('c' is neither x, v, t, a constant nor a function)");
+  EXPECT_EQ(complaint("-c*v"),
+            "s.toml:3:9: user_force.force: \"-c*v\" cannot be read at character 2 of the formula ('c' is "
+            "neither x, v, t, a constant nor a function)");
   EXPECT_EQ(complaint("-spring*x", "constants = {sprig = 3}\n"),
-            "s.toml:3:9: user_force.force: \"-spring*x\" cannot be read at character 2 of the formula ('spring' is neither x, v, t, a constant nor a function; did you mean "
+            "s.toml:3:9: user_force.force: \"-spring*x\" cannot be read at character 2 of the formula "
+            "('spring' is neither x, v, t, a constant nor a function; did you mean "
             "sprig?)");
-  EXPECT_TRUE(complaint("-2*(v").starts_with("s.toml:3:9: user_force.force: \"-2*(v\" cannot be read at character 6 of the formula")) << complaint("-2*(v");
-  EXPECT_TRUE(complaint("").starts_with("s.toml:3:9: user_force.force: \"\" cannot be read")) << complaint("");
-  EXPECT_TRUE(complaint("x=3").starts_with("s.toml:3:9: user_force.force: \"x=3\" cannot be read at character 2")) << complaint("x=3");
-  EXPECT_TRUE(complaint("1,5*x").starts_with("s.toml:3:9: user_force.force: \"1,5*x\" cannot be read (gives 2 values")) << complaint("1,5*x");
-  EXPECT_TRUE(complaint("c*x", "constants = {c = \"3 wombats\"}\n").find("has the unknown unit 'wombats'") != std::string::npos);
-  EXPECT_TRUE(complaint("v*x", "constants = {v = 3}\n").find("has the name of a variable") != std::string::npos);
-  EXPECT_TRUE(complaint("2*a b*x", "constants = {\"a b\" = 3}\n").find("cannot be read") != std::string::npos);
-  EXPECT_TRUE(complaint("v*sqr(x)").find("'sqr' is neither x, v, t, a constant nor a function; did you mean sqrt?") != std::string::npos) << complaint("v*sqr(x)");
+  EXPECT_TRUE(complaint("-2*(v").starts_with(
+      "s.toml:3:9: user_force.force: \"-2*(v\" cannot be read at character 6 of the formula"))
+      << complaint("-2*(v");
+  EXPECT_TRUE(complaint("").starts_with("s.toml:3:9: user_force.force: \"\" cannot be read"))
+      << complaint("");
+  EXPECT_TRUE(
+      complaint("x=3").starts_with("s.toml:3:9: user_force.force: \"x=3\" cannot be read at character 2"))
+      << complaint("x=3");
+  EXPECT_TRUE(complaint("1,5*x").starts_with(
+      "s.toml:3:9: user_force.force: \"1,5*x\" cannot be read (gives 2 values"))
+      << complaint("1,5*x");
+  EXPECT_TRUE(complaint("c*x", "constants = {c = \"3 wombats\"}\n").find("has the unknown unit 'wombats'") !=
+              std::string::npos);
+  EXPECT_TRUE(complaint("v*x", "constants = {v = 3}\n").find("has the name of a variable") !=
+              std::string::npos);
+  EXPECT_TRUE(complaint("2*a b*x", "constants = {\"a b\" = 3}\n").find("cannot be read") !=
+              std::string::npos);
+  EXPECT_TRUE(
+      complaint("v*sqr(x)").find("'sqr' is neither x, v, t, a constant nor a function; did you mean sqrt?") !=
+      std::string::npos)
+      << complaint("v*sqr(x)");
 }
 
 TEST(UserForce, ValuesThatAreNotFiniteAreFoundByProbing) {
-  EXPECT_EQ(complaint("1/x"), "s.toml:3:9: user_force.force: is not a finite number at x = 0 m, v = 0 m/s, t = 0 s; write it so that it has a value for every x, v and t");
+  EXPECT_EQ(complaint("1/x"),
+            "s.toml:3:9: user_force.force: is not a finite number at x = 0 m, v = 0 m/s, t = 0 s; write it "
+            "so that it has a value for every x, v and t");
   EXPECT_NE(complaint("sqrt(v)"), "");
   EXPECT_NE(complaint("exp(x*1e5)"), "");
   EXPECT_EQ(complaint("sqrt(abs(v))"), "");
   const Physics physics = physics_of(parse_setup(setup_text("1/(x-0.0123)"), "s", all_effects()));
-  EXPECT_THROW(physics.box.free[0].newton(0.0123, 0, 0), PhysicsError) << "what the probing missed is caught in the run";
+  EXPECT_THROW(physics.box.free[0].newton(0.0123, 0, 0), PhysicsError)
+      << "what the probing missed is caught in the run";
 }
 
 TEST(UserForce, CopiesOfThePhysicsHaveTheirOwnParser) {
@@ -90,7 +116,8 @@ TEST(UserForce, CopiesOfThePhysicsHaveTheirOwnParser) {
     return wrong;
   };
   double first = -1, second = -1;
-  std::thread one([&, own = physics] { first = sum(own, 1); }), other([&, own = physics] { second = sum(own, 2); });
+  std::thread one([&, own = physics] { first = sum(own, 1); }),
+      other([&, own = physics] { second = sum(own, 2); });
   one.join();
   other.join();
   EXPECT_EQ(first, 0);
@@ -111,5 +138,6 @@ TEST(UserForce, TheHardEngineRefusesFormulasThatFollowAGrain) {
   EXPECT_EQ(refused("hard", "sin(t)", "grains"), "");
   EXPECT_EQ(refused("soft", "-v", "grains"), "");
   EXPECT_EQ(refused("hard", "-v", "grains"),
-            "s.toml:2:8: user_force: is not modelled by engine 'hard'; on grains the hard engine takes formulas of t alone; use --engine soft");
+            "s.toml:2:8: user_force: is not modelled by engine 'hard'; on grains the hard engine takes "
+            "formulas of t alone; use --engine soft");
 }

@@ -13,7 +13,9 @@ using namespace shakedown;
 
 namespace {
 
-Physics physics_with(const std::vector<Override>& overrides) { return physics_of(parse_setup("", "s", all_effects(), overrides)); }
+Physics physics_with(const std::vector<Override>& overrides) {
+  return physics_of(parse_setup("", "s", all_effects(), overrides));
+}
 const std::string effect = "velocity_dependent_restitution.";
 
 /// One impact under the law's push by small steps of its own (midpoint rule): restitution and duration.
@@ -33,7 +35,8 @@ Impact impact(const Physics& physics, ContactClass kind, double speed, double ma
     rate -= last_force / mass * step;
     time += step;
     // What the force exceeds the elastic one is the dashpot's.
-    dissipated += (last_force - 2.5 * physics.contact.stored_energy(kind, middle, speed, mass) / middle) * middle_rate * step;
+    dissipated += (last_force - 2.5 * physics.contact.stored_energy(kind, middle, speed, mass) / middle) *
+                  middle_rate * step;
   } while (last_force > 0);
   const double left = physics.contact.stored_energy(kind, overlap, speed, mass);
   return {-rate / speed, time, (mass * rate * rate / 2 + left + dissipated - kinetic) / kinetic};
@@ -61,13 +64,17 @@ TEST(ViscoelasticContact, TableFollowsTheIntegration) {
 
 TEST(VelocityDependentRestitution, PowerLaw) {
   const Physics physics = physics_with({{effect + "exponent", "0.12"}});
-  const auto at = [&](double speed) { return physics.contact.restitution_at(ContactClass::grain_grain, speed); };
+  const auto at = [&](double speed) {
+    return physics.contact.restitution_at(ContactClass::grain_grain, speed);
+  };
   EXPECT_DOUBLE_EQ(at(0.3), 0.75);
   EXPECT_DOUBLE_EQ(at(0.6), 0.75 * std::pow(2, -0.12));
   EXPECT_DOUBLE_EQ(physics.contact.restitution_at(ContactClass::end_wall, 0.3), 0.76);
   EXPECT_EQ(at(1e-6), 0.98);
   EXPECT_EQ(at(0), 0.98);
-  EXPECT_EQ(physics_with({{effect + "exponent", "0.12"}, {"restitution.grain_grain", "1"}}).contact.restitution_at(ContactClass::grain_grain, 0), 1);
+  EXPECT_EQ(physics_with({{effect + "exponent", "0.12"}, {"restitution.grain_grain", "1"}})
+                .contact.restitution_at(ContactClass::grain_grain, 0),
+            1);
   EXPECT_FALSE(physics.contact.push) << "the soft engine's linear spring serves";
 }
 
@@ -87,7 +94,8 @@ TEST(VelocityDependentRestitution, BothViewsOfTheViscoelasticLawAgree) {
   for (const double speed : {0.01, 0.3, 1.2})
     for (const double mass : {2.02e-3, 4.04e-3}) {
       const Impact seen = impact(physics, ContactClass::grain_grain, speed, mass);
-      EXPECT_NEAR(seen.restitution, physics.contact.restitution_at(ContactClass::grain_grain, speed), 1e-6) << speed;
+      EXPECT_NEAR(seen.restitution, physics.contact.restitution_at(ContactClass::grain_grain, speed), 1e-6)
+          << speed;
       EXPECT_NEAR(seen.energy_error, 0, 1e-6) << speed;
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Data made with other people's soft spheres, each with something hidden whose truth is known: does an engine, told the truth, follow them to
-// within the spread of runs? Not a test: the data are not part of the tree.
+// Data made with other people's soft spheres, each with something hidden whose truth is known: does an
+// engine, told the truth, follow them to within the spread of runs? Not a test: the data are not part of the
+// tree.
 //   challenge_truths FOLDER [RUNS=8] [hard|soft] [CASE...]
 // FOLDER holds truth.json and cases o01/ ... with setup.toml and L*.csv (t_s,x_box_m,x_com_m)
 #include <algorithm>
@@ -71,10 +72,12 @@ Series read_series(const fs::path& path) {
   return series;
 }
 
-/// Standard deviation of the noise of one sample, from fourth differences, in which the motion vanishes (sum of squared weights: 70).
+/// Standard deviation of the noise of one sample, from fourth differences, in which the motion vanishes (sum
+/// of squared weights: 70).
 double noise_of(const std::vector<double>& x) {
   std::vector<double> size;
-  for (std::size_t k = 4; k < x.size(); ++k) size.push_back(std::abs(x[k] - 4 * x[k - 1] + 6 * x[k - 2] - 4 * x[k - 3] + x[k - 4]));
+  for (std::size_t k = 4; k < x.size(); ++k)
+    size.push_back(std::abs(x[k] - 4 * x[k - 1] + 6 * x[k - 2] - 4 * x[k - 3] + x[k - 4]));
   std::nth_element(size.begin(), size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2), size.end());
   return size[size.size() / 2] / 0.6745 / std::sqrt(70.0);
 }
@@ -94,7 +97,8 @@ Comparison compare(const Series& data, const Ensemble& ensemble) {
   double squares = 0, variances = 0;
   std::size_t n = 0;
   for (; n < data.time.size() && n < time.size() && !(data.time[n] >= result.until); ++n) {
-    if (std::abs(data.time[n] - time[n]) > 1e-6) throw FileError("the samples of data and runs are not at the same times");
+    if (std::abs(data.time[n] - time[n]) > 1e-6)
+      throw FileError("the samples of data and runs are not at the same times");
     std::vector<double> x;
     for (const RunResult& run : ensemble.runs) x.push_back(run.trajectory.x_box[n]);
     const Statistic at = statistic_of(x);
@@ -106,7 +110,8 @@ Comparison compare(const Series& data, const Ensemble& ensemble) {
   return result;
 }
 
-Ensemble told(const Engine& engine, const fs::path& folder, const std::string& file, std::vector<Override> truth, int runs) {
+Ensemble told(const Engine& engine, const fs::path& folder, const std::string& file,
+              std::vector<Override> truth, int runs) {
   truth.push_back({"box.length", file.substr(1, 3) + " mm"});  // "L040_a.csv"
   const Setup setup = read_setup(folder / "setup.toml", all_effects(), truth);
   EnsembleOptions options;
@@ -125,9 +130,9 @@ void report_case(const Engine& engine, const fs::path& folder, const nlohmann::j
     const Series data = read_series(folder / file);
     const Comparison with = compare(data, told(engine, folder, file, overrides, runs)),
                      without = compare(data, told(engine, folder, file, {}, runs));
-    std::printf("%s  %-10s  %6.2f  %9.3f  %9.3f  %9.3f  %9.3f  %6.2f  %9.3f\n", folder.filename().c_str(), file.c_str(), with.until,
-                with.error * 1e3, with.spread * 1e3, with.noise * 1e3, with.expected(runs) * 1e3, with.error / with.expected(runs),
-                without.error * 1e3);
+    std::printf("%s  %-10s  %6.2f  %9.3f  %9.3f  %9.3f  %9.3f  %6.2f  %9.3f\n", folder.filename().c_str(),
+                file.c_str(), with.until, with.error * 1e3, with.spread * 1e3, with.noise * 1e3,
+                with.expected(runs) * 1e3, with.error / with.expected(runs), without.error * 1e3);
     std::fflush(stdout);
   }
 }
@@ -145,12 +150,18 @@ int main(int count, char** arguments) {
     std::ifstream file(folder / "truth.json");
     if (!file) throw FileError((folder / "truth.json").string() + ": cannot be read");
     const nlohmann::json truths = nlohmann::json::parse(file);
-    std::printf("x_box of the mean of %d runs told the truth against the data, while the amplitude exceeds 10 mm; mm\n", runs);
-    std::printf("case file        until s  rms error  sd of run      noise   expected   ratio   untold rms\n");
-    const std::unique_ptr<Engine> engine = count > 3 && arguments[3] == std::string("soft") ? make_soft_engine() : make_hard_engine();
+    std::printf(
+        "x_box of the mean of %d runs told the truth against the data, while the amplitude exceeds 10 mm; "
+        "mm\n",
+        runs);
+    std::printf(
+        "case file        until s  rms error  sd of run      noise   expected   ratio   untold rms\n");
+    const std::unique_ptr<Engine> engine =
+        count > 3 && arguments[3] == std::string("soft") ? make_soft_engine() : make_hard_engine();
     const std::vector<std::string> wanted(arguments + std::min(count, 4), arguments + count);
     for (const auto& [name, truth] : truths.items())
-      if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) report_case(*engine, folder / name, truth, runs);
+      if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end())
+        report_case(*engine, folder / name, truth, runs);
   } catch (const FileError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 4;

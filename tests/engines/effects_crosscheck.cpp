@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Are the hard and the soft engine the same damper with each effect on? Ensembles of both at L = 40 and 104 mm, each effect at its typical
-// strength or as given; differences hard - soft with 95 % intervals against the margins of equivalence. Not a test: it takes minutes and
-// informs. Hard runs are cheap, so there are eight of them for each soft one, which nearly halves the variance that soft runs alone decide.
-//   effects_crosscheck [RUNS=8] [EFFECT | KEY=VALUE,KEY=VALUE... ...]     e.g. 32 none grain_friction grain_friction.grain_grain=0.3
+// Are the hard and the soft engine the same damper with each effect on? Ensembles of both at L = 40 and 104
+// mm, each effect at its typical strength or as given; differences hard - soft with 95 % intervals against
+// the margins of equivalence. Not a test: it takes minutes and informs. Hard runs are cheap, so there are
+// eight of them for each soft one, which nearly halves the variance that soft runs alone decide.
+//   effects_crosscheck [RUNS=8] [EFFECT | KEY=VALUE,KEY=VALUE... ...]     e.g. 32 none grain_friction
+//   grain_friction.grain_grain=0.3
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -47,7 +49,8 @@ const char* in_a_word(const Equivalence& found) {
 Setup setup_of(const std::string& what, double length) {
   std::vector<Override> overrides;
   std::string text;
-  if (find_effect(what) != nullptr) text = example_of(*find_effect(what));
+  if (find_effect(what) != nullptr)
+    text = example_of(*find_effect(what));
   else if (what != "none")
     for (std::size_t at = 0; at < what.size();) {
       const std::size_t end = std::min(what.find(',', at), what.size());
@@ -72,8 +75,9 @@ void compare(const std::string& what, double length, int runs) {
     const Statistic of_hard = hard.over_runs(quantity.of), of_soft = soft.over_runs(quantity.of);
     const double margin = quantity.margin > 0 ? quantity.margin : slope_margin({}, length, of_hard.mean);
     const Equivalence found = equivalence_of(of_hard, of_soft, margin);
-    std::printf(" | %8.4f %8.4f +- %6.4f %-6s", quantity.per_si * of_hard.mean, quantity.per_si * found.difference,
-                quantity.per_si * (found.high - found.low) / 2, in_a_word(found));
+    std::printf(" | %8.4f %8.4f +- %6.4f %-6s", quantity.per_si * of_hard.mean,
+                quantity.per_si * found.difference, quantity.per_si * (found.high - found.low) / 2,
+                in_a_word(found));
   }
   std::printf("\n");
   std::fflush(stdout);
@@ -91,8 +95,10 @@ int main(int count, char** arguments) {
   }
   try {
     for (const std::string& what : wanted) setup_of(what, 0.04);
-    std::printf("hard, and hard - soft +- 95 %%; %d soft runs, %d hard ones; shares of E0 after 8.5 s (40 mm) and 5 s (104 mm)\n%-31s %3s", runs,
-                hard_runs_for_a_soft_one * runs, "effect", "mm");
+    std::printf(
+        "hard, and hard - soft +- 95 %%; %d soft runs, %d hard ones; shares of E0 after 8.5 s (40 mm) and 5 "
+        "s (104 mm)\n%-31s %3s",
+        runs, hard_runs_for_a_soft_one * runs, "effect", "mm");
     for (const Quantity& quantity : quantities) std::printf(" | %-34s", quantity.name);
     std::printf("\n");
     for (const std::string& what : wanted)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The engines that every property is tested on, each with the promises it makes. A new engine is one more entry.
+// The engines that every property is tested on, each with the promises it makes. A new engine is one more
+// entry.
 #pragma once
 #include <functional>
 #include <memory>

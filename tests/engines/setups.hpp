@@ -48,7 +48,8 @@ inline Trajectory run_with(const Engine& engine, Setup setup, const std::vector<
 }
 
 /// Adds an effect, its parameters at their defaults but for those given.
-inline void add_effect(Setup& setup, std::string_view name, const std::map<std::string, ParameterValue>& values) {
+inline void add_effect(Setup& setup, std::string_view name,
+                       const std::map<std::string, ParameterValue>& values) {
   const EffectRecord* record = find_effect(name);
   ASSERT_NE(record, nullptr) << name;
   EffectChoice choice = with_defaults(*record);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The empty box under each effect that acts on it, in every engine that models it, against the solutions of textbooks.
+// The empty box under each effect that acts on it, in every engine that models it, against the solutions of
+// textbooks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +32,8 @@ shakedown::Setup empty_box(std::string_view effect, const Values& values, double
 constexpr double closed = 1e-12, dense = 2e-11;
 
 /// Runs the setup in every engine that models its first effect, for `check` to look at.
-void in_every_engine(const shakedown::Setup& setup, double balance, const std::function<void(const Trajectory&)>& check) {
+void in_every_engine(const shakedown::Setup& setup, double balance,
+                     const std::function<void(const Trajectory&)>& check) {
   for (const EngineUnderTest& tested : engines_that_model(setup.effects.front().record->name)) {
     SCOPED_TRACE(tested.name);
     const Trajectory result = tested.make()->run(setup);
@@ -41,15 +43,18 @@ void in_every_engine(const shakedown::Setup& setup, double balance, const std::f
   }
 }
 
-void expect_motion(const shakedown::Setup& setup, double balance, const std::function<double(double)>& x, double tolerance) {
+void expect_motion(const shakedown::Setup& setup, double balance, const std::function<double(double)>& x,
+                   double tolerance) {
   in_every_engine(setup, balance, [&](const Trajectory& result) {
     double worst = 0;
-    for (std::size_t k = 0; k < result.time.size(); ++k) worst = std::max(worst, std::abs(result.x_box[k] - x(result.time[k])));
+    for (std::size_t k = 0; k < result.time.size(); ++k)
+      worst = std::max(worst, std::abs(result.x_box[k] - x(result.time[k])));
     EXPECT_LE(worst, tolerance);
   });
 }
 
-/// Extrema of x between samples: where v changes sign, from v and its slope (error of third order in the interval).
+/// Extrema of x between samples: where v changes sign, from v and its slope (error of third order in the
+/// interval).
 std::vector<double> extrema_of(const Trajectory& result) {
   std::vector<double> extrema;
   for (std::size_t k = 1; k + 1 < result.time.size(); ++k) {
@@ -69,7 +74,8 @@ TEST(EmptyBox, ViscousDampingMakesExtremaDecayExponentially) {
   setup.run.sample_rate = w / pi;  // extrema are half a damped period apart
   in_every_engine(setup, closed, [&](const Trajectory& result) {
     for (std::size_t n = 0; n < result.time.size(); ++n)
-      EXPECT_NEAR(result.x_box[n], (n % 2 ? -1 : 1) * start * std::exp(-decay * pi / w * static_cast<double>(n)), 2e-13);
+      EXPECT_NEAR(result.x_box[n],
+                  (n % 2 ? -1 : 1) * start * std::exp(-decay * pi / w * static_cast<double>(n)), 2e-13);
     EXPECT_NEAR(result.ledger.effect_loss[0] + result.total_energy.back(), result.initial_energy, 1e-13);
   });
 }
@@ -93,7 +99,8 @@ TEST(EmptyBox, ClampFrictionTakesTheSameFromEveryExtremumUntilTheBoxSticks) {
 }
 
 TEST(EmptyBox, QuadraticDragFollowsTheRecurrenceOfItsExtrema) {
-  // v dv/dx = -w0^2 x - b v^2 on a way from -A to B: (1 - 2 b B) exp(2 b B) = (1 + 2 b A) exp(-2 b A), b = c/M.
+  // v dv/dx = -w0^2 x - b v^2 on a way from -A to B: (1 - 2 b B) exp(2 b B) = (1 + 2 b A) exp(-2 b A), b =
+  // c/M.
   const double c = 0.3, b = c / mass;
   const auto next = [&](double amplitude) {
     const double wanted = (1 + 2 * b * amplitude) * std::exp(-2 * b * amplitude);
@@ -119,12 +126,14 @@ TEST(EmptyBox, CubicSpringHasThePeriodOfDuffing) {
   for (const double b : {0.5, 0.04, -0.3}) {
     // T = 4 K(m) / (w0 sqrt(1 + b)), m = b / (2 (1 + b)); for m < 0: K(m) = K(m/(m - 1)) / sqrt(1 - m).
     const double m = b / (2 * (1 + b));
-    const double K = m >= 0 ? std::comp_ellint_1(std::sqrt(m)) : std::comp_ellint_1(std::sqrt(m / (m - 1))) / std::sqrt(1 - m);
+    const double K = m >= 0 ? std::comp_ellint_1(std::sqrt(m))
+                            : std::comp_ellint_1(std::sqrt(m / (m - 1))) / std::sqrt(1 - m);
     shakedown::Setup setup = empty_box("spring_cubic", {{"coefficient", b}}, 8);
     setup.run.sample_rate = w0 * std::sqrt(1 + b) / K;  // quarter periods
     in_every_engine(setup, dense, [&](const Trajectory& result) {
       constexpr std::array<double, 4> quarter{start, 0, -start, 0};
-      for (std::size_t n = 0; n < result.time.size(); ++n) EXPECT_NEAR(result.x_box[n], quarter[n % 4], 1e-11) << b;
+      for (std::size_t n = 0; n < result.time.size(); ++n)
+        EXPECT_NEAR(result.x_box[n], quarter[n % 4], 1e-11) << b;
       EXPECT_NEAR(result.initial_energy / (stiffness * start * start / 2 * (1 + b / 2)), 1, 1e-14);
       EXPECT_EQ(result.ledger.effect_loss[0], 0);
     });
@@ -133,26 +142,32 @@ TEST(EmptyBox, CubicSpringHasThePeriodOfDuffing) {
 
 TEST(EmptyBox, HarmonicAccelerationForcesIt) {
   const double a = 0.4, f = 1.7, phase = 0.6, w = 2 * pi * f, forced = a / (w0 * w0 - w * w);
-  expect_motion(empty_box("oscillating_acceleration", {{"amplitude", Vec3(a, 0.2, 0)}, {"frequency", f}, {"phase", phase}}, 8), closed,
-                [&](double t) {
-                  return forced * std::sin(w * t + phase) + (start - forced * std::sin(phase)) * std::cos(w0 * t) -
-                         forced * w / w0 * std::cos(phase) * std::sin(w0 * t);
-                },
-                2e-12);
+  expect_motion(
+      empty_box("oscillating_acceleration",
+                {{"amplitude", Vec3(a, 0.2, 0)}, {"frequency", f}, {"phase", phase}}, 8),
+      closed,
+      [&](double t) {
+        return forced * std::sin(w * t + phase) + (start - forced * std::sin(phase)) * std::cos(w0 * t) -
+               forced * w / w0 * std::cos(phase) * std::sin(w0 * t);
+      },
+      2e-12);
 }
 
 TEST(EmptyBox, HasTheResonanceCurveOfTheDampedOscillator) {
   const double c = 2, a = 0.5, rate = c / mass;
   for (const double f : {0.7, 1.23, 1.9}) {
     const double w = 2 * pi * f;
-    shakedown::Setup setup = empty_box("oscillating_acceleration", {{"amplitude", Vec3(a, 0, 0)}, {"frequency", f}}, 20);
+    shakedown::Setup setup =
+        empty_box("oscillating_acceleration", {{"amplitude", Vec3(a, 0, 0)}, {"frequency", f}}, 20);
     add_effect(setup, "blade_viscous_damping", {{"damping", c}});
     setup.soft.contact_time = 1e-3;
-    const double amplitude = a / std::hypot(w0 * w0 - w * w, rate * w), lag = std::atan2(rate * w, w0 * w0 - w * w);
+    const double amplitude = a / std::hypot(w0 * w0 - w * w, rate * w),
+                 lag = std::atan2(rate * w, w0 * w0 - w * w);
     in_every_engine(setup, closed, [&](const Trajectory& result) {
       double worst = 0;
       for (std::size_t k = 0; k < result.time.size(); ++k)
-        if (result.time[k] > 15) worst = std::max(worst, std::abs(result.x_box[k] - amplitude * std::sin(w * result.time[k] - lag)));
+        if (result.time[k] > 15)
+          worst = std::max(worst, std::abs(result.x_box[k] - amplitude * std::sin(w * result.time[k] - lag)));
       EXPECT_LE(worst, 1e-13) << f;
     });
   }
@@ -160,25 +175,32 @@ TEST(EmptyBox, HasTheResonanceCurveOfTheDampedOscillator) {
 
 TEST(EmptyBox, ConstantAccelerationShiftsItsCentre) {
   const double shift = 0.3 / (w0 * w0);
-  expect_motion(empty_box("constant_acceleration", {{"acceleration", Vec3(0.3, 0.1, 0)}}, 8), closed,
-                [&](double t) { return shift + (start - shift) * std::cos(w0 * t); }, 2e-12);
+  expect_motion(
+      empty_box("constant_acceleration", {{"acceleration", Vec3(0.3, 0.1, 0)}}, 8), closed,
+      [&](double t) { return shift + (start - shift) * std::cos(w0 * t); }, 2e-12);
 }
 
 TEST(EmptyBox, AddedMassSlowsIt) {
   const double w = w0 * std::sqrt(mass / (mass + 0.05));
-  expect_motion(empty_box("blade_mass", {{"mass", 0.05}}, 8), closed, [&](double t) { return start * std::cos(w * t); }, 2e-12);
+  expect_motion(
+      empty_box("blade_mass", {{"mass", 0.05}}, 8), closed, [&](double t) { return start * std::cos(w * t); },
+      2e-12);
 }
 
 TEST(EmptyBox, StartsWithAPush) {
-  expect_motion(empty_box("initial_box_velocity", {{"velocity", -0.2}}, 8), closed,
-                [&](double t) { return start * std::cos(w0 * t) - 0.2 / w0 * std::sin(w0 * t); }, 2e-12);
+  expect_motion(
+      empty_box("initial_box_velocity", {{"velocity", -0.2}}, 8), closed,
+      [&](double t) { return start * std::cos(w0 * t) - 0.2 / w0 * std::sin(w0 * t); }, 2e-12);
 }
 
 TEST(EmptyBox, FollowsAFormula) {
   // A formula's spring on top of the blade's: still harmonic.
   const double w = std::sqrt(w0 * w0 + 5 / mass);
-  expect_motion(empty_box("user_force", {{"force", std::string("-k*x")}, {"constants", std::map<std::string, double>{{"k", 5.0}}}}, 8), dense,
-                [&](double t) { return start * std::cos(w * t); }, 2e-12);
+  expect_motion(
+      empty_box("user_force",
+                {{"force", std::string("-k*x")}, {"constants", std::map<std::string, double>{{"k", 5.0}}}},
+                8),
+      dense, [&](double t) { return start * std::cos(w * t); }, 2e-12);
 }
 
 TEST(EmptyBox, ComesToRestAlsoWhereTimesCannotResolveWhen) {

@@ -12,7 +12,8 @@ using namespace shakedown;
 
 namespace {
 
-/// The setup of an effect's own example: its typical strength. Long enough for the layer to land on both walls.
+/// The setup of an effect's own example: its typical strength. Long enough for the layer to land on both
+/// walls.
 shakedown::Setup example_setup(std::string_view effects_text, double duration = 0.4) {
   shakedown::Setup setup = parse_setup(effects_text, "example", all_effects());
   setup.run.duration = duration;
@@ -94,7 +95,8 @@ TEST_P(EveryEffect, IsDroppedAtItsNeutralValueAndThenLeavesNoTrace) {
     if (!std::isnan(parameter.neutral))
       for (const std::string axis : {"", ".x", ".y", ".z"})
         if ((parameter.kind == ParameterKind::vector) == !axis.empty())
-          set_number(setup, std::string(record.name) + "." + std::string(parameter.name) + axis, parameter.neutral, all_effects());
+          set_number(setup, std::string(record.name) + "." + std::string(parameter.name) + axis,
+                     parameter.neutral, all_effects());
   shakedown::Setup plain = setup;
   plain.effects.clear();
   EXPECT_EQ(digest(setup), digest(plain));
@@ -111,7 +113,8 @@ INSTANTIATE_TEST_SUITE_P(Engines, EveryEffect,
                          testing::Combine(testing::ValuesIn(engines_under_test()),
                                           testing::ValuesIn(all_effects().begin(), all_effects().end())),
                          [](const auto& tested) {
-                           return std::get<0>(tested.param).name + "_" + std::string(std::get<1>(tested.param)->name);
+                           return std::get<0>(tested.param).name + "_" +
+                                  std::string(std::get<1>(tested.param)->name);
                          });
 
 class SeveralEffects : public testing::TestWithParam<EngineUnderTest> {};
@@ -131,13 +134,15 @@ TEST_P(SeveralEffects, AtOnceKeepTheirBooks) {
     }
 }
 
-/// Closed forms only: viscous, dry friction, both accelerations, added mass, a push, friction and attraction of grains.
+/// Closed forms only: viscous, dry friction, both accelerations, added mass, a push, friction and attraction
+/// of grains.
 TEST_P(SeveralEffects, InClosedFormCloseToRounding) {
   if (GetParam().name == "bullet") return;
   std::string text;
-  for (const std::string_view name : {"grain_friction", "grain_cohesion", "side_wall_restitution", "grain_polydispersity", "blade_viscous_damping",
-                                      "clamp_dry_friction", "blade_mass", "initial_box_velocity", "constant_acceleration",
-                                      "oscillating_acceleration"})
+  for (const std::string_view name :
+       {"grain_friction", "grain_cohesion", "side_wall_restitution", "grain_polydispersity",
+        "blade_viscous_damping", "clamp_dry_friction", "blade_mass", "initial_box_velocity",
+        "constant_acceleration", "oscillating_acceleration"})
     text += example_of(*find_effect(name));
   const Trajectory result = GetParam().make()->run(example_setup(text, 0.6));
   expect_balances(result, promised_ledger(GetParam(), Fidelity::exact));

@@ -36,8 +36,9 @@ class EveryEngine : public ::testing::TestWithParam<EngineUnderTest> {
     return setup;
   }
 
-  /// Restitution of one impact of the given class at a closing speed, from the energy it took. The gap to fly through, hence the
-  /// phase of first touch within a step, is random, and so is the (not whole) number of steps per contact.
+  /// Restitution of one impact of the given class at a closing speed, from the energy it took. The gap to fly
+  /// through, hence the phase of first touch within a step, is random, and so is the (not whole) number of
+  /// steps per contact.
   double restitution(ContactClass kind, double speed, double steps, Random& random) const {
     shakedown::Setup setup;
     setup.release.displacement = 0;
@@ -66,7 +67,8 @@ class EveryEngine : public ::testing::TestWithParam<EngineUnderTest> {
     return std::sqrt(1 - loss / (reduced_mass * speed * speed / 2));
   }
 
-  double worst_restitution_error(ContactClass kind, double fewest_steps, double most_steps, int impacts) const {
+  double worst_restitution_error(ContactClass kind, double fewest_steps, double most_steps,
+                                 int impacts) const {
     Random random(3, 0, Stream::other);
     const double wanted = kind == ContactClass::grain_grain ? 0.75 : 0.76;
     double worst = 0;
@@ -117,7 +119,8 @@ TEST_P(EveryEngine, StartsFromTheCommonInitialState) {
   EXPECT_EQ(result.x_box[0], 0.1075);
   EXPECT_EQ(result.v_box[0], 0);
   EXPECT_NEAR(result.x_com[0], centre_of_mass_x(state), 1e-15);
-  const double energy = kinetic_energy(state, setup.box.mass) + physics_of(setup).stiffness * 0.1075 * 0.1075 / 2;
+  const double energy =
+      kinetic_energy(state, setup.box.mass) + physics_of(setup).stiffness * 0.1075 * 0.1075 / 2;
   EXPECT_NEAR(result.initial_energy / energy, 1, 1e-14);
 }
 
@@ -126,7 +129,8 @@ TEST_P(EveryEngine, SamplesAtTheAskedRate) {
   setup.run.sample_rate = 300;
   const Trajectory result = engine->run(setup);
   ASSERT_EQ(result.time.size(), 16u);
-  for (std::size_t k = 0; k < result.time.size(); ++k) EXPECT_NEAR(result.time[k], static_cast<double>(k) / 300, 1e-15);
+  for (std::size_t k = 0; k < result.time.size(); ++k)
+    EXPECT_NEAR(result.time[k], static_cast<double>(k) / 300, 1e-15);
   EXPECT_EQ(result.x_box.size(), 16u);
   EXPECT_EQ(result.loss[2].size(), 16u);
   EXPECT_NEAR(result.end_time, 0.05, 1e-12);
@@ -148,7 +152,8 @@ TEST_P(EveryEngine, GivesTheSameBytesInAnyNumberOfThreads) {
   {
     std::vector<std::jthread> threads;
     for (int run = 0; run < 4; ++run)
-      threads.emplace_back([&, run] { parallel[static_cast<std::size_t>(run)] = engine->run(setup, numbered(run)); });
+      threads.emplace_back(
+          [&, run] { parallel[static_cast<std::size_t>(run)] = engine->run(setup, numbered(run)); });
   }
   for (std::size_t run = 0; run < 4; ++run) {
     EXPECT_EQ(serial[run].x_box, parallel[run].x_box);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One ball in the box under each effect that acts on grains, in every engine that models it, against closed forms.
+// One ball in the box under each effect that acts on grains, in every engine that models it, against closed
+// forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -64,7 +65,9 @@ TEST(Ball, FollowsAHarmonicAcceleration) {
   shakedown::Setup setup = large_box(1);
   add_effect(setup, "oscillating_acceleration", {{"amplitude", a}, {"frequency", f}, {"phase", phase}});
   in_every_engine(setup, {x, v}, 1e-11, [&](const Trajectory& result, bool) {
-    const auto swing = [&](double t) { return (std::cos(phase) * t + (std::sin(phase) - std::sin(w * t + phase)) / w) / w; };
+    const auto swing = [&](double t) {
+      return (std::cos(phase) * t + (std::sin(phase) - std::sin(w * t + phase)) / w) / w;
+    };
     for (std::size_t k = 0; k < result.time.size(); ++k)
       EXPECT_NEAR(result.x_com[k], x.x() + v.x() * result.time[k] + a.x() * swing(result.time[k]), 5e-12);
     expect_near(result.end_state.position[0], x + v + a * swing(1), 5e-12);
@@ -76,11 +79,12 @@ TEST(Ball, BouncesOnASideWallUnderGravity) {
   const double g = 1, height = 0.005, fall = std::sqrt(2 * height / g), e = 0.76;
   shakedown::Setup setup = large_box(fall + e * fall);  // the top of the first bounce
   add_effect(setup, "constant_acceleration", {{"acceleration", Vec3(0, 0, -g)}});
-  in_every_engine(setup, {{0, 0, -0.25 + radius + height}, {0, 0, 0}}, 1e-9, [&](const Trajectory& result, bool hard) {
-    EXPECT_EQ(result.collisions[2], 1);
-    EXPECT_NEAR(result.ledger.contact_loss[2] / (mass * g * height), 1 - e * e, hard ? 1e-12 : 1e-2);
-    EXPECT_NEAR(result.end_state.position[0].z(), -0.25 + radius + e * e * height, hard ? 1e-12 : 1e-4);
-  });
+  in_every_engine(
+      setup, {{0, 0, -0.25 + radius + height}, {0, 0, 0}}, 1e-9, [&](const Trajectory& result, bool hard) {
+        EXPECT_EQ(result.collisions[2], 1);
+        EXPECT_NEAR(result.ledger.contact_loss[2] / (mass * g * height), 1 - e * e, hard ? 1e-12 : 1e-2);
+        EXPECT_NEAR(result.end_state.position[0].z(), -0.25 + radius + e * e * height, hard ? 1e-12 : 1e-4);
+      });
 }
 
 TEST(Ball, BouncesOnTheEndWallOfTheBoxThatFallsWithIt) {
@@ -99,7 +103,8 @@ TEST(Ball, BouncesOnTheEndWallOfTheBoxThatFallsWithIt) {
     EXPECT_NEAR(result.time[k], low, 1.0 / 500);
     const double closing = a * low - a / w0 * std::sin(w0 * low), reduced = mass * 0.434 / (mass + 0.434);
     if (result.collisions[1] == 1) {
-      EXPECT_NEAR(result.ledger.contact_loss[1] / (reduced / 2 * closing * closing), 1 - 0.76 * 0.76, hard ? 1e-12 : 2e-2);
+      EXPECT_NEAR(result.ledger.contact_loss[1] / (reduced / 2 * closing * closing), 1 - 0.76 * 0.76,
+                  hard ? 1e-12 : 2e-2);
     }
   });
 }
@@ -114,7 +119,9 @@ TEST(Ball, ReachesItsTerminalSpeed) {
   in_every_engine(setup, ball, 1e-9, [&](const Trajectory& result, bool) {
     const double terminal = g / rate, t = result.end_time;
     EXPECT_NEAR(-result.end_state.velocity[0].z() / terminal, 1 - std::exp(-rate * t), 0.03);
-    EXPECT_NEAR((0.2 - result.end_state.position[0].z()) / (terminal * (t - (1 - std::exp(-rate * t)) / rate)), 1, 1e-3);
+    EXPECT_NEAR(
+        (0.2 - result.end_state.position[0].z()) / (terminal * (t - (1 - std::exp(-rate * t)) / rate)), 1,
+        1e-3);
   });
   shakedown::Setup quadratic = large_box(0.5);
   add_effect(quadratic, "grain_air_drag", {{"quadratic", 0.2}});
@@ -122,7 +129,9 @@ TEST(Ball, ReachesItsTerminalSpeed) {
   in_every_engine(quadratic, ball, 1e-9, [&](const Trajectory& result, bool) {
     const double terminal = std::sqrt(mass * g / 0.2), t = result.end_time;
     EXPECT_NEAR(-result.end_state.velocity[0].z() / terminal, std::tanh(g * t / terminal), 0.03);
-    EXPECT_NEAR((0.2 - result.end_state.position[0].z()) / (terminal * terminal / g * std::log(std::cosh(g * t / terminal))), 1, 1e-3);
+    EXPECT_NEAR((0.2 - result.end_state.position[0].z()) /
+                    (terminal * terminal / g * std::log(std::cosh(g * t / terminal))),
+                1, 1e-3);
   });
 }
 
@@ -146,13 +155,16 @@ TEST(Ball, IsDraggedAlongByTheAirOfASwingingBoxToSecondOrderInTheKicks) {
   setup.box.mass = 1e6;  // the ball does not slow it
   add_effect(setup, "grain_air_drag", {{"linear", 0.01}});
   const double swing = amplitude * w0 * g / (g * g + w0 * w0);
-  const double end = swing * (g / w0 * (std::cos(w0 * t) - 1) + std::sin(w0 * t) - w0 / g * (1 - std::exp(-g * t)));
+  const double end =
+      swing * (g / w0 * (std::cos(w0 * t) - 1) + std::sin(w0 * t) - w0 / g * (1 - std::exp(-g * t)));
   std::vector<double> errors;
   for (const double interval : {2e-2, 1e-2, 5e-3}) {
     setup.hard.kick_interval = interval;
     for (const EngineUnderTest& tested : engines_that_model("grain_air_drag"))
       if (tested.name == "hard")
-        errors.push_back(std::abs(run_with(*tested.make(), setup, {{{amplitude, 0, 0}, {0, 0, 0}}}).x_com.back() - amplitude - end));
+        errors.push_back(
+            std::abs(run_with(*tested.make(), setup, {{{amplitude, 0, 0}, {0, 0, 0}}}).x_com.back() -
+                     amplitude - end));
   }
   ASSERT_EQ(errors.size(), 3);
   EXPECT_LT(errors[0], 5e-4);
@@ -173,16 +185,17 @@ TEST(Ball, FollowsAFormulaOfTime) {
 }
 
 TEST(Ball, SlidesAcrossAndComesToRollAtFiveSevenths) {
-  // Angular momentum about the points of contact is kept, so whatever the impacts were: v = 5/7 v0. Across the axis, where the box
-  // cannot give way.
+  // Angular momentum about the points of contact is kept, so whatever the impacts were: v = 5/7 v0. Across
+  // the axis, where the box cannot give way.
   const double v = 0.3;
   shakedown::Setup setup = large_box(0.6);
   add_effect(setup, "grain_friction", {{"grain_wall", 0.5}, {"tangential_restitution", 0.0}});
   add_effect(setup, "constant_acceleration", {{"acceleration", Vec3(0, 0, -9.81)}});
-  in_every_engine(setup, {{0, -0.2, -0.25 + radius + 0.002}, {0, v, 0}}, 1e-9, [&](const Trajectory& result, bool hard) {
-    EXPECT_NEAR(result.end_state.velocity[0].y() / v, 5.0 / 7, hard ? 1e-12 : 1e-3);
-    EXPECT_NEAR(result.end_state.spin[0].x() * radius / v, -5.0 / 7, hard ? 1e-12 : 1e-2);
-  });
+  in_every_engine(setup, {{0, -0.2, -0.25 + radius + 0.002}, {0, v, 0}}, 1e-9,
+                  [&](const Trajectory& result, bool hard) {
+                    EXPECT_NEAR(result.end_state.velocity[0].y() / v, 5.0 / 7, hard ? 1e-12 : 1e-3);
+                    EXPECT_NEAR(result.end_state.spin[0].x() * radius / v, -5.0 / 7, hard ? 1e-12 : 1e-2);
+                  });
 }
 
 TEST(Ball, MeetsTheSideWallThatTheArcBringsItWhenTheFormulaSays) {
@@ -200,12 +213,14 @@ TEST(Ball, MeetsTheSideWallThatTheArcBringsItWhenTheFormulaSays) {
     while (result.loss[2][k] == 0) ++k;
     EXPECT_NEAR(result.time[k], meets, 1e-4);
     const double wall = 0.6 / l * start * start * w0 * std::sin(2 * w0 * meets);  // speed of the box across
-    EXPECT_NEAR(result.ledger.contact_loss[2] / (mass / 2 * wall * wall), 1 - 0.76 * 0.76, hard ? 1e-12 : 1e-2);
+    EXPECT_NEAR(result.ledger.contact_loss[2] / (mass / 2 * wall * wall), 1 - 0.76 * 0.76,
+                hard ? 1e-12 : 1e-2);
   });
   setup.run.duration = 0.9 * meets;
   in_every_engine(setup, ball, 1e-9, [&](const Trajectory& result, bool hard) {
     const double x = result.end_state.x_box, u = result.end_state.v_box;
-    EXPECT_NEAR(result.end_state.position[0].z(), 0.25 - radius - room + 0.6 / l * (start * start - x * x), hard ? 1e-14 : 2e-6);
+    EXPECT_NEAR(result.end_state.position[0].z(), 0.25 - radius - room + 0.6 / l * (start * start - x * x),
+                hard ? 1e-14 : 2e-6);
     EXPECT_NEAR(result.end_state.velocity[0].z(), -1.2 / l * x * u, 1e-12);
   });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Event-driven engines stall where grains are pressed together: infinitely many impacts in a finite time, or a bed at rest that hops for
-// ever. Strong settings of every effect, 32 seeds each through the whole 22 s, with a bound on the impacts of a run.
+// Event-driven engines stall where grains are pressed together: infinitely many impacts in a finite time, or
+// a bed at rest that hops for ever. Strong settings of every effect, 32 seeds each through the whole 22 s,
+// with a bound on the impacts of a run.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -78,13 +79,15 @@ TEST_P(SlowStalls, NoneOf32Seeds) {
     EXPECT_LE(result.health.momentum_error, exact() ? 1e-12 : 1e-10);
     EXPECT_LE(result.health.deepest_overlap, 1e-12);
   }
-  std::printf("%s: at most %.3g impacts, %.3g events, %.2f CPU s a run\n", GetParam().name.c_str(), static_cast<double>(most_impacts),
-              static_cast<double>(most_events), worst_time);
-  EXPECT_LE(most_impacts, 6'000'000);  // most seen: 1.16 million, grains glued by 200 mN; a stall makes as many in a second and does not end
+  std::printf("%s: at most %.3g impacts, %.3g events, %.2f CPU s a run\n", GetParam().name.c_str(),
+              static_cast<double>(most_impacts), static_cast<double>(most_events), worst_time);
+  // most seen: 1.16 million, grains glued by 200 mN; a stall makes as many in a second and does not end
+  EXPECT_LE(most_impacts, 6'000'000);
   EXPECT_LE(worst_time, 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Strong, SlowStalls, testing::ValuesIn(strong_settings()), [](const auto& strong) { return strong.param.name; });
+INSTANTIATE_TEST_SUITE_P(Strong, SlowStalls, testing::ValuesIn(strong_settings()),
+                         [](const auto& strong) { return strong.param.name; });
 
 /// Rows of unequal grains wedged between the side walls: rare, so many short runs.
 TEST(SlowStallsOfUnequalGrains, NoneOf400Runs) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both views of the law of a contact: the impulse of the hard engine and the force of the soft one, on two grains or a grain and a wall.
+// Both views of the law of a contact: the impulse of the hard engine and the force of the soft one, on two
+// grains or a grain and a wall.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -45,11 +46,13 @@ Place place_of(ContactClass kind) {
   return {};
 }
 
-/// Grains that touch with this velocity relative to the partner after `wait` seconds (below zero: which touched as long ago).
+/// Grains that touch with this velocity relative to the partner after `wait` seconds (below zero: which
+/// touched as long ago).
 std::vector<PlacedGrain> meeting(ContactClass kind, const Vec3& velocity, double wait) {
   const Vec3 normal = place_of(kind).normal;
   if (kind != ContactClass::grain_grain) return {{normal * (0.05 - radius) - velocity * wait, velocity}};
-  return {{-normal * radius - velocity / 2 * wait, velocity / 2}, {normal * radius + velocity / 2 * wait, -velocity / 2}};
+  return {{-normal * radius - velocity / 2 * wait, velocity / 2},
+          {normal * radius + velocity / 2 * wait, -velocity / 2}};
 }
 
 /// Velocity of the first grain relative to its partner, and the same of the touching points.
@@ -100,15 +103,19 @@ TEST_P(NormalRestitution, IsTheLawsInBothViews) {
   const auto hard = make_hard_engine(), soft = make_soft_engine();
   for (const ContactClass kind : kinds)
     for (const double speed : {0.03, 0.3, 1.5}) {
-      SCOPED_TRACE(std::string(contact_class_names[static_cast<std::size_t>(kind)]) + " at " + std::to_string(speed) + " m/s");
-      const double wanted = law.restitution_at ? law.restitution_at(kind, speed) : law.restitution[static_cast<std::size_t>(kind)];
+      SCOPED_TRACE(std::string(contact_class_names[static_cast<std::size_t>(kind)]) + " at " +
+                   std::to_string(speed) + " m/s");
+      const double wanted = law.restitution_at ? law.restitution_at(kind, speed)
+                                               : law.restitution[static_cast<std::size_t>(kind)];
       EXPECT_NEAR(restitution(*hard, setup, kind, speed), wanted, 1e-12);
       EXPECT_NEAR(restitution(*soft, setup, kind, speed), wanted, GetParam() == "viscoelastic" ? 5e-3 : 5e-4);
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, NormalRestitution, testing::Values("", "power", "viscoelastic"),
-                         [](const auto& law) { return law.param.empty() ? std::string("constant") : law.param; });
+                         [](const auto& law) {
+                           return law.param.empty() ? std::string("constant") : law.param;
+                         });
 
 class Friction : public testing::TestWithParam<std::tuple<double, double>> {
  protected:
@@ -116,7 +123,9 @@ class Friction : public testing::TestWithParam<std::tuple<double, double>> {
 
   shakedown::Setup setup() const {
     shakedown::Setup setup = resting_box();
-    add_effect(setup, "grain_friction", {{"grain_grain", coefficient}, {"grain_wall", coefficient}, {"tangential_restitution", tangential}});
+    add_effect(
+        setup, "grain_friction",
+        {{"grain_grain", coefficient}, {"grain_wall", coefficient}, {"tangential_restitution", tangential}});
     return setup;
   }
 
@@ -131,10 +140,12 @@ class Friction : public testing::TestWithParam<std::tuple<double, double>> {
   double measured(const Engine& engine, ContactClass kind, double slip_over_closing) const {
     return measured(engine, setup(), kind, slip_over_closing);
   }
-  double measured(const Engine& engine, const shakedown::Setup& of, ContactClass kind, double slip_over_closing) const {
+  double measured(const Engine& engine, const shakedown::Setup& of, ContactClass kind,
+                  double slip_over_closing) const {
     const Place place = place_of(kind);
     const double closing = 0.3, slip = slip_over_closing * closing;
-    return impact(engine, of, kind, closing * place.normal + slip * place.tangent).slip.dot(place.tangent) / slip;
+    return impact(engine, of, kind, closing * place.normal + slip * place.tangent).slip.dot(place.tangent) /
+           slip;
   }
 };
 
@@ -142,10 +153,11 @@ TEST_P(Friction, SlowsOrReversesTheSlipAlikeInBothViews) {
   const auto hard = make_hard_engine(), soft = make_soft_engine();
   for (const ContactClass kind : kinds)
     for (const double ratio : {0.1, 0.2, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 4.0, 5.0}) {
-      SCOPED_TRACE(std::string(contact_class_names[static_cast<std::size_t>(kind)]) + " at u_t/v_n = " + std::to_string(ratio));
+      SCOPED_TRACE(std::string(contact_class_names[static_cast<std::size_t>(kind)]) +
+                   " at u_t/v_n = " + std::to_string(ratio));
       EXPECT_NEAR(measured(*hard, kind, ratio), by_impulse(kind, ratio), 1e-11);
-      // The impulse has a kink between sticking and sliding that a spring rounds off (0.055); and while it lasts a contact turns with the
-      // grains (0.07 at 1.5 m/s).
+      // The impulse has a kink between sticking and sliding that a spring rounds off (0.055); and while it
+      // lasts a contact turns with the grains (0.07 at 1.5 m/s).
       EXPECT_NEAR(measured(*soft, kind, ratio), by_impulse(kind, ratio), 0.08);
     }
 }
@@ -157,14 +169,19 @@ TEST_P(Friction, StiffContactsStickOrSlideThroughoutAsTheImpulseDoes) {
   stiff.soft.steps_per_contact = 50;
   for (const ContactClass kind : kinds)
     for (const double ratio : {0.1 * coefficient, 4.0, 5.0}) {
-      SCOPED_TRACE(std::string(contact_class_names[static_cast<std::size_t>(kind)]) + " at u_t/v_n = " + std::to_string(ratio));
-      EXPECT_NEAR(measured(*soft, stiff, kind, ratio), by_impulse(kind, ratio), tangential < 1 ? 0.025 : 0.01);  // a dashpot slides a little at first touch
+      SCOPED_TRACE(std::string(contact_class_names[static_cast<std::size_t>(kind)]) +
+                   " at u_t/v_n = " + std::to_string(ratio));
+      // a dashpot slides a little at first touch
+      EXPECT_NEAR(measured(*soft, stiff, kind, ratio), by_impulse(kind, ratio),
+                  tangential < 1 ? 0.025 : 0.01);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Strengths, Friction, testing::Combine(testing::Values(0.1, 0.3, 0.5), testing::Values(1.0, 0.3)),
+INSTANTIATE_TEST_SUITE_P(Strengths, Friction,
+                         testing::Combine(testing::Values(0.1, 0.3, 0.5), testing::Values(1.0, 0.3)),
                          [](const auto& strength) {
-                           return "mu_0" + std::to_string(std::lround(10 * std::get<0>(strength.param))) + "_tangential_" +
+                           return "mu_0" + std::to_string(std::lround(10 * std::get<0>(strength.param))) +
+                                  "_tangential_" +
                                   std::to_string(std::lround(10 * std::get<1>(strength.param)));
                          });
 
@@ -204,7 +221,8 @@ TEST_P(SquareWell, FastOnesLeaveWithWhatTheBounceAndTheWellLeft) {
 TEST_P(SquareWell, SlowOnesAreCaptured) {
   for (const ContactClass kind : kinds) {
     SCOPED_TRACE(contact_class_names[static_cast<std::size_t>(kind)]);
-    const double e = bounce(kind), limit = well_speed(kind) * std::sqrt(1 / (e * e) - 1);  // e^2 (v^2 + w^2) = w^2
+    // e^2 (v^2 + w^2) = w^2
+    const double e = bounce(kind), limit = well_speed(kind) * std::sqrt(1 / (e * e) - 1);
     const Trajectory fast = run(kind, 1.05 * limit, 5e-3, 0.08), slow = run(kind, 0.95 * limit, 5e-3, 0.08);
     EXPECT_EQ(fast.collisions[static_cast<std::size_t>(kind)], 1);
     EXPECT_GT(separation(kind, fast.end_state), 1e-4);
@@ -223,8 +241,9 @@ TEST_P(SquareWell, TakesItsDepthToLeave) {
   }
 }
 
-/// Two grains bound to each other turn about their centre: at the surface speed v each is pulled outwards with the reduced mass times
-/// v^2 over their distance, and the attraction holds up to its force, however slowly they came to the edge of the well.
+/// Two grains bound to each other turn about their centre: at the surface speed v each is pulled outwards
+/// with the reduced mass times v^2 over their distance, and the attraction holds up to its force, however
+/// slowly they came to the edge of the well.
 TEST_P(SquareWell, HoldsAgainstPullsUpToTheForce) {
   const double limit = std::sqrt(0.1 * 2 * radius / reduced_mass(ContactClass::grain_grain));
   for (const double share : {0.8, 0.95, 1.05, 1.2}) {
@@ -232,7 +251,8 @@ TEST_P(SquareWell, HoldsAgainstPullsUpToTheForce) {
     shakedown::Setup it = setup();
     it.run.duration = 0.1;
     const Vec3 turning = place_of(ContactClass::grain_grain).tangent * limit * std::sqrt(share);
-    const Trajectory result = run_with(*GetParam().make(), it, meeting(ContactClass::grain_grain, turning, 0));
+    const Trajectory result =
+        run_with(*GetParam().make(), it, meeting(ContactClass::grain_grain, turning, 0));
     const bool apart = separation(ContactClass::grain_grain, result.end_state) > 1e-4;
     EXPECT_EQ(apart, share > 1);
     EXPECT_LE(result.health.ledger_error, 1e-6);

@@ -14,7 +14,10 @@ namespace shakedown {
 
 /// A short run of the paper's damper with spinning grains, and its log.
 inline StoredRun logged_run() {
-  const Setup setup = parse_setup("[run]\nduration = \"0.5 s\"\n[[effect]]\nname = \"grain_friction\"\ngrain_grain = 0.2\ngrain_wall = 0.1\n", "test.toml", all_effects());
+  const Setup setup = parse_setup(
+      "[run]\nduration = \"0.5 s\"\n[[effect]]\nname = \"grain_friction\"\ngrain_grain = 0.2\ngrain_wall = "
+      "0.1\n",
+      "test.toml", all_effects());
   RunOptions options;
   options.log_collisions = true;
   return {"test", setup, 0, *make_hard_engine()->run(setup, options).collision_log};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is exported is read back by the programs that it is for (ASE, VTK, numpy), and holds the motion itself.
+// What is exported is read back by the programs that it is for (ASE, VTK, numpy), and holds the motion
+// itself.
 #include "export_run.hpp"
 
 #include <array>
@@ -24,7 +25,8 @@ struct ReadBack {
 /// Debian's python3 has Debian's modules; another python3 may come first on the path.
 ReadBack read_back(const std::string& format, const std::filesystem::path& folder) {
   const std::string python = std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
-  const std::string command = python + " " PROJECT_ROOT "/tests/export/read_back.py " + format + " " + folder.string() + " 2>&1";
+  const std::string command =
+      python + " " PROJECT_ROOT "/tests/export/read_back.py " + format + " " + folder.string() + " 2>&1";
   ReadBack back;
   std::FILE* pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) return back;
@@ -54,7 +56,8 @@ TEST_P(ExportAs, IsReadBackByTheProgramItIsFor) {
   EXPECT_EQ(exported.frames, 21);
   EXPECT_TRUE(std::filesystem::exists(exported.open));
   const ReadBack back = read_back(GetParam(), folder);
-  if (back.status == 77 || back.status == 127) GTEST_SKIP() << "not read back: " << back.text << " (python3-ase, python3-vtk9, python3-numpy)";
+  if (back.status == 77 || back.status == 127)
+    GTEST_SKIP() << "not read back: " << back.text << " (python3-ase, python3-vtk9, python3-numpy)";
   ASSERT_EQ(back.status, 0) << back.text;
   const Frame last = frames_of(run, times).back();
   const Vec3 &x = last.state.position[5], &v = last.state.velocity[5];
@@ -64,12 +67,14 @@ TEST_P(ExportAs, IsReadBackByTheProgramItIsFor) {
   if (format == "lammps") expected = {21, 37, x.x()};
   ASSERT_GE(back.numbers.size(), expected.size()) << back.text;
   for (std::size_t k = 0; k < expected.size(); ++k)
-    EXPECT_NEAR(back.numbers[k], expected[k], 1e-15 * std::abs(expected[k])) << "number " << k << " of\n" << back.text;
+    EXPECT_NEAR(back.numbers[k], expected[k], 1e-15 * std::abs(expected[k])) << "number " << k << " of\n"
+                                                                             << back.text;
   if (format == "csv") return;
   EXPECT_NEAR(back.numbers.back(), run.setup.box.length, 1e-15);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, ExportAs, ::testing::Values("xyz", "lammps", "vtp", "npy", "csv"), [](const auto& of) { return of.param; });
+INSTANTIATE_TEST_SUITE_P(Formats, ExportAs, ::testing::Values("xyz", "lammps", "vtp", "npy", "csv"),
+                         [](const auto& of) { return of.param; });
 
 TEST(Export, FramesAreTheEnginesOwnSamples) {
   const StoredRun run = logged_run();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A stand-in for the engine whose motion is known: x = Delta0 cos(2 pi f t) exp(-(1 - e_pp e_pw) t), with a little chaos; the grain mass
-// does nothing at all.
+// A stand-in for the engine whose motion is known: x = Delta0 cos(2 pi f t) exp(-(1 - e_pp e_pw) t), with a
+// little chaos; the grain mass does nothing at all.
 #include "fit.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,8 @@ class StandIn final : public Engine {
     const double rate = 0.6 * (1 - setup.restitution.grain_grain * setup.restitution.grain_wall);
     Trajectory t;
     for (int i = 0; i <= static_cast<int>(setup.run.duration * setup.run.sample_rate); ++i) {
-      const double time = i / setup.run.sample_rate, swing = std::cos(2 * std::numbers::pi * setup.spring.frequency * time);
+      const double time = i / setup.run.sample_rate,
+                   swing = std::cos(2 * std::numbers::pi * setup.spring.frequency * time);
       t.time.push_back(time);
       t.x_box.push_back((0.1075 * std::exp(-rate * time) + chaos + late * time / 8) * swing);
       t.x_com.push_back(0.9 * t.x_box.back());
@@ -51,7 +52,8 @@ Experiment measured() {
   const StandIn engine;
   shakedown::Setup truth;
   truth.run.duration = 8;
-  return make_measurements(truth, runs_of_lengths({0.040, 0.065}), {}, {&engine, all_effects(), 3, 1, nullptr});
+  return make_measurements(truth, runs_of_lengths({0.040, 0.065}), {},
+                           {&engine, all_effects(), 3, 1, nullptr});
 }
 
 Fit fitted(const std::string& free, std::vector<std::string> on = {"L040"}, double frequency = 1.2) {
@@ -70,7 +72,8 @@ Fit fitted(const std::string& free, std::vector<std::string> on = {"L040"}, doub
 TEST(Fit, FromAFrequencyThatTurnsThePhaseRoundToTheTruth) {
   const Fit fit = fitted("restitution.grain_grain,spring.frequency");
   ASSERT_EQ(fit.parameters.size(), 2u);
-  for (const auto& [parameter, truth] : {std::pair(fit.parameters[0], 0.75), std::pair(fit.parameters[1], 1.23)}) {
+  for (const auto& [parameter, truth] :
+       {std::pair(fit.parameters[0], 0.75), std::pair(fit.parameters[1], 1.23)}) {
     EXPECT_LE(parameter.low, truth) << parameter.key;
     EXPECT_GE(parameter.high, truth) << parameter.key;
     EXPECT_TRUE(parameter.told) << parameter.remark;
@@ -101,9 +104,11 @@ TEST(Fit, TwoThatOnlyTheirProductTellsAreConfounded) {
 
 TEST(Fit, BadInput) {
   EXPECT_THROW(fitted("restitution.grain_grain", {"L041"}), InputError);
-  for (const char* bad : {"", "restitution.grain_grian", "grains.count", "restitution.grain_grain,restitution.grain_grain", "release.packing"})
+  for (const char* bad : {"", "restitution.grain_grian", "grains.count",
+                          "restitution.grain_grain,restitution.grain_grain", "release.packing"})
     EXPECT_THROW(free_parameters(bad, believed(), all_effects()), InputError) << bad;
-  const std::vector<Knob> together = free_parameters("grain_friction.grain_grain&grain_friction.grain_wall", believed(), all_effects());
+  const std::vector<Knob> together =
+      free_parameters("grain_friction.grain_grain&grain_friction.grain_wall", believed(), all_effects());
   ASSERT_EQ(together.size(), 1u);
   EXPECT_EQ(together[0].low, 0);
 }
@@ -112,7 +117,8 @@ TEST(SlowFit, TheSoftEnginesDamperIsFittedByTheHardOne) {
   shakedown::Setup truth;
   truth.run.duration = 14;
   const std::unique_ptr<Engine> soft = engine_named("soft"), hard = engine_named("hard");
-  const Experiment experiment = make_measurements(truth, runs_of_lengths({0.040, 0.085}), {}, {soft.get(), all_effects(), 5, 0, nullptr});
+  const Experiment experiment = make_measurements(truth, runs_of_lengths({0.040, 0.085}), {},
+                                                  {soft.get(), all_effects(), 5, 0, nullptr});
   shakedown::Setup start;
   start.restitution = {0.9, 0.6};
   start.spring.frequency = 1.2;
@@ -120,7 +126,11 @@ TEST(SlowFit, TheSoftEnginesDamperIsFittedByTheHardOne) {
   options.on = {"L040"};
   options.count = 96;
   options.known = all_effects();
-  const Fit fit = fit_parameters(start, experiment, free_parameters("restitution.grain_grain,restitution.grain_wall,spring.frequency", start, all_effects()), *hard, options);
+  const Fit fit =
+      fit_parameters(start, experiment,
+                     free_parameters("restitution.grain_grain,restitution.grain_wall,spring.frequency", start,
+                                     all_effects()),
+                     *hard, options);
   const double truths[] = {0.75, 0.76, 1.23};
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_LE(fit.parameters[k].low, truths[k]) << fit_text(fit);

@@ -7,8 +7,9 @@
 
 namespace shakedown {
 
-/// Elastic spheres in a periodic cube at rest as a whole, molten from a lattice full of vacancies. Unit of length: their diameter of
-/// 1 m; unit of mass: theirs, 1 kg; root mean square speed sqrt(3) m/s, so that k T = 1 J up to the centre of mass's share.
+/// Elastic spheres in a periodic cube at rest as a whole, molten from a lattice full of vacancies. Unit of
+/// length: their diameter of 1 m; unit of mass: theirs, 1 kg; root mean square speed sqrt(3) m/s, so that k T
+/// = 1 J up to the centre of mass's share.
 inline Setup periodic_fluid(int grains, double packing_fraction) {
   Setup setup;
   setup.domain = Domain::periodic;
@@ -26,7 +27,8 @@ inline double temperature(const State& state) {
   return 2 * kinetic_energy(state, 0) / (3 * (static_cast<double>(state.size()) - 1));
 }
 
-/// Collisions per grain and second over (Z - 1), in units of sqrt(k T / m) / diameter: exact for hard spheres.
+/// Collisions per grain and second over (Z - 1), in units of sqrt(k T / m) / diameter: exact for hard
+/// spheres.
 constexpr double rate_per_excess_pressure = 6 * std::numbers::inv_sqrtpi;
 
 }  // namespace shakedown

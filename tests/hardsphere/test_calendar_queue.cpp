@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The calendar against a sorted multimap, under schedules that event-driven runs make and under such as they never should.
+// The calendar against a sorted multimap, under schedules that event-driven runs make and under such as they
+// never should.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -73,8 +74,8 @@ constexpr std::array<Schedule, 7> schedules{{
     {"a little in the past", [](Random& random) { return random.uniform() - 1e-3; }},
 }};
 
-/// Takes events as an event loop does: the earliest grain and sometimes a partner get new dates; now and then the rate of everything
-/// changes, as in a damper whose layer lands.
+/// Takes events as an event loop does: the earliest grain and sometimes a partner get new dates; now and then
+/// the rate of everything changes, as in a damper whose layer lands.
 void run(const Schedule& schedule, std::size_t grains, int steps, std::uint64_t seed) {
   Random random(seed, grains, Stream::other);
   const auto any_grain = [&] { return static_cast<int>(random.uniform() * static_cast<double>(grains)); };

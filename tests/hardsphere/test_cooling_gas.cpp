@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A gas of inelastic spheres without walls cools as Haff's law says, while it stays homogeneous:
 //   T = T0 / (1 + t / tau)^2,  1 / tau = (1 - eps^2) rate0 / 6 (1 + 3 a2 / 16),
-// rate0 the impacts per grain and second of the elastic fluid at T0, a2 the Sonine coefficient of the scaling state (van Noije and Ernst,
-// Granular Matter 1, 57, 1998). Computer experiments cool about 1 % more slowly (Kawahara and Nakanishi, cond-mat/0309130), and clusters
-// grow after some tens of impacts a grain.
+// rate0 the impacts per grain and second of the elastic fluid at T0, a2 the Sonine coefficient of the scaling
+// state (van Noije and Ernst, Granular Matter 1, 57, 1998). Computer experiments cool about 1 % more slowly
+// (Kawahara and Nakanishi, cond-mat/0309130), and clusters grow after some tens of impacts a grain.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -17,7 +17,9 @@ namespace {
 
 constexpr double restitution = 0.95, packing_fraction = std::numbers::pi / 12, compressibility = 3.269371;
 
-double sonine_coefficient(double e) { return 16 * (1 - e) * (1 - 2 * e * e) / (81 - 17 * e + 30 * e * e * (1 - e)); }
+double sonine_coefficient(double e) {
+  return 16 * (1 - e) * (1 - 2 * e * e) / (81 - 17 * e + 30 * e * e * (1 - e));
+}
 
 /// 1 / tau from the slope of sqrt(T0 / T) - 1 through the origin, in units of sqrt(k T0 / m) / diameter.
 double cooling_rate(int run, double impacts_per_grain) {

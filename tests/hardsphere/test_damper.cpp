@@ -46,9 +46,11 @@ TEST(HardDamper, KeepsItsPromisesWithManyGrains) {
     setup.run.duration = duration;
     const Trajectory trajectory = make_hard_engine()->run(setup);
     expect_promises(trajectory.health);
-    std::printf("N = %d, %.2f s: %lld impacts, ledger %.1e, momentum %.1e, overlap %.1e m\n", grains, duration,
-                static_cast<long long>(trajectory.collisions[0] + trajectory.collisions[1] + trajectory.collisions[2]),
-                trajectory.health.ledger_error, trajectory.health.momentum_error, trajectory.health.deepest_overlap);
+    std::printf(
+        "N = %d, %.2f s: %lld impacts, ledger %.1e, momentum %.1e, overlap %.1e m\n", grains, duration,
+        static_cast<long long>(trajectory.collisions[0] + trajectory.collisions[1] +
+                               trajectory.collisions[2]),
+        trajectory.health.ledger_error, trajectory.health.momentum_error, trajectory.health.deepest_overlap);
   }
 }
 
@@ -64,7 +66,8 @@ TEST(SlowHardDamper, MovesTheSameBelowAndAboveTheSizeWhereWindowsBegin) {
   }
   for (const std::size_t k : {1u, 2u}) {
     double worst = 0;
-    for (std::size_t n = 0; n < runs[0].time.size(); ++n) worst = std::max(worst, std::abs(runs[k].x_box[n] - runs[0].x_box[n]));
+    for (std::size_t n = 0; n < runs[0].time.size(); ++n)
+      worst = std::max(worst, std::abs(runs[k].x_box[n] - runs[0].x_box[n]));
     std::printf("N = %d and %d: boxes %.2f mm apart at most in 2 s\n", grains[0], grains[k], worst * 1e3);
     EXPECT_LE(worst, 1.5e-3);
   }
@@ -76,12 +79,14 @@ TEST(HardDamper, KeepsItsEnergyWithoutDissipation) {
   setup.run.duration = 10;
   const Trajectory trajectory = make_hard_engine()->run(setup);
   expect_promises(trajectory.health);
-  for (const double energy : trajectory.total_energy) EXPECT_NEAR(energy / trajectory.initial_energy, 1, 1e-12);
+  for (const double energy : trajectory.total_energy)
+    EXPECT_NEAR(energy / trajectory.initial_energy, 1, 1e-12);
   EXPECT_EQ(trajectory.ledger.total_loss(), 0);
   EXPECT_GT(trajectory.collisions[0], 1000);
 }
 
-/// The closing speeds below which impacts are elastic only cut inelastic collapse short: with a third of both, the same decay.
+/// The closing speeds below which impacts are elastic only cut inelastic collapse short: with a third of
+/// both, the same decay.
 TEST(HardDamper, DoesNotDependOnTheRegularisation) {
   shakedown::Setup setup;
   setup.run.duration = 8;

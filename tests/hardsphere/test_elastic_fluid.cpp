@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Elastic spheres in equilibrium: pressure and collision rate against the equation of state of Kolafa, Labik and Malijevsky (Phys. Chem.
-// Chem. Phys. 6, 2335, 2004), and motion that runs backwards.
+// Elastic spheres in equilibrium: pressure and collision rate against the equation of state of Kolafa, Labik
+// and Malijevsky (Phys. Chem. Chem. Phys. 6, 2335, 2004), and motion that runs backwards.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -16,8 +16,10 @@ struct Equation {
   double packing_fraction, compressibility;  ///< Z = p V / (N k T)
 };
 
-/// Measures in blocks, compares both with the equation of state within four standard errors and `finite_size`, relative.
-void measure(int grains, const Equation& equation, int melting, int blocks, int per_block, double finite_size) {
+/// Measures in blocks, compares both with the equation of state within four standard errors and
+/// `finite_size`, relative.
+void measure(int grains, const Equation& equation, int melting, int blocks, int per_block,
+             double finite_size) {
   HardSphereSystem system(periodic_fluid(grains, equation.packing_fraction));
   system.advance_impacts(static_cast<std::int64_t>(melting) * grains / 2);
   const double kT = temperature(system.state()), n = grains;
@@ -32,9 +34,10 @@ void measure(int grains, const Equation& equation, int melting, int blocks, int 
   }
   const double expected_rate = rate_per_excess_pressure * (equation.compressibility - 1);
   std::printf("packing fraction %.1f, N = %d: Z %.5f +- %.5f (%.5f), impacts per grain %.5f +- %.5f (%.5f)\n",
-              equation.packing_fraction, grains, pressure.mean(), pressure.error(), equation.compressibility, rate.mean(),
-              rate.error(), expected_rate);
-  EXPECT_NEAR(pressure.mean(), equation.compressibility, 4 * pressure.error() + finite_size * equation.compressibility);
+              equation.packing_fraction, grains, pressure.mean(), pressure.error(), equation.compressibility,
+              rate.mean(), rate.error(), expected_rate);
+  EXPECT_NEAR(pressure.mean(), equation.compressibility,
+              4 * pressure.error() + finite_size * equation.compressibility);
   EXPECT_NEAR(rate.mean(), expected_rate, 4 * rate.error() + finite_size * expected_rate);
   EXPECT_LT(rate.error(), 0.005 * expected_rate);  // the test must be able to fail
   EXPECT_LE(system.health().deepest_overlap, 1e-12);
@@ -42,15 +45,22 @@ void measure(int grains, const Equation& equation, int melting, int blocks, int 
   EXPECT_LE(system.health().ledger_error, 1e-12);
 }
 
-TEST(ElasticFluid, HasThePressureAndRateOfTheEquationOfState) { measure(1372, {0.3, 3.983824}, 30, 10, 20, 2e-3); }
+TEST(ElasticFluid, HasThePressureAndRateOfTheEquationOfState) {
+  measure(1372, {0.3, 3.983824}, 30, 10, 20, 2e-3);
+}
 
 class SlowElasticFluid : public ::testing::TestWithParam<Equation> {};
 
-TEST_P(SlowElasticFluid, HasThePressureAndRateOfTheEquationOfState) { measure(10976, GetParam(), 60, 10, 30, 5e-4); }
+TEST_P(SlowElasticFluid, HasThePressureAndRateOfTheEquationOfState) {
+  measure(10976, GetParam(), 60, 10, 30, 5e-4);
+}
 
 INSTANTIATE_TEST_SUITE_P(PackingFractions, SlowElasticFluid,
-                         ::testing::Values(Equation{0.1, 1.52165}, Equation{0.3, 3.98382}, Equation{0.5, 13.0166}),
-                         [](const auto& tested) { return std::to_string(std::lround(tested.param.packing_fraction * 100)); });
+                         ::testing::Values(Equation{0.1, 1.52165}, Equation{0.3, 3.98382},
+                                           Equation{0.5, 13.0166}),
+                         [](const auto& tested) {
+                           return std::to_string(std::lround(tested.param.packing_fraction * 100));
+                         });
 
 State backwards(State state) {
   for (Vec3& velocity : state.velocity) velocity = -velocity;
@@ -69,8 +79,10 @@ double largest_distance(const State& a, const State& b, const Vec3& cell) {
   return largest;
 }
 
-/// Runs on for a few impacts a grain, turns every velocity round, runs back; returns the largest distance from the start.
-double there_and_back(const shakedown::Setup& setup, const State& start, double impacts_per_grain, const Vec3& cell) {
+/// Runs on for a few impacts a grain, turns every velocity round, runs back; returns the largest distance
+/// from the start.
+double there_and_back(const shakedown::Setup& setup, const State& start, double impacts_per_grain,
+                      const Vec3& cell) {
   HardSphereSystem there(setup, start);
   there.advance_impacts(std::lround(impacts_per_grain * static_cast<double>(start.size()) / 2));
   const double halfway = there.time() * (1 + 1e-9);  // between two impacts

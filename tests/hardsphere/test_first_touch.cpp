@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Who is touched first, found in vector lanes by estimates, against every pair on its own; and the cells that say who is near.
+// Who is touched first, found in vector lanes by estimates, against every pair on its own; and the cells that
+// say who is near.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,8 +19,8 @@ constexpr double extent = 10;
 
 double between(Random& random, double low, double high) { return low + (high - low) * random.uniform(); }
 
-/// Grains anywhere, some overlapping; of every four two are images of the others beyond a mirror or nearly so, so that touches of one
-/// grain at rest in the mirror come at the same instant or hardly apart.
+/// Grains anywhere, some overlapping; of every four two are images of the others beyond a mirror or nearly
+/// so, so that touches of one grain at rest in the mirror come at the same instant or hardly apart.
 State mirrored_grains(Random& random, int count, bool equal) {
   State state;
   const double hardly = random.uniform() < 0.5 ? 0 : std::pow(10, between(random, -16, -2));
@@ -28,7 +29,8 @@ State mirrored_grains(Random& random, int count, bool equal) {
     const std::size_t of = static_cast<std::size_t>(i) - 2;
     state.radius.push_back(equal ? 0.5 : image ? state.radius[of] : between(random, 0.2, 0.5));
     state.mass.push_back(1);
-    const Vec3 place(between(random, -5, 5), between(random, -5, 5), between(random, -5, 5)), velocity(random.normal(), random.normal(), random.normal());
+    const Vec3 place(between(random, -5, 5), between(random, -5, 5), between(random, -5, 5)),
+        velocity(random.normal(), random.normal(), random.normal());
     const Vec3 mirror(-1 - hardly, 1, 1);
     state.position.push_back(image ? Vec3(state.position[of].cwiseProduct(mirror)) : place);
     state.velocity.push_back(image ? Vec3(state.velocity[of].cwiseProduct(Vec3(-1, 1, 1))) : velocity);
@@ -52,9 +54,11 @@ double touch_of(const State& state, std::size_t i, std::size_t j, const Near& ne
 }
 
 template <class Near>
-double first_of(const State& state, std::size_t i, const std::vector<std::int32_t>& others, const Near& near) {
+double first_of(const State& state, std::size_t i, const std::vector<std::int32_t>& others,
+                const Near& near) {
   double first = never;
-  for (const std::int32_t j : others) first = std::min(first, touch_of(state, i, static_cast<std::size_t>(j), near));
+  for (const std::int32_t j : others)
+    first = std::min(first, touch_of(state, i, static_cast<std::size_t>(j), near));
   return first;
 }
 
@@ -70,7 +74,8 @@ TEST(FirstTouch, OfLinesIsThatOfAllPairsOneByOne) {
     std::vector<std::int32_t> others;
     for (std::int32_t j = 0; j < 60; ++j)
       if (static_cast<std::size_t>(j) != i && random.uniform() < round % 10 / 10.0) others.push_back(j);
-    const double expected = first_of(state, i, others, near), limit = random.uniform() < 0.5 ? never : random.uniform();
+    const double expected = first_of(state, i, others, near),
+                 limit = random.uniform() < 0.5 ? never : random.uniform();
     const std::size_t size = others.size();
     others.resize(size + lane_count, static_cast<std::int32_t>(i));
     const GrainLines::Touch touch = lines.first_touch<true>(i, lines.flight(i), others.data(), size, limit);
@@ -97,24 +102,29 @@ TEST(FirstTouch, OfAFewGrainsIsThatOfAllPairsOneByOne) {
       const double expected = first_of(state, static_cast<std::size_t>(i), everyone, open);
       ASSERT_DOUBLE_EQ(all.event(i).time, expected) << "round " << round;
       if (all.event(i).partner < 0) continue;
-      ASSERT_DOUBLE_EQ(touch_of(state, static_cast<std::size_t>(i), static_cast<std::size_t>(all.event(i).partner), open), expected);
+      ASSERT_DOUBLE_EQ(
+          touch_of(state, static_cast<std::size_t>(i), static_cast<std::size_t>(all.event(i).partner), open),
+          expected);
     }
   }
 }
 
-/// Centres move about, out of an open domain as well; of a place all within reach are found, once each, and none much further away.
+/// Centres move about, out of an open domain as well; of a place all within reach are found, once each, and
+/// none much further away.
 void look_around(bool periodic, double reach) {
   Random random(5, periodic, Stream::other);
   const std::int32_t grains = 300;
   CentreCells cells(static_cast<std::size_t>(grains), {extent, extent, extent}, reach, periodic);
   std::vector<std::array<double, 3>> centres(static_cast<std::size_t>(grains));
   const auto anywhere = [&] {
-    const double wide = periodic ? 0.5 : 0.9, crowd = random.uniform() < 0.3 ? 0.1 : 1;  // more than a block holds in some cells
+    // more than a block holds in some cells
+    const double wide = periodic ? 0.5 : 0.9, crowd = random.uniform() < 0.3 ? 0.1 : 1;
     std::array<double, 3> centre;
     for (double& x : centre) x = extent * wide * crowd * between(random, -1, 1);
     return centre;
   };
-  for (std::int32_t i = 0; i < grains; ++i) cells.put(i, cells.place(centres[static_cast<std::size_t>(i)] = anywhere()));
+  for (std::int32_t i = 0; i < grains; ++i)
+    cells.put(i, cells.place(centres[static_cast<std::size_t>(i)] = anywhere()));
   std::vector<std::int32_t> near;
   for (int move = 0; move < 3000; ++move) {
     const auto i = static_cast<std::int32_t>(grains * random.uniform());

@@ -36,7 +36,8 @@ shakedown::Setup setup_of_the_codes() {
   return setup;
 }
 
-/// x_Box at the times of the samples, from the file's grains with velocities changed by some 1e-12 m/s (run 0: by nothing).
+/// x_Box at the times of the samples, from the file's grains with velocities changed by some 1e-12 m/s (run
+/// 0: by nothing).
 std::vector<double> hard_run(const std::vector<Sample>& samples, int run) {
   const shakedown::Setup setup = setup_of_the_codes();
   State state = initial_state(setup);
@@ -65,21 +66,25 @@ TEST(HardAgainstOtherCodes, FollowsLammpsUntilChaosSetsIn) {
   ASSERT_NEAR(samples.back().time, 0.2, 1e-9);
   const auto x_box = hard_run(samples, 0);
   double largest = 0;
-  for (std::size_t k = 0; k < samples.size(); ++k) largest = std::max(largest, std::abs(x_box[k] - samples[k].x_box));
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    largest = std::max(largest, std::abs(x_box[k] - samples[k].x_box));
   std::printf("largest difference from LAMMPS in 0.2 s: %.1f um\n", largest * 1e6);
   EXPECT_LE(largest, 1e-4);  // metre
 }
 
-/// Rounding decides which of its possible courses a run takes, here as in the other codes: half a millimetre rms apart, sometimes a whole
-/// one. So the middle one of several runs is held to a millimetre, and so is their mean.
+/// Rounding decides which of its possible courses a run takes, here as in the other codes: half a millimetre
+/// rms apart, sometimes a whole one. So the middle one of several runs is held to a millimetre, and so is
+/// their mean.
 TEST(HardAgainstOtherCodes, StaysWithThemForTenSeconds) {
   constexpr int runs = 15;
   std::vector<std::vector<double>> hard;
-  for (int run = 0; run < runs; ++run) hard.push_back(hard_run(samples_of("lammps_damper_L40_tc3e-4_10s.csv"), run));
+  for (int run = 0; run < runs; ++run)
+    hard.push_back(hard_run(samples_of("lammps_damper_L40_tc3e-4_10s.csv"), run));
   for (const std::string code : {"lammps", "liggghts", "yade"}) {
     const auto samples = samples_of(code + "_damper_L40_tc3e-4_10s.csv");
     ASSERT_EQ(samples.size(), 501u);
-    for (std::size_t k = 0; k < samples.size(); ++k) ASSERT_NEAR(samples[k].time, 0.02 * static_cast<double>(k), 1e-9);
+    for (std::size_t k = 0; k < samples.size(); ++k)
+      ASSERT_NEAR(samples[k].time, 0.02 * static_cast<double>(k), 1e-9);
     std::vector<double> mean(samples.size(), 0.0), rms;
     for (const auto& x_box : hard) {
       rms.push_back(rms_difference(x_box, samples));
@@ -87,9 +92,10 @@ TEST(HardAgainstOtherCodes, StaysWithThemForTenSeconds) {
     }
     std::sort(rms.begin(), rms.end());
     const double of_mean = rms_difference(mean, samples);
-    std::printf("rms difference from %s over 10 s: %.2f to %.2f mm, median %.2f, of the mean %.2f mm\n", code.c_str(), rms.front() * 1e3,
-                rms.back() * 1e3, rms[runs / 2] * 1e3, of_mean * 1e3);
-    // Yade clips the contact force at separation, which makes its restitution 0.763 instead of 0.75: its run lies at the edge of ours.
+    std::printf("rms difference from %s over 10 s: %.2f to %.2f mm, median %.2f, of the mean %.2f mm\n",
+                code.c_str(), rms.front() * 1e3, rms.back() * 1e3, rms[runs / 2] * 1e3, of_mean * 1e3);
+    // Yade clips the contact force at separation, which makes its restitution 0.763 instead of 0.75: its run
+    // lies at the edge of ours.
     const double limit = code == "yade" ? 1.2e-3 : 1e-3;  // metre
     EXPECT_LE(rms[runs / 2], limit) << code;
     EXPECT_LE(of_mean, limit) << code;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ensembles of the paper's damper against the means that six independent codes agree on (an event-driven reference with a ledger
-// error of 5e-15; the paper's own engine, LAMMPS, LIGGGHTS, Yade and a Bullet-based code beside it): 16 runs of 30 s each.
+// Ensembles of the paper's damper against the means that six independent codes agree on (an event-driven
+// reference with a ledger error of 5e-15; the paper's own engine, LAMMPS, LIGGGHTS, Yade and a Bullet-based
+// code beside it): 16 runs of 30 s each.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -22,10 +23,54 @@ struct Reference {
 };
 
 const std::array<Reference, 5> references{{
-    {40, {104.0, 100.1, 96.1, 92.2, 88.2, 84.3, 80.4, 76.4}, -8.20, 1.0478, 12.93, 10.56, {.545, .335, .120}, 0.5, 0.5, 0.1, .001, 0.1},
-    {65, {99.6, 91.4, 82.6, 74.0, 65.3, 56.8, 48.7, 41.4}, -16.2, 1.0363, 6.30, 5.32, {.568, .293, .140}, 1, 1, 0.3, .002, 0.1},
-    {85, {94.6, 83.8, 71.3, 60.9, 50.8, 40.7, 30.6, 20.6}, -21.6, 1.038, 4.76, 3.93, {.573, .275, .151}, 1, 1, 0.4, .006, 0.1},
-    {104, {92.4, 80.0, 66.3, 52.8, 39.8, 26.4, 14.8, 7.8}, -27.0, 1.088, 3.77, 3.08, {.572, .267, .161}, 1, 1, 0.6, .01, 0.1},
+    {40,
+     {104.0, 100.1, 96.1, 92.2, 88.2, 84.3, 80.4, 76.4},
+     -8.20,
+     1.0478,
+     12.93,
+     10.56,
+     {.545, .335, .120},
+     0.5,
+     0.5,
+     0.1,
+     .001,
+     0.1},
+    {65,
+     {99.6, 91.4, 82.6, 74.0, 65.3, 56.8, 48.7, 41.4},
+     -16.2,
+     1.0363,
+     6.30,
+     5.32,
+     {.568, .293, .140},
+     1,
+     1,
+     0.3,
+     .002,
+     0.1},
+    {85,
+     {94.6, 83.8, 71.3, 60.9, 50.8, 40.7, 30.6, 20.6},
+     -21.6,
+     1.038,
+     4.76,
+     3.93,
+     {.573, .275, .151},
+     1,
+     1,
+     0.4,
+     .006,
+     0.1},
+    {104,
+     {92.4, 80.0, 66.3, 52.8, 39.8, 26.4, 14.8, 7.8},
+     -27.0,
+     1.088,
+     3.77,
+     3.08,
+     {.572, .267, .161},
+     1,
+     1,
+     0.6,
+     .01,
+     0.1},
     // Its decay has no slope, and its tail is statistics only: a first small peak after 5.6 +- 2.2 s.
     {311, {92.4, 29.6, 15.0, 14.3}, absent, 1.192, 5.6, 1.47, {.485, .283, .228}, 1, 3, absent, .02, 0.2},
 }};
@@ -34,7 +79,8 @@ class SlowHardDamper : public ::testing::TestWithParam<Reference> {};
 
 void compare(const char* what, const MeanOfRuns& seen, double expected, double off) {
   if (std::isnan(expected)) return;
-  std::printf("  %-22s %9.4f +- %7.4f (sd %.4f), reference %9.4f\n", what, seen.mean(), seen.error(), seen.deviation(), expected);
+  std::printf("  %-22s %9.4f +- %7.4f (sd %.4f), reference %9.4f\n", what, seen.mean(), seen.error(),
+              seen.deviation(), expected);
   if (std::isnan(off)) return;
   EXPECT_NEAR(seen.mean(), expected, off) << what;
 }
@@ -68,10 +114,12 @@ TEST_P(SlowHardDamper, AgreesWithSixCodes) {
   compare("frequency, Hz", frequency, reference.frequency, reference.frequency_off);
   compare("first small peak, s", small_peak, reference.small_peak, absent);
   compare("95 % of energy, s", energy_95, reference.energy_95, reference.energy_95_off);
-  for (std::size_t c = 0; c < shares.size(); ++c) compare(contact_class_names[c], shares[c], reference.shares[c], .012);
+  for (std::size_t c = 0; c < shares.size(); ++c)
+    compare(contact_class_names[c], shares[c], reference.shares[c], .012);
 }
 
-INSTANTIATE_TEST_SUITE_P(Lengths, SlowHardDamper, ::testing::ValuesIn(references),
-                         [](const auto& tested) { return "L" + std::to_string(static_cast<int>(tested.param.length_mm)); });
+INSTANTIATE_TEST_SUITE_P(Lengths, SlowHardDamper, ::testing::ValuesIn(references), [](const auto& tested) {
+  return "L" + std::to_string(static_cast<int>(tested.param.length_mm));
+});
 
 }  // namespace

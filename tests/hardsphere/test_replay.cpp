@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A run rebuilt from its collision log is the run, bit for bit: at every sample, with every effect, for few grains and for many.
+// A run rebuilt from its collision log is the run, bit for bit: at every sample, with every effect, for few
+// grains and for many.
 #include "replay.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,8 @@ using namespace shakedown;
 namespace {
 
 shakedown::Setup setup_with(const std::string& effects, const std::string& rest = "") {
-  return parse_setup("[run]\nduration = \"4 s\"\nsample_rate = \"100 Hz\"\n" + rest + effects, "test.toml", all_effects());
+  return parse_setup("[run]\nduration = \"4 s\"\nsample_rate = \"100 Hz\"\n" + rest + effects, "test.toml",
+                     all_effects());
 }
 
 Trajectory logged(const shakedown::Setup& setup, int run = 0) {
@@ -62,7 +64,8 @@ TEST_P(ReplayOf, IsTheRunBitForBit) {
   replay.advance_to(run.end_time);
   EXPECT_FALSE(replay.step());
   expect_same_state(replay.state(), run.end_state);
-  std::printf("%s: %lld collisions, %.2f entries and %.2f bytes a collision\n", GetParam().name, static_cast<long long>(log.impacts),
+  std::printf("%s: %lld collisions, %.2f entries and %.2f bytes a collision\n", GetParam().name,
+              static_cast<long long>(log.impacts),
               static_cast<double>(log.entries) / static_cast<double>(log.impacts),
               static_cast<double>(log.events.size()) / static_cast<double>(log.impacts));
 }
@@ -77,15 +80,21 @@ TEST_P(ReplayOf, SavesNothingOnTheRunItself) {
 const std::string friction = "[[effect]]\nname = \"grain_friction\"\ngrain_grain = 0.2\ngrain_wall = 0.1\n";
 INSTANTIATE_TEST_SUITE_P(
     Effects, ReplayOf,
-    ::testing::Values(Case{"plain", ""}, Case{"friction", friction},
-                      Case{"falling", "[[effect]]\nname = \"constant_acceleration\"\nacceleration = [\"0.05 m/s^2\", \"0 m/s^2\", \"-0.1 m/s^2\"]\n"},
-                      Case{"arc", "[[effect]]\nname = \"blade_arc\"\n"}, Case{"air", "[[effect]]\nname = \"grain_air_drag\"\nlinear = \"2e-4 N s/m\"\n"},
-                      Case{"dry", "[[effect]]\nname = \"clamp_dry_friction\"\nforce = \"0.02 N\"\n"},
-                      Case{"cohesion", "[[effect]]\nname = \"grain_cohesion\"\nforce = \"0.02 N\"\nrange = \"0.02 mm\"\n"},
-                      Case{"cubic", "[[effect]]\nname = \"spring_cubic\"\ncoefficient = 0.1\n"},
-                      Case{"velocity", "[[effect]]\nname = \"velocity_dependent_restitution\"\nlaw = \"viscoelastic\"\n"},
-                      Case{"shaken", "[[effect]]\nname = \"oscillating_acceleration\"\namplitude = {x = \"0.1 m/s^2\"}\n"},
-                      Case{"arc_and_kick", "[[effect]]\nname = \"blade_arc\"\n[[effect]]\nname = \"initial_box_velocity\"\nvelocity = \"50 mm/s\"\n"}),
+    ::testing::Values(
+        Case{"plain", ""}, Case{"friction", friction},
+        Case{"falling",
+             "[[effect]]\nname = \"constant_acceleration\"\nacceleration = [\"0.05 m/s^2\", \"0 m/s^2\", "
+             "\"-0.1 m/s^2\"]\n"},
+        Case{"arc", "[[effect]]\nname = \"blade_arc\"\n"},
+        Case{"air", "[[effect]]\nname = \"grain_air_drag\"\nlinear = \"2e-4 N s/m\"\n"},
+        Case{"dry", "[[effect]]\nname = \"clamp_dry_friction\"\nforce = \"0.02 N\"\n"},
+        Case{"cohesion", "[[effect]]\nname = \"grain_cohesion\"\nforce = \"0.02 N\"\nrange = \"0.02 mm\"\n"},
+        Case{"cubic", "[[effect]]\nname = \"spring_cubic\"\ncoefficient = 0.1\n"},
+        Case{"velocity", "[[effect]]\nname = \"velocity_dependent_restitution\"\nlaw = \"viscoelastic\"\n"},
+        Case{"shaken", "[[effect]]\nname = \"oscillating_acceleration\"\namplitude = {x = \"0.1 m/s^2\"}\n"},
+        Case{"arc_and_kick",
+             "[[effect]]\nname = \"blade_arc\"\n[[effect]]\nname = \"initial_box_velocity\"\nvelocity = \"50 "
+             "mm/s\"\n"}),
     [](const auto& of) { return std::string(of.param.name); });
 
 TEST(Replay, OfManyGrainsToo) {

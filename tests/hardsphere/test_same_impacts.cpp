@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whatever finds the next event, it is the same event: pairs tested one and all, neighbour lists of any shell, end walls watched by
-// every grain or through windows.
+// Whatever finds the next event, it is the same event: pairs tested one and all, neighbour lists of any
+// shell, end walls watched by every grain or through windows.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -21,14 +21,18 @@ EventLoop<AllPairs, BoxMotion> with_all_pairs(const shakedown::Setup& setup, con
 }
 
 template <bool Periodic>
-EventLoop<CellLists<Periodic>, BoxMotion> with_lists(const shakedown::Setup& setup, const State& state, double shell) {
-  CellListsPlan plan{{setup.box.length, setup.box.width[0], setup.box.width[1]}, Periodic, {never, never}, 0.4, shell};
+EventLoop<CellLists<Periodic>, BoxMotion> with_lists(const shakedown::Setup& setup, const State& state,
+                                                     double shell) {
+  CellListsPlan plan{
+      {setup.box.length, setup.box.width[0], setup.box.width[1]}, Periodic, {never, never}, 0.4, shell};
   if (!Periodic) plan.half_width = {setup.box.width[0] / 2, setup.box.width[1] / 2};
   return {state, physics_of(setup), setup, CellLists<Periodic>(state, plan)};
 }
 
-EventLoop<CellCrossings, BoxMotion> with_crossings(const shakedown::Setup& setup, const State& state, double edge) {
-  return {state, physics_of(setup), setup, CellCrossings(state, {setup.box.length, setup.box.width[0], setup.box.width[1]}, edge)};
+EventLoop<CellCrossings, BoxMotion> with_crossings(const shakedown::Setup& setup, const State& state,
+                                                   double edge) {
+  return {state, physics_of(setup), setup,
+          CellCrossings(state, {setup.box.length, setup.box.width[0], setup.box.width[1]}, edge)};
 }
 
 /// Impact for impact the same time and class; at the end the same state.
@@ -48,7 +52,8 @@ void expect_same_impacts(A a, B b, std::int64_t impacts, const Vec3& cell) {
     worst = std::max({worst, apart.norm(), (left.velocity[i] - right.velocity[i]).norm()});
   }
   worst = std::max({worst, std::abs(left.x_box - right.x_box), std::abs(left.v_box - right.v_box)});
-  std::printf("%lld impacts of %zu grains: states differ by %.1e\n", static_cast<long long>(impacts), left.size(), worst);
+  std::printf("%lld impacts of %zu grains: states differ by %.1e\n", static_cast<long long>(impacts),
+              left.size(), worst);
   EXPECT_LE(worst, 1e-9);
 }
 
@@ -85,7 +90,8 @@ TEST(SameImpacts, WithGrainsOfDifferentSizes) {
     state.radius[i] *= 0.5 + 0.5 * random.uniform();
     state.mass[i] *= std::pow(state.radius[i] / 0.005, 3);
   }
-  expect_same_impacts(with_all_pairs(setup, state), with_lists<false>(setup, state, 0), 200, Vec3::Constant(1e9));
+  expect_same_impacts(with_all_pairs(setup, state), with_lists<false>(setup, state, 0), 200,
+                      Vec3::Constant(1e9));
 }
 
 TEST(SameImpacts, ThroughListsOfAnyShellInAPeriodicCell) {
@@ -102,9 +108,11 @@ TEST(SameImpacts, ThroughCellsOfAnyWidthAndThroughLists) {
     for (const double edge : {0.0, 1.3, 3.2}) {  // 3.2: three cells across
       shakedown::Setup setup = periodic_fluid(256, packing_fraction);
       const State state = initial_state(setup);
-      expect_same_impacts(with_lists<true>(setup, state, 1.4), with_crossings(setup, state, edge), 400, Vec3::Constant(setup.box.length));
+      expect_same_impacts(with_lists<true>(setup, state, 1.4), with_crossings(setup, state, edge), 400,
+                          Vec3::Constant(setup.box.length));
     }
-  shakedown::Setup setup = periodic_fluid(500, 0.2);  // cells that are no cubes; grains thrown far out of the cell they are described in
+  // cells that are no cubes; grains thrown far out of the cell they are described in
+  shakedown::Setup setup = periodic_fluid(500, 0.2);
   setup.box.length *= 3;
   setup.box.width[0] /= 2;
   State state = initial_state(setup);
@@ -113,7 +121,8 @@ TEST(SameImpacts, ThroughCellsOfAnyWidthAndThroughLists) {
                       Vec3(setup.box.length, setup.box.width[0], setup.box.width[1]));
 }
 
-// --- End walls alone: grains that do not meet each other, thrown about now and then, in a box that feels every impact. ----------------
+// --- End walls alone: grains that do not meet each other, thrown about now and then, in a box that feels
+// every impact. ----------------
 
 struct WallImpact {
   double time;
@@ -135,9 +144,11 @@ struct Crowd {
   explicit Crowd(int grains) {
     Random random(9, 0, Stream::other);
     for (int i = 0; i < grains; ++i)
-      flights.push_back({0.1075 + 2 * room * (random.uniform() - 0.5), top_throw * (2 * random.uniform() - 1), 0});
+      flights.push_back(
+          {0.1075 + 2 * room * (random.uniform() - 0.5), top_throw * (2 * random.uniform() - 1), 0});
     for (double time = 0; throws.size() < 4000; time -= std::log(random.uniform()) / (10.0 * grains))
-      throws.push_back({time, top_throw * (2 * random.uniform() - 1), static_cast<int>(random.uniform() * grains)});
+      throws.push_back(
+          {time, top_throw * (2 * random.uniform() - 1), static_cast<int>(random.uniform() * grains)});
   }
 
   EndWalls::Flight& fly(int i, double now) {
@@ -156,7 +167,8 @@ struct Crowd {
   }
 };
 
-std::vector<WallImpact> impacts_by_end_walls(Crowd crowd, bool watch_all, std::size_t count, std::size_t& most_watched) {
+std::vector<WallImpact> impacts_by_end_walls(Crowd crowd, bool watch_all, std::size_t count,
+                                             std::size_t& most_watched) {
   EndWalls walls(std::vector<double>(crowd.flights.size(), Crowd::room), watch_all);
   const auto flight_of = [&](int i) { return crowd.flights[static_cast<std::size_t>(i)]; };
   walls.open(EndWalls::now(crowd.box, 0), flight_of);
@@ -199,7 +211,8 @@ std::vector<WallImpact> impacts_by_brute_force(Crowd crowd, std::size_t count) {
     for (int i = 0; i < static_cast<int>(crowd.flights.size()); ++i) {
       const EndWalls::Flight& flight = crowd.fly(i, now);
       for (const int side : {1, -1}) {
-        const double time = now + first_wall_root({side * at.x, side * at.v / w, w, Crowd::room - side * flight.x, side * flight.v});
+        const double time = now + first_wall_root({side * at.x, side * at.v / w, w,
+                                                   Crowd::room - side * flight.x, side * flight.v});
         if (time < first.time) first = {time, i, side};
       }
     }
@@ -220,7 +233,8 @@ TEST(SameImpacts, AtEndWallsWatchedByAllThroughWindowsAndByBruteForce) {
   const Crowd crowd(700);
   const std::size_t count = 600;
   std::size_t of_all = 0, of_windows = 0;
-  const auto brute = impacts_by_brute_force(crowd, count), all = impacts_by_end_walls(crowd, true, count, of_all),
+  const auto brute = impacts_by_brute_force(crowd, count),
+             all = impacts_by_end_walls(crowd, true, count, of_all),
              windows = impacts_by_end_walls(crowd, false, count, of_windows);
   for (std::size_t n = 0; n < count; ++n)
     for (const WallImpact& seen : {all[n], windows[n]}) {
@@ -228,7 +242,8 @@ TEST(SameImpacts, AtEndWallsWatchedByAllThroughWindowsAndByBruteForce) {
       ASSERT_EQ(seen.grain, brute[n].grain) << n;
       ASSERT_EQ(seen.side, brute[n].side) << n;
     }
-  std::printf("%zu impacts in %.3f s, %zu of 700 grains watched in a window\n", count, brute.back().time, of_windows);
+  std::printf("%zu impacts in %.3f s, %zu of 700 grains watched in a window\n", count, brute.back().time,
+              of_windows);
   EXPECT_LT(of_windows, 350u);
 }
 

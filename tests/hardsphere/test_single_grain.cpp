@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One grain between the end walls of the swinging box: everything that happens is known, so the engine is held against a solution of its
-// own in extended precision that shares no code and no method with it.
+// One grain between the end walls of the swinging box: everything that happens is known, so the engine is
+// held against a solution of its own in extended precision that shares no code and no method with it.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,7 +16,8 @@ namespace {
 
 using Real = long double;
 
-/// Box and grain by hand: time of the next impact by steps no longer than the curvature bound allows (each reaches the root from below).
+/// Box and grain by hand: time of the next impact by steps no longer than the curvature bound allows (each
+/// reaches the root from below).
 struct ByHand {
   Real mass, box_mass, w, room, restitution, elastic_fraction;
   Real x, v, box_x, box_v, time = 0, closing = 0;
@@ -31,7 +32,8 @@ struct ByHand {
   }
   /// Time in which the gap on one side cannot close.
   Real safe(int side) const {
-    const Real gap = std::max(Real(0), side * (box_x - x) + room), rate = side * (box_v - v), curvature = top_speed() * w;
+    const Real gap = std::max(Real(0), side * (box_x - x) + room), rate = side * (box_v - v),
+               curvature = top_speed() * w;
     return rate >= 0 ? (rate + std::sqrt(rate * rate + 2 * curvature * gap)) / curvature
                      : 2 * gap / (std::sqrt(rate * rate + 2 * curvature * gap) - rate);
   }
@@ -56,7 +58,8 @@ struct Case {
   double grain_mass, length, restitution, start, speed;
 };
 
-// As in the paper; heavy, so that the box feels it; elastic; in the optimum's long box; nearly at rest against a wall.
+// As in the paper; heavy, so that the box feels it; elastic; in the optimum's long box; nearly at rest
+// against a wall.
 constexpr std::array<Case, 5> cases{{{4.04e-3, 0.04, 0.76, 0.0, 0.1},
                                      {0.2, 0.04, 0.9, 0.003, -0.5},
                                      {4.04e-3, 0.104, 1.0, 0.01, 0.3},
@@ -69,12 +72,23 @@ HardSphereSystem system_of(const Case& c) {
   setup.grains.mass = c.grain_mass;
   setup.box.length = c.length;
   setup.restitution.grain_wall = c.restitution;
-  return {setup, State{{Vec3(0.1075 + c.start, 0, 0)}, {Vec3(c.speed, 0, 0)}, {}, {0.005}, {c.grain_mass}, 0.1075, 0}};
+  return {
+      setup,
+      State{{Vec3(0.1075 + c.start, 0, 0)}, {Vec3(c.speed, 0, 0)}, {}, {0.005}, {c.grain_mass}, 0.1075, 0}};
 }
 
 ByHand by_hand(const Case& c, const State& state, Real time) {
-  return {c.grain_mass, 0.434, 2 * std::numbers::pi_v<Real> * Real(1.23), Real(c.length) / 2 - Real(0.005), c.restitution, 0.02L,
-          state.position[0].x(), state.velocity[0].x(), state.x_box, state.v_box, time};
+  return {c.grain_mass,
+          0.434,
+          2 * std::numbers::pi_v<Real> * Real(1.23),
+          Real(c.length) / 2 - Real(0.005),
+          c.restitution,
+          0.02L,
+          state.position[0].x(),
+          state.velocity[0].x(),
+          state.x_box,
+          state.v_box,
+          time};
 }
 
 TEST(SingleGrain, GoesFromImpactToImpactToTheLastDigits) {
@@ -87,11 +101,14 @@ TEST(SingleGrain, GoesFromImpactToImpactToTheLastDigits) {
       system.advance_impacts(1);
       hand.next_impact();
       const State now = system.state();
-      // What half a unit in the last place of a position or of the clock is worth in time at this closing speed.
-      const double rounding = 0x1p-53 * (0.12 / static_cast<double>(hand.closing) + system.time()) * (1 + 8 * (system.time() - before));
+      // What half a unit in the last place of a position or of the clock is worth in time at this closing
+      // speed.
+      const double rounding = 0x1p-53 * (0.12 / static_cast<double>(hand.closing) + system.time()) *
+                              (1 + 8 * (system.time() - before));
       worst_time = std::max(worst_time, std::abs(system.time() - static_cast<double>(hand.time)) / rounding);
-      worst_speed = std::max({worst_speed, std::abs(now.velocity[0].x() - static_cast<double>(hand.v)) / (8 * rounding + 1e-16),
-                              std::abs(now.v_box - static_cast<double>(hand.box_v)) / (8 * rounding + 1e-16)});
+      worst_speed = std::max(
+          {worst_speed, std::abs(now.velocity[0].x() - static_cast<double>(hand.v)) / (8 * rounding + 1e-16),
+           std::abs(now.v_box - static_cast<double>(hand.box_v)) / (8 * rounding + 1e-16)});
       ASSERT_EQ(system.collisions()[1], impact);
     }
   }
@@ -100,7 +117,8 @@ TEST(SingleGrain, GoesFromImpactToImpactToTheLastDigits) {
   EXPECT_LE(worst_speed, 20);
 }
 
-/// Over many impacts small errors grow, so the yardstick is a second solution by hand that starts 1e-15 m away.
+/// Over many impacts small errors grow, so the yardstick is a second solution by hand that starts 1e-15 m
+/// away.
 TEST(SingleGrain, StaysWithTheHandWrittenSolutionAsLongAsChaosLetsIt) {
   for (const Case& c : cases) {
     HardSphereSystem system = system_of(c);
@@ -115,14 +133,17 @@ TEST(SingleGrain, StaysWithTheHandWrittenSolutionAsLongAsChaosLetsIt) {
       chaos = std::max(chaos, static_cast<double>(std::abs(neighbour.time - hand.time)));
       EXPECT_LE(off, 20 * chaos);
     }
-    std::printf("m = %g kg, L = %g m, eps = %g: 50 impacts in %.3f s, off by %.1e s; 1e-15 m off at the start: %.1e s\n", c.grain_mass,
-                c.length, c.restitution, system.time(), off, chaos);
+    std::printf(
+        "m = %g kg, L = %g m, eps = %g: 50 impacts in %.3f s, off by %.1e s; 1e-15 m off at the start: %.1e "
+        "s\n",
+        c.grain_mass, c.length, c.restitution, system.time(), off, chaos);
     EXPECT_LE(chaos, 1e-4);  // or the test says nothing
   }
 }
 
-/// A grain so light that the box does not feel it, bouncing on a wall that comes at it with acceleration a = Delta0 Omega^2: after a first
-/// impact at speed u0 impact k comes at closing speed u0 eps^(k-1) and, were there no limit, infinitely many in 2 eps u0 / (a (1 - eps)).
+/// A grain so light that the box does not feel it, bouncing on a wall that comes at it with acceleration a =
+/// Delta0 Omega^2: after a first impact at speed u0 impact k comes at closing speed u0 eps^(k-1) and, were
+/// there no limit, infinitely many in 2 eps u0 / (a (1 - eps)).
 class Bouncing : public ::testing::Test {
  protected:
   static constexpr double eps = 0.76, mass = 1e-9;
@@ -145,7 +166,8 @@ TEST_F(Bouncing, ComesToRestInZenosTime) {
   const double zeno = 2 * eps * first / (acceleration * (1 - eps));
   for (int k = 1; k <= 14; ++k) {
     grain.advance_impacts(1);
-    EXPECT_NEAR(grain.time(), zeno * (1 - std::pow(eps, k - 1)), 1e-6 * zeno) << k;  // the wall's acceleration changes by 4e-7
+    // the wall's acceleration changes by 4e-7
+    EXPECT_NEAR(grain.time(), zeno * (1 - std::pow(eps, k - 1)), 1e-6 * zeno) << k;
   }
   EXPECT_EQ(grain.health().elastic_rescues, 0);
 }
@@ -153,12 +175,14 @@ TEST_F(Bouncing, ComesToRestInZenosTime) {
 TEST_F(Bouncing, IsCutShortByTheElasticLimitAtItsCurrentTopSpeed) {
   const double limit = 1.5e-5;
   HardSphereSystem grain = system(limit / top_speed);
-  const int inelastic = static_cast<int>(std::ceil(std::log(limit / first) / std::log(eps)));  // closing speeds first eps^(k-1) >= limit
+  // closing speeds first eps^(k-1) >= limit
+  const int inelastic = static_cast<int>(std::ceil(std::log(limit / first) / std::log(eps)));
   grain.advance_impacts(inelastic);
   EXPECT_EQ(grain.health().elastic_rescues, 0);
   const double lost = mass / 2 * first * first * (1 - std::pow(eps, 2 * inelastic));
   EXPECT_NEAR(grain.ledger().contact_loss[1], lost, 1e-5 * lost);  // (the wall moves)
-  // From here on it bounces for ever with the speed it has, the last 2 u / (a (1 - eps)) of Zeno's time never pass.
+  // From here on it bounces for ever with the speed it has, the last 2 u / (a (1 - eps)) of Zeno's time never
+  // pass.
   const double speed = first * std::pow(eps, inelastic), time = grain.time();
   grain.advance_impacts(20);
   EXPECT_EQ(grain.health().elastic_rescues, 20);
@@ -166,7 +190,8 @@ TEST_F(Bouncing, IsCutShortByTheElasticLimitAtItsCurrentTopSpeed) {
   EXPECT_NEAR(grain.ledger().contact_loss[1], lost, 1e-5 * lost);
 }
 
-/// Bounces lower than a position's last digit must not hold time up. (Among 1e4 grains one such speed turns up every few million impacts.)
+/// Bounces lower than a position's last digit must not hold time up. (Among 1e4 grains one such speed turns
+/// up every few million impacts.)
 TEST_F(Bouncing, DoesNotStickToTheWallAtSpeedsThatPositionsDoNotResolve) {
   for (const double speed : {1e-16, 4e-10, 1e-8}) {
     first = speed;
@@ -176,7 +201,8 @@ TEST_F(Bouncing, DoesNotStickToTheWallAtSpeedsThatPositionsDoNotResolve) {
       EXPECT_LT(grain.collisions()[1], 4000) << speed;  // of 0.36 us each
       grain.observe();
       EXPECT_LE(grain.health().ledger_error, 1e-12);
-      EXPECT_LE(grain.health().deepest_overlap, 1e-13);  // metre; rounding adds up while the bounces repeat: seen 8e-15
+      // metre; rounding adds up while the bounces repeat: seen 8e-15
+      EXPECT_LE(grain.health().deepest_overlap, 1e-13);
       EXPECT_GT(grain.ledger().contact_loss[1], -1e-12 * grain.initial_energy());
     }
   }

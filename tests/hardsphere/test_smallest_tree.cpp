@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tree of smallest numbers against looking through them all, at sizes around those at which it gains a level.
+// The tree of smallest numbers against looking through them all, at sizes around those at which it gains a
+// level.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +25,9 @@ TEST(SmallestTree, FindsTheFirstOfTheSmallest) {
       const bool grows = plain.size() < capacity && random.uniform() < 0.5;
       if (grows) plain.push_back(0);
       if (plain.empty()) continue;
-      const std::size_t k = grows ? plain.size() - 1 : static_cast<std::size_t>(random.uniform() * static_cast<double>(plain.size()));
+      const std::size_t k =
+          grows ? plain.size() - 1
+                : static_cast<std::size_t>(random.uniform() * static_cast<double>(plain.size()));
       plain[k] = std::floor(50 * random.uniform());
       tree.set(k, plain[k]);
       const auto first = std::min_element(plain.begin(), plain.end());

@@ -14,7 +14,8 @@ constexpr double w = 2 * std::numbers::pi * 1.23;
 TEST(WallRoot, MissesNoneAndInventsNone) {
   const WallRootSurvey survey = survey_wall_roots(10'000, 7);
   EXPECT_EQ(survey.wrong(), 0) << survey.first_wrong;
-  for (std::size_t k = 0; k < survey.kinds.size(); ++k) EXPECT_GT(survey.kinds[k].roots, 100) << wall_root_case_names[k];
+  for (std::size_t k = 0; k < survey.kinds.size(); ++k)
+    EXPECT_GT(survey.kinds[k].roots, 100) << wall_root_case_names[k];
 }
 
 /// The proof itself must be able to fail.

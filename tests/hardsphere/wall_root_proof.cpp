@@ -14,7 +14,13 @@ using Real = long double;  // 64 bits of mantissa at least: its own rounding is 
 struct PreciseGap {
   Real a, b, w, c, u, amplitude, curvature;
   explicit PreciseGap(const HarmonicGap& gap)
-      : a(gap.a), b(gap.b), w(gap.angular_frequency), c(gap.c), u(gap.u), amplitude(std::hypot(a, b)), curvature(amplitude * w * w) {}
+      : a(gap.a),
+        b(gap.b),
+        w(gap.angular_frequency),
+        c(gap.c),
+        u(gap.u),
+        amplitude(std::hypot(a, b)),
+        curvature(amplitude * w * w) {}
   struct Value {
     Real gap, rate;
   };
@@ -43,32 +49,42 @@ Free stays_above(const PreciseGap& gap, Real low, Real high, Real delta, int dep
   return left != Free::yes ? left : stays_above(gap, middle, high, delta, depth - 1, intervals);
 }
 
-double log_uniform(Random& random, double low, double high) { return low * std::pow(high / low, random.uniform()); }
+double log_uniform(Random& random, double low, double high) {
+  return low * std::pow(high / low, random.uniform());
+}
 double sign(Random& random) { return random.uniform() < 0.5 ? -1 : 1; }
 
 /// A box like the paper's at a random phase of a random amplitude, a grain somewhere in it.
 HarmonicGap damper_gap(Random& random) {
-  const double w = 2 * std::numbers::pi * 1.23, amplitude = 0.1075 * random.uniform(), phase = 2 * std::numbers::pi * random.uniform();
+  const double w = 2 * std::numbers::pi * 1.23, amplitude = 0.1075 * random.uniform(),
+               phase = 2 * std::numbers::pi * random.uniform();
   const double a = amplitude * std::cos(phase);
   return {a, amplitude * std::sin(phase), w, 0.1 * random.uniform() - a, w * 0.1075 * random.normal()};
 }
 
-/// Lifts the gap so that the minimum of a random period nearly, or by a hair, touches zero; nothing happens before.
+/// Lifts the gap so that the minimum of a random period nearly, or by a hair, touches zero; nothing happens
+/// before.
 HarmonicGap grazing_gap(Random& random) {
   HarmonicGap gap = damper_gap(random);
   const double amplitude = std::hypot(gap.a, gap.b), w = gap.angular_frequency;
   const double choice = random.uniform();
-  gap.u = w * amplitude * random.uniform() * (choice < 0.2 ? 0.0 : choice < 0.4 ? -1.0 : choice < 0.6 ? 1e-3 : 1.0);
+  gap.u = w * amplitude * random.uniform() *
+          (choice < 0.2   ? 0.0
+           : choice < 0.4 ? -1.0
+           : choice < 0.6 ? 1e-3
+                          : 1.0);
   const Real phi = std::atan2(Real(gap.b), Real(gap.a)), tilt = std::asin(Real(gap.u) / (w * amplitude));
   const Real pi = std::numbers::pi_v<Real>;
-  const int period = gap.u > 0 ? static_cast<int>(4 * random.uniform()) : 0;  // later minima are lower only then
+  // later minima are lower only then
+  const int period = gap.u > 0 ? static_cast<int>(4 * random.uniform()) : 0;
   Real phase = phi + pi + tilt + 2 * pi * period;  // a minimum: sin(Wt - phi) = -u / (W R), rising
   if (phase < 0) phase += 2 * pi;
   if (gap.u <= 0) phase = std::fmod(phase, 2 * pi);
   const Real lowest = PreciseGap(gap).at(phase / w).gap - gap.c;
   gap.c = static_cast<double>(-lowest);
   if (random.uniform() < 0.9) gap.c += sign(random) * log_uniform(random, 1e-19, 1e-6);
-  return gap.a + gap.c >= 0 ? gap : grazing_gap(random);  // a receding grain can start below its first minimum
+  // a receding grain can start below its first minimum
+  return gap.a + gap.c >= 0 ? gap : grazing_gap(random);
 }
 
 /// A gap of zero but for rounding that opens, fast or hardly.
@@ -117,7 +133,8 @@ HarmonicGap random_gap(WallRootCase kind, Random& random) {
     case WallRootCase::rest: gap.u = 0; break;
     case WallRootCase::just_ahead: gap = gap_just_ahead(random); break;
     case WallRootCase::any_scale: {
-      const double amplitude = log_uniform(random, 1e-9, 1e3), phase = 2 * std::numbers::pi * random.uniform();
+      const double amplitude = log_uniform(random, 1e-9, 1e3),
+                   phase = 2 * std::numbers::pi * random.uniform();
       gap.angular_frequency = log_uniform(random, 1e-3, 1e5);
       gap.a = amplitude * std::cos(phase);
       gap.b = amplitude * std::sin(phase);
@@ -134,7 +151,8 @@ WallRootProof prove(const HarmonicGap& given, double answer) {
   const Real period = 2 * std::numbers::pi_v<Real> / gap.w;
   // Without an answer two periods decide: g(t + P) = g(t) - u P is no lower from then on when u <= 0.
   if (answer == never && gap.u > 0) {
-    const bool beyond_the_horizon = gap.c - gap.amplitude > 0.99e12L * gap.u * period;  // 1e12 periods, wall_root.hpp
+    // 1e12 periods, wall_root.hpp
+    const bool beyond_the_horizon = gap.c - gap.amplitude > 0.99e12L * gap.u * period;
     return {beyond_the_horizon ? WallRootVerdict::right : WallRootVerdict::missed, 0, 0};
   }
   const Real end = answer == never ? 2 * period : Real(answer);
@@ -159,7 +177,9 @@ WallRootProof prove(const HarmonicGap& given, double answer) {
   if (unit > 0) proof.rounding = static_cast<double>(std::abs(last.gap) / unit);
   if (last.gap > delta) proof.verdict = WallRootVerdict::early;
   // A rate that this much rounding of the gap, or its own rounding, can turn round is not opening.
-  const Real rate_rounding = std::sqrt(2 * gap.curvature * delta) + allowed_units * 0x1p-53L * (gap.amplitude * gap.w * (1 + gap.w * end) + std::abs(gap.u));
+  const Real rate_rounding =
+      std::sqrt(2 * gap.curvature * delta) +
+      allowed_units * 0x1p-53L * (gap.amplitude * gap.w * (1 + gap.w * end) + std::abs(gap.u));
   if (last.rate > rate_rounding) proof.verdict = WallRootVerdict::redetected;
   return proof;
 }
@@ -186,9 +206,10 @@ WallRootSurvey survey_wall_roots(std::int64_t cases, std::uint64_t seed) {
     survey.intervals += proof.intervals;
     if (proof.verdict != WallRootVerdict::right && survey.first_wrong.empty()) {
       std::array<char, 400> text;
-      std::snprintf(text.data(), text.size(), "%s, %s: a = %.17g, b = %.17g, W = %.17g, c = %.17g, u = %.17g: answer %.17g",
-                    wall_root_case_names[k], wall_root_verdict_names[static_cast<std::size_t>(proof.verdict)], gap.a, gap.b,
-                    gap.angular_frequency, gap.c, gap.u, answer);
+      std::snprintf(text.data(), text.size(),
+                    "%s, %s: a = %.17g, b = %.17g, W = %.17g, c = %.17g, u = %.17g: answer %.17g",
+                    wall_root_case_names[k], wall_root_verdict_names[static_cast<std::size_t>(proof.verdict)],
+                    gap.a, gap.b, gap.angular_frequency, gap.c, gap.u, answer);
       survey.first_wrong = text.data();
     }
   }

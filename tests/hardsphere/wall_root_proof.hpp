@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A proof, case by case, that first_wall_root() misses no root and invents none, by a method that shares nothing with it: interval
-// bisection on the derivative bounds |g''| <= R W^2, in extended precision.
+// A proof, case by case, that first_wall_root() misses no root and invents none, by a method that shares
+// nothing with it: interval bisection on the derivative bounds |g''| <= R W^2, in extended precision.
 //
-// An answer t is right when it is the first root of a gap that differs from the given one by no more than rounding, delta:
-//   missed      the gap is below -delta somewhere before t (every sub-interval is proved free of that, or refutes the answer);
-//   early       the gap at t is above +delta;
-//   redetected  the gap opens at t: the wall that the grain has just left.
-// Nothing else can be asked near a tangent, where half a unit in the last place of the room decides whether there is a root at all.
+// An answer t is right when it is the first root of a gap that differs from the given one by no more than
+// rounding, delta:
+//   missed      the gap is below -delta somewhere before t (every sub-interval is proved free of that, or
+//   refutes the answer); early       the gap at t is above +delta; redetected  the gap opens at t: the wall
+//   that the grain has just left.
+// Nothing else can be asked near a tangent, where half a unit in the last place of the room decides whether
+// there is a root at all.
 #pragma once
 #include <array>
 #include <cmath>
@@ -18,14 +20,27 @@
 
 namespace shakedown {
 
-enum class WallRootCase { damper, fast, slow, grazing, just_left, tiny_amplitude, many_periods, equal_top_speed, rest, any_scale, just_ahead };
-constexpr std::array<const char*, 11> wall_root_case_names{"as in a damper",    "fast grain",   "slow grain", "grazing",
-                                                           "just left the wall", "tiny amplitude", "many periods",
-                                                           "grain at the wall's top speed", "grain at rest", "any scale",
-                                                           "a wall just ahead"};
+enum class WallRootCase {
+  damper,
+  fast,
+  slow,
+  grazing,
+  just_left,
+  tiny_amplitude,
+  many_periods,
+  equal_top_speed,
+  rest,
+  any_scale,
+  just_ahead
+};
+constexpr std::array<const char*, 11> wall_root_case_names{
+    "as in a damper",     "fast grain",     "slow grain",       "grazing",
+    "just left the wall", "tiny amplitude", "many periods",     "grain at the wall's top speed",
+    "grain at rest",      "any scale",      "a wall just ahead"};
 
 enum class WallRootVerdict { right, missed, early, redetected, undecided };
-constexpr std::array<const char*, 5> wall_root_verdict_names{"right", "missed", "early", "redetected", "undecided"};
+constexpr std::array<const char*, 5> wall_root_verdict_names{"right", "missed", "early", "redetected",
+                                                             "undecided"};
 
 HarmonicGap random_gap(WallRootCase kind, Random& random);
 

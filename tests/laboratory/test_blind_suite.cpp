@@ -36,7 +36,8 @@ TEST(Hideable, EveryOneCanBePutIntoASetupAtAnyStrengthUpToItsStrongest) {
   for (const std::vector<Hideable>* list : {&hideable_effects(), &hideable_forces()})
     for (const Hideable& hideable : *list)
       for (const double part : {0.02, 0.3, 1.0}) {
-        const shakedown::Setup setup = changed({}, at_strength(hideable, part * hideable.strongest), all_effects());
+        const shakedown::Setup setup =
+            changed({}, at_strength(hideable, part * hideable.strongest), all_effects());
         ASSERT_EQ(setup.effects.size(), 1u) << hideable.id;
         EXPECT_EQ(setup.effects[0].record->name, hideable.effect);
       }
@@ -143,7 +144,8 @@ TEST(BlindCases, StrengthsGiveTheSignalOfTheTable) {
   for (const BlindCase& one : drawn()) {
     if (one.kind != BlindKind::single || one.ids[0] != "blade_viscous_damping") continue;
     // Typical strength (0.05 N s/m) has a signal of 20 in this table.
-    EXPECT_NEAR(get_number(one.trial.hidden.truth, "blade_viscous_damping.damping"), 0.05 * one.signal_to_noise / 20, 1e-12);
+    EXPECT_NEAR(get_number(one.trial.hidden.truth, "blade_viscous_damping.damping"),
+                0.05 * one.signal_to_noise / 20, 1e-12);
   }
 }
 
@@ -170,7 +172,8 @@ TEST(BlindCases, CountsAreReadOrRefusedWithTheReason) {
 namespace {
 
 /// A suite of `counts` whose plan and seals exist, each answer written by `answer`.
-void answered(const fs::path& folder, const BlindCounts& counts, const std::function<std::string(const nlohmann::json& truth)>& answer) {
+void answered(const fs::path& folder, const BlindCounts& counts,
+              const std::function<std::string(const nlohmann::json& truth)>& answer) {
   const auto hard = engine_named("hard");
   std::atomic<bool> stop = true;  // sealed, then stopped before the first case is measured
   const TrialTools tools{hard.get(), hard.get(), all_effects(), 100, 1, &stop};
@@ -180,18 +183,26 @@ void answered(const fs::path& folder, const BlindCounts& counts, const std::func
   fs::create_directories(folder / "answers");
   nlohmann::json table;
   for (const std::vector<Hideable>* list : {&hideable_effects(), &hideable_forces()})
-    for (const Hideable& hideable : *list) table["signals"][std::string(hideable.id)] = {{"strength", 1}, {"signal", 20}, {"power", 1}, {"by", "ensembles"}};
+    for (const Hideable& hideable : *list)
+      table["signals"][std::string(hideable.id)] = {
+          {"strength", 1}, {"signal", 20}, {"power", 1}, {"by", "ensembles"}};
   write(folder / "strengths.json", table.dump());
   EXPECT_THROW(run_blind_suite(folder, {}, tools, options), Interrupted);
   for (const fs::directory_entry& file : fs::directory_iterator(folder / "sealed"))
-    write(folder / "answers" / file.path().filename(), answer(nlohmann::json::parse(read_text_file(file.path()))));
+    write(folder / "answers" / file.path().filename(),
+          answer(nlohmann::json::parse(read_text_file(file.path()))));
 }
 
 std::string answer_of(const std::string& verdict, const std::vector<std::string>& missing, double p = 0.5) {
   return nlohmann::json{{"diagnosis",
-                         {{"verdict", verdict}, {"missing", missing}, {"parameters", nlohmann::json::object()}, {"ranking", nlohmann::json::array()},
-                          {"ladder", {{{"step", "as given"}, {"error_box_mm", 0.5}, {"p_value", p}}}}, {"noise_floor", {{"box_mm", 0.5}}},
-                          {"momentum", {{"p_value", p}, {"terms", nlohmann::json::array()}}}, {"seconds", 1.0}}},
+                         {{"verdict", verdict},
+                          {"missing", missing},
+                          {"parameters", nlohmann::json::object()},
+                          {"ranking", nlohmann::json::array()},
+                          {"ladder", {{{"step", "as given"}, {"error_box_mm", 0.5}, {"p_value", p}}}},
+                          {"noise_floor", {{"box_mm", 0.5}}},
+                          {"momentum", {{"p_value", p}, {"terms", nlohmann::json::array()}}},
+                          {"seconds", 1.0}}},
                         {"formulas", nlohmann::json::array()}}
       .dump();
 }
@@ -215,22 +226,27 @@ TEST(BlindScores, APerfectDiagnosisMeetsEveryAim) {
   const ScratchFolder folder;
   answered(folder.path(), some, [](const nlohmann::json& truth) {
     const auto hidden = truth["hidden"].get<std::vector<std::string>>();
-    return answer_of(hidden.empty() ? "adequate" : "missing", hidden, 0.3 + 0.4 * static_cast<double>(truth["seed"].get<std::uint64_t>() % 1000) / 1000);
+    return answer_of(hidden.empty() ? "adequate" : "missing", hidden,
+                     0.3 + 0.4 * static_cast<double>(truth["seed"].get<std::uint64_t>() % 1000) / 1000);
   });
   const BlindScore score = scored(folder.path());
   EXPECT_EQ(score.answered, 34);
-  for (const BlindFigure& one : score.figures) EXPECT_NE(one.verdict, BlindFigure::Verdict::missed) << one.what << " " << one.found;
+  for (const BlindFigure& one : score.figures)
+    EXPECT_NE(one.verdict, BlindFigure::Verdict::missed) << one.what << " " << one.found;
   EXPECT_EQ(figure(score, "exact name, signal to noise 12").verdict, BlindFigure::Verdict::met);
   EXPECT_EQ(figure(score, "both of a pair").found.substr(0, 6), "4 of 4");
 }
 
 TEST(BlindScores, ADiagnosisThatAlwaysAccusesTheSameFails) {
   const ScratchFolder folder;
-  answered(folder.path(), some, [](const nlohmann::json&) { return answer_of("missing", {"blade_viscous_damping"}, 0.001); });
+  answered(folder.path(), some,
+           [](const nlohmann::json&) { return answer_of("missing", {"blade_viscous_damping"}, 0.001); });
   const BlindScore score = scored(folder.path());
-  for (const char* what : {"false alarms", "p-values of the model", "first suspect's class, signal to noise 12", "exact name, signal to noise 12",
+  for (const char* what : {"false alarms", "p-values of the model",
+                           "first suspect's class, signal to noise 12", "exact name, signal to noise 12",
                            "camera artefacts called physics", "effects invented", "both of a pair"})
-    EXPECT_EQ(figure(score, what).verdict, BlindFigure::Verdict::missed) << what << ": " << figure(score, what).found;
+    EXPECT_EQ(figure(score, what).verdict, BlindFigure::Verdict::missed)
+        << what << ": " << figure(score, what).found;
 }
 
 TEST(BlindScores, SimplerMethodsStandBeside) {
@@ -238,18 +254,23 @@ TEST(BlindScores, SimplerMethodsStandBeside) {
   answered(folder.path(), {2, 0, 3, 0, 0, 0, 0}, [](const nlohmann::json& truth) {
     auto answer = nlohmann::json::parse(answer_of("adequate", {}));
     const auto hidden = truth["hidden"].get<std::vector<std::string>>();
-    answer["naive"] = {{"least_error", "grain_friction"}, {"white_noise", hidden.empty() ? "" : hidden[0]}, {"one_seed", ""}};
+    answer["naive"] = {{"least_error", "grain_friction"},
+                       {"white_noise", hidden.empty() ? "" : hidden[0]},
+                       {"one_seed", ""}};
     return answer.dump();
   });
   const BlindScore score = scored(folder.path());
-  EXPECT_EQ(figure(score, "baseline: smallest error after refitting, false alarms").found.substr(0, 6), "2 of 2");
-  EXPECT_EQ(figure(score, "baseline: Akaike's criterion with white noise, exact").found.substr(0, 6), "3 of 3");
+  EXPECT_EQ(figure(score, "baseline: smallest error after refitting, false alarms").found.substr(0, 6),
+            "2 of 2");
+  EXPECT_EQ(figure(score, "baseline: Akaike's criterion with white noise, exact").found.substr(0, 6),
+            "3 of 3");
   EXPECT_EQ(figure(score, "baseline: smallest error, one seed, exact").found.substr(0, 6), "0 of 3");
 }
 
 TEST(BlindScores, ASealedAnswerThatWasTouchedIsRefused) {
   const ScratchFolder folder;
-  answered(folder.path(), {1, 0, 0, 0, 0, 0, 0}, [](const nlohmann::json&) { return answer_of("adequate", {}); });
+  answered(folder.path(), {1, 0, 0, 0, 0, 0, 0},
+           [](const nlohmann::json&) { return answer_of("adequate", {}); });
   const fs::path sealed = folder / "sealed" / "case_0001.json";
   write(sealed, read_text_file(sealed) + " ");
   EXPECT_THROW(scored(folder.path()), InputError);
@@ -274,7 +295,8 @@ TEST(BlindScores, ATableOfStrengthsThatIsNoneIsNamed) {
 
 TEST(BlindScores, AFolderHoldsOneSuite) {
   const ScratchFolder folder;
-  answered(folder.path(), {1, 0, 0, 0, 0, 0, 0}, [](const nlohmann::json&) { return answer_of("adequate", {}); });
+  answered(folder.path(), {1, 0, 0, 0, 0, 0, 0},
+           [](const nlohmann::json&) { return answer_of("adequate", {}); });
   const auto hard = engine_named("hard");
   const TrialTools tools{hard.get(), hard.get(), all_effects(), 100, 1, nullptr};
   BlindSuiteOptions options;
@@ -282,7 +304,8 @@ TEST(BlindScores, AFolderHoldsOneSuite) {
   options.small = true;
   EXPECT_THROW(run_blind_suite(folder.path(), {}, tools, options), InputError);  // without resume
   options.resume = true;
-  EXPECT_NO_THROW(run_blind_suite(folder.path(), {}, tools, options));  // all is answered: nothing is simulated
+  // all is answered: nothing is simulated
+  EXPECT_NO_THROW(run_blind_suite(folder.path(), {}, tools, options));
   options.seed = 2;
   EXPECT_THROW(run_blind_suite(folder.path(), {}, tools, options), InputError);
 }
@@ -293,7 +316,9 @@ TEST(SlowBlindSuite, NullsAndACameraErrorAreToldApart) {
   const ScratchFolder folder;
   const auto soft = engine_named("soft"), hard = engine_named("hard");
   const TrialTools tools{soft.get(), hard.get(), all_effects(), 4000, 1, nullptr};
-  write(folder / "strengths.json", R"({"signals": {"camera_com_bias": {"strength": 1, "signal": 55, "power": 1, "by": "balance"}}})");  // as measured by the suite itself
+  // as measured by the suite itself
+  write(folder / "strengths.json",
+        R"({"signals": {"camera_com_bias": {"strength": 1, "signal": 55, "power": 1, "by": "balance"}}})");
   BlindSuiteOptions options;
   options.counts = {2, 0, 0, 1, 0, 0, 0};
   options.small = true;
@@ -315,7 +340,8 @@ TEST(SlowNaiveAnswers, NameAStrongForceAndAccuseWhereNothingIsHidden) {
   EXPECT_EQ(strong.least_error, "spring_cubic");
   EXPECT_EQ(strong.white_noise, "spring_cubic");
   trial.hidden.truth = {};
-  EXPECT_NE(naive_answers({}, measured_in(trial, tools), workshop).white_noise, "");  // chaos from run to run is no white noise
+  // chaos from run to run is no white noise
+  EXPECT_NE(naive_answers({}, measured_in(trial, tools), workshop).white_noise, "");
 }
 
 TEST(ForceLikeness, IsThatOfTheShapeWithoutItsLinearPart) {

@@ -21,9 +21,14 @@ HiddenCase case_of(const std::vector<std::string>& effects, const std::vector<Ov
 }  // namespace
 
 TEST(HiddenCase, AnEffectIsWrittenWithItsParametersOrAtItsTypicalStrength) {
-  EXPECT_DOUBLE_EQ(get_number(case_of({"grain_friction=grain_grain:0.1, grain_wall:0.3"}).truth, "grain_friction.grain_wall"), 0.3);
-  EXPECT_DOUBLE_EQ(get_number(case_of({"blade_viscous_damping"}).truth, "blade_viscous_damping.damping"), 0.05);
-  EXPECT_DOUBLE_EQ(get_number(case_of({"constant_acceleration=acceleration.z:0.2 m/s^2"}).truth, "constant_acceleration.acceleration.z"), 0.2);
+  EXPECT_DOUBLE_EQ(get_number(case_of({"grain_friction=grain_grain:0.1, grain_wall:0.3"}).truth,
+                              "grain_friction.grain_wall"),
+                   0.3);
+  EXPECT_DOUBLE_EQ(get_number(case_of({"blade_viscous_damping"}).truth, "blade_viscous_damping.damping"),
+                   0.05);
+  EXPECT_DOUBLE_EQ(get_number(case_of({"constant_acceleration=acceleration.z:0.2 m/s^2"}).truth,
+                              "constant_acceleration.acceleration.z"),
+                   0.2);
 }
 
 TEST(HiddenCase, EveryEffectButAFormulaHidesAtItsTypicalStrength) {
@@ -33,25 +38,29 @@ TEST(HiddenCase, EveryEffectButAFormulaHidesAtItsTypicalStrength) {
     ASSERT_EQ(hidden.truth.effects.size(), 1u) << record->name;
     EXPECT_EQ(hidden.truth.effects[0].record, record);
     const bool is_packing = record->name == "initial_packing";  // a nuisance, never an effect to be found
-    EXPECT_EQ(hidden_effects(hidden), is_packing ? std::vector<std::string>{} : std::vector<std::string>{std::string(record->name)});
+    EXPECT_EQ(hidden_effects(hidden),
+              is_packing ? std::vector<std::string>{} : std::vector<std::string>{std::string(record->name)});
   }
 }
 
 TEST(HiddenCase, AFormulaHoldsCommasAndIsInNoList) {
-  const HiddenCase hidden = case_of({"user_force=force:\"-c*v*min(1, abs(x)/x0)\",constants.c:0.1 N s/m,constants.x0:45mm"});
+  const HiddenCase hidden =
+      case_of({"user_force=force:\"-c*v*min(1, abs(x)/x0)\",constants.c:0.1 N s/m,constants.x0:45mm"});
   EXPECT_EQ(hidden.truth.effects.at(0).text("force"), "-c*v*min(1, abs(x)/x0)");
   EXPECT_DOUBLE_EQ(hidden.truth.effects.at(0).constants("constants").at("x0"), 0.045);
   EXPECT_EQ(hidden_effects(hidden), std::vector<std::string>{"unknown"});
 }
 
 TEST(HiddenCase, WhatAModelIsNotToldOfIsNoParameter) {
-  EXPECT_FALSE(has_other_parameters(case_of({}, {{"soft.contact_time", "1 ms"}, {"release.packing", "random"}})));
+  EXPECT_FALSE(
+      has_other_parameters(case_of({}, {{"soft.contact_time", "1 ms"}, {"release.packing", "random"}})));
   EXPECT_TRUE(has_other_parameters(case_of({}, {{"restitution.grain_grain", "0.85"}})));
   EXPECT_FALSE(has_other_parameters(case_of({"grain_friction"})));
 }
 
 TEST(HiddenCase, AnswersSayWhatDiffers) {
-  const HiddenCase hidden = case_of({"clamp_dry_friction=force:0.02 N"}, {{"restitution.grain_wall", "0.7"}, {"soft.contact_time", "0.5 ms"}});
+  const HiddenCase hidden = case_of({"clamp_dry_friction=force:0.02 N"},
+                                    {{"restitution.grain_wall", "0.7"}, {"soft.contact_time", "0.5 ms"}});
   const nlohmann::json answer = nlohmann::json::parse(truth_json(hidden, {}, "soft", 3));
   EXPECT_EQ(answer["hidden"], nlohmann::json::parse(R"(["clamp_dry_friction"])"));
   EXPECT_EQ(answer["strengths"], nlohmann::json::parse(R"({"clamp_dry_friction.force": 0.02})"));
@@ -70,8 +79,10 @@ TEST(HiddenCase, MistakesAreNamedWithWhatToDo) {
     }
     return "nothing was wrong";
   };
-  EXPECT_NE(message([] { overrides_of_effect("grain_frictoin"); }).find("did you mean 'grain_friction'"), std::string::npos);
-  EXPECT_NE(message([] { overrides_of_effect("grain_friction=0.1"); }).find("grain_friction=grain_grain:"), std::string::npos);
+  EXPECT_NE(message([] { overrides_of_effect("grain_frictoin"); }).find("did you mean 'grain_friction'"),
+            std::string::npos);
+  EXPECT_NE(message([] { overrides_of_effect("grain_friction=0.1"); }).find("grain_friction=grain_grain:"),
+            std::string::npos);
   EXPECT_NE(message([] { overrides_of_effect("user_force"); }).find("must be given"), std::string::npos);
   const std::string both = message([] { parse_recording({"noise.box=0.2", "fsp=500"}); });
   EXPECT_NE(both.find("has no unit"), std::string::npos);
@@ -79,7 +90,8 @@ TEST(HiddenCase, MistakesAreNamedWithWhatToDo) {
 }
 
 TEST(HiddenCase, TheCamerasPropertiesAreReadWithUnits) {
-  const RecordingSettings recording = parse_recording(split_at_commas("noise.box=\"0.3 mm\", noise.centre=1mm,fps=250,missing=2%,outliers=0.05,centre=false"));
+  const RecordingSettings recording = parse_recording(split_at_commas(
+      "noise.box=\"0.3 mm\", noise.centre=1mm,fps=250,missing=2%,outliers=0.05,centre=false"));
   EXPECT_DOUBLE_EQ(recording.box_noise, 0.3e-3);
   EXPECT_DOUBLE_EQ(recording.centre_noise, 1e-3);
   EXPECT_DOUBLE_EQ(recording.frame_rate, 250);

@@ -21,10 +21,11 @@ shakedown::Setup short_damper(double seconds = 2) {
   return setup;
 }
 
-Experiment measure(const shakedown::Setup& truth, const RecordingSettings& recording, int threads = 1, std::uint64_t seed = 5,
-                   const std::vector<double>& lengths = {0.04}) {
+Experiment measure(const shakedown::Setup& truth, const RecordingSettings& recording, int threads = 1,
+                   std::uint64_t seed = 5, const std::vector<double>& lengths = {0.04}) {
   const auto engine = engine_named("hard");
-  return make_measurements(truth, runs_of_lengths(lengths), recording, {engine.get(), all_effects(), seed, threads, nullptr});
+  return make_measurements(truth, runs_of_lengths(lengths), recording,
+                           {engine.get(), all_effects(), seed, threads, nullptr});
 }
 
 RecordingSettings noiseless() {
@@ -61,7 +62,8 @@ TEST(Measurements, NoiseHasTheStatedSizeAndNoTrend) {
   EXPECT_NEAR(deviation(noisy.runs[0].x_com, still.runs[0].x_com), 0.5e-3, 0.5e-3 * 0.06);
   double product = 0;
   for (std::size_t i = 1; i < noisy.runs[0].time.size(); ++i)
-    product += (noisy.runs[0].x_box[i] - still.runs[0].x_box[i]) * (noisy.runs[0].x_box[i - 1] - still.runs[0].x_box[i - 1]);
+    product += (noisy.runs[0].x_box[i] - still.runs[0].x_box[i]) *
+               (noisy.runs[0].x_box[i - 1] - still.runs[0].x_box[i - 1]);
   EXPECT_LT(std::abs(product / (2000 * 0.04e-6)), 0.09);  // 4 standard errors of a correlation
 }
 
@@ -71,8 +73,10 @@ TEST(Measurements, MissingFramesAndJumpsComeAtTheStatedRateAndLeaveTheOthersAlon
   const Experiment clean = measure(short_damper(4), {}), worse = measure(short_damper(4), bad);
   int missing = 0, moved = 0;
   for (std::size_t i = 0; i < clean.runs[0].time.size(); ++i) {
-    if (std::isnan(worse.runs[0].x_box[i])) ++missing;
-    else if (worse.runs[0].x_box[i] != clean.runs[0].x_box[i]) ++moved;
+    if (std::isnan(worse.runs[0].x_box[i]))
+      ++missing;
+    else if (worse.runs[0].x_box[i] != clean.runs[0].x_box[i])
+      ++moved;
   }
   EXPECT_NEAR(missing, 200, 60);
   EXPECT_NEAR(moved, 90, 40);
@@ -83,7 +87,8 @@ TEST(Measurements, AnEmptyBoxAndAnUntrackedRunHaveNoCentre) {
   blind.centre = false;
   EXPECT_FALSE(measure(short_damper(), blind).runs[0].has_com());
   const auto engine = engine_named("hard");
-  const Experiment empty = make_measurements(short_damper(), {{"empty", {{"grains.count", "0"}}}}, {}, {engine.get(), all_effects(), 1, 1, nullptr});
+  const Experiment empty = make_measurements(short_damper(), {{"empty", {{"grains.count", "0"}}}}, {},
+                                             {engine.get(), all_effects(), 1, 1, nullptr});
   EXPECT_FALSE(empty.runs[0].has_com());
   EXPECT_EQ(empty.runs[0].time.size(), 1001u);
 }
@@ -92,7 +97,8 @@ TEST(Measurements, ALateClockShiftsEveryTimeAndAnEarlyOneLosesTheFirstFrames) {
   shakedown::Setup late = short_damper(), early = short_damper();
   set_number(late, "camera_time_offset.offset", 0.004, all_effects());
   set_number(early, "camera_time_offset.offset", -0.004, all_effects());
-  const Experiment given = measure(short_damper(), noiseless()), after = measure(late, noiseless()), before = measure(early, noiseless());
+  const Experiment given = measure(short_damper(), noiseless()), after = measure(late, noiseless()),
+                   before = measure(early, noiseless());
   EXPECT_NEAR(after.runs[0].time.front(), 0.004, 1e-12);
   EXPECT_EQ(after.runs[0].x_box, given.runs[0].x_box);
   EXPECT_EQ(before.runs[0].time.size(), given.runs[0].time.size() - 2);
@@ -101,7 +107,8 @@ TEST(Measurements, ALateClockShiftsEveryTimeAndAnEarlyOneLosesTheFirstFrames) {
 
 TEST(Measurements, AreTheSameForAnyNumberOfThreadsAndDifferentForAnotherSeed) {
   const std::vector<double> lengths{0.04, 0.04, 0.065};
-  const Experiment one = measure(short_damper(), {}, 1, 5, lengths), three = measure(short_damper(), {}, 3, 5, lengths);
+  const Experiment one = measure(short_damper(), {}, 1, 5, lengths),
+                   three = measure(short_damper(), {}, 3, 5, lengths);
   for (std::size_t r = 0; r < one.runs.size(); ++r) {
     EXPECT_EQ(one.runs[r].x_box, three.runs[r].x_box);
     EXPECT_EQ(one.runs[r].x_com, three.runs[r].x_com);

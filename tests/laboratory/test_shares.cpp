@@ -11,7 +11,8 @@
 using namespace shakedown;
 
 TEST(Shares, WilsonsIntervalHasItsClosedFormAndStaysWithinBounds) {
-  const Share half = share_of(5, 10);  // (p + z^2/2n +- z sqrt(p q/n + z^2/4n^2)) / (1 + z^2/n), symmetric about 1/2
+  // (p + z^2/2n +- z sqrt(p q/n + z^2/4n^2)) / (1 + z^2/n), symmetric about 1/2
+  const Share half = share_of(5, 10);
   EXPECT_NEAR(half.low, 0.2366, 1e-4);
   EXPECT_NEAR(half.high, 0.7634, 1e-4);
   EXPECT_EQ(share_of(0, 10).low, 0);
@@ -58,7 +59,8 @@ TEST(Judgement, IsThatOfSomebodyWhoKnowsTheAnswer) {
   EXPECT_FALSE(judge({}, true, Verdict::adequate, {}).named);
   EXPECT_TRUE(judge({"grain_friction"}, true, Verdict::missing, {"grain_friction"}).named);
   EXPECT_FALSE(judge({"grain_friction"}, false, Verdict::missing, {"grain_friction", "camera_scale"}).named);
-  EXPECT_TRUE(judge({"grain_friction"}, false, Verdict::missing, {"grain_friction", "camera_scale"}).invented);
+  EXPECT_TRUE(
+      judge({"grain_friction"}, false, Verdict::missing, {"grain_friction", "camera_scale"}).invented);
   EXPECT_TRUE(judge({"unknown"}, false, Verdict::unknown, {}).named);
   EXPECT_TRUE(judge({"grain_friction"}, false, Verdict::unknown, {}).detected);
   EXPECT_TRUE(judge({}, false, Verdict::missing, {"spring_cubic"}).invented);

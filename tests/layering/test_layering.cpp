@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -34,7 +35,8 @@ std::map<std::string, Folder> folders() {
   const std::set<std::string> compare = with(run, {"harness/run", "harness/measure"});
   const std::set<std::string> diagnose = with(compare, {"harness/compare"});
   const std::set<std::string> laboratory = with(diagnose, {"harness/diagnose"});
-  const std::set<std::string> report = with(laboratory, {"harness/export", "harness/sweep", "harness/fit", "harness/paper"});
+  const std::set<std::string> report =
+      with(laboratory, {"harness/export", "harness/sweep", "harness/fit", "harness/paper"});
   const std::set<std::string> json{"nlohmann/", "fmt/", "toml++/"};
   return {
       {"harness/problem", {{}, {"toml++/", "Eigen/"}, {"Eigen/"}}},
@@ -49,10 +51,12 @@ std::map<std::string, Folder> folders() {
       {"harness/fit", {diagnose, with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/diagnose", {diagnose, with(json, {"Eigen/", "sqlite3", "nlopt", "muParser"}), {"Eigen/"}}},
       {"harness/laboratory", {laboratory, json, {}}},
-      {"harness/paper", {with(laboratory, {"harness/fit", "harness/laboratory"}), with(json, {"Eigen/"}), {"Eigen/"}}},
+      {"harness/paper",
+       {with(laboratory, {"harness/fit", "harness/laboratory"}), with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/export", {diagnose, with(json, {"Eigen/"}), {"Eigen/"}}},
       {"harness/report", {report, with(json, {"Eigen/", "zlib.h"}), {"Eigen/"}}},
-      {"harness/cli", {with(report, {"harness/report", "harness/laboratory"}), with(json, {"CLI/"}), {"CLI/"}}},
+      {"harness/cli",
+       {with(report, {"harness/report", "harness/laboratory"}), with(json, {"CLI/"}), {"CLI/"}}},
   };
 }
 
@@ -113,9 +117,10 @@ bool starts_with_any(const std::string& header, const std::set<std::string>& pre
 
 /// Headers of C++ have no dot; of C and the system a few are allowed by name.
 bool is_standard(const std::string& header) {
-  static const std::set<std::string> system{"unistd.h",    "experimental/simd", "immintrin.h", "sys/wait.h",   "sys/types.h",
-                                            "sys/stat.h", "sys/mman.h", "sys/file.h", "sys/statfs.h",  "sys/ioctl.h", "sys/socket.h", "netinet/in.h",
-                                            "arpa/inet.h", "poll.h",      "fcntl.h"};
+  static const std::set<std::string> system{
+      "unistd.h",     "experimental/simd", "immintrin.h", "sys/wait.h",   "sys/types.h",
+      "sys/stat.h",   "sys/mman.h",        "sys/file.h",  "sys/statfs.h", "sys/ioctl.h",
+      "sys/socket.h", "netinet/in.h",      "arpa/inet.h", "poll.h",       "fcntl.h"};
   return header.find_first_of("./") == std::string::npos || system.contains(header);
 }
 
@@ -161,6 +166,18 @@ TEST(Layering, EveryFolderOfTheProjectIsInTheTable) {
       if (name == "tests" || name == "bench") continue;
       EXPECT_TRUE(table.contains(name)) << name;
     }
+}
+
+/// Other versions of clang-format break lines elsewhere.
+TEST(Layering, EverySourceIsFormatted) {
+  const std::string clang_format = "clang-format-14";
+  if (std::system((clang_format + " --version > /dev/null 2>&1").c_str()) != 0)
+    GTEST_SKIP() << "needs clang-format-14 (apt-get install clang-format-14)";
+  const std::string check = "cd " PROJECT_ROOT
+                            " && find hardsphere softsphere harness bench tests -name '*.[ch]pp' -print0 |"
+                            " xargs -0 " +
+                            clang_format + " --dry-run -Werror";
+  EXPECT_EQ(std::system(check.c_str()), 0) << "remedy: clang-format-14 -i on the files named above";
 }
 
 TEST(Layering, EverySourceNamesItsLicence) {

@@ -62,13 +62,15 @@ TEST(Audit, TakesOutOutliersOnly) {
   EXPECT_NEAR(audit.box.standard_deviation, 2e-4, 0.1 * 2e-4);
 }
 
-/// The second frame of each pair lies where the line through its neighbour and the frame before points, so that the two support each other.
+/// The second frame of each pair lies where the line through its neighbour and the frame before points, so
+/// that the two support each other.
 TEST(Audit, TakesOutOutliersThatSupportEachOther) {
   MeasuredRun run = recorded(500, 2e-4, 0, 3);
   const std::vector<double> right = run.x_box;
   constexpr double jump = 0.008;
   int pairs = 0;
-  for (std::size_t i = 100; i + 100 < run.x_box.size(); i += 150, ++pairs) run.x_box[i] += jump, run.x_box[i + 1] += 2 * jump;
+  for (std::size_t i = 100; i + 100 < run.x_box.size(); i += 150, ++pairs)
+    run.x_box[i] += jump, run.x_box[i + 1] += 2 * jump;
   const RunAudit audit = audit_run(run);
   int kept = 0, lost = 0;
   for (std::size_t i = 0; i < right.size(); ++i) {

@@ -20,7 +20,9 @@ class ExperimentFile : public ::testing::Test {
   void write(const std::string& name, const std::string& text) {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
-  Experiment parse(const std::string& text) { return parse_experiment(text, "experiment.toml", folder_.path()); }
+  Experiment parse(const std::string& text) {
+    return parse_experiment(text, "experiment.toml", folder_.path());
+  }
   std::string message_of(const std::string& text) {
     try {
       parse(text);

@@ -10,7 +10,12 @@
 using namespace shakedown;
 
 TEST(Chart, DrawsCurvesWithGapsAndWritesTheirNumbers) {
-  const Chart chart{"a", "A < B", {{"t, s", "x, mm", {{"one", {0, 1, 2, 3}, {0, std::nan(""), 4, 5}}, {"two", {1, 2}, {3, 3}, false, true}}, {{1.5, "here"}}}}};
+  const Chart chart{"a",
+                    "A < B",
+                    {{"t, s",
+                      "x, mm",
+                      {{"one", {0, 1, 2, 3}, {0, std::nan(""), 4, 5}}, {"two", {1, 2}, {3, 3}, false, true}},
+                      {{1.5, "here"}}}}};
   const std::string svg = svg_of(chart);
   EXPECT_NE(svg.find("A &lt; B"), std::string::npos);
   EXPECT_NE(svg.find("here"), std::string::npos);
@@ -22,7 +27,8 @@ TEST(Chart, DrawsCurvesWithGapsAndWritesTheirNumbers) {
 }
 
 TEST(Chart, NothingToDrawIsNoError) {
-  EXPECT_EQ(svg_of({"a", "empty", {{"x", "y", {}}, {"x", "y", {{"flat", {1, 1}, {2, 2}}}}}}).find("nan"), std::string::npos);
+  EXPECT_EQ(svg_of({"a", "empty", {{"x", "y", {}}, {"x", "y", {{"flat", {1, 1}, {2, 2}}}}}}).find("nan"),
+            std::string::npos);
 }
 
 TEST(Statement, IntervalsAreStudents) {
@@ -56,7 +62,8 @@ TEST(DamperRuns, ReadingsOfTheDamperThatThePaperFitted) {
 }
 
 TEST(LengthSweep, TheShortestBoxLosesItsEnergyLast) {
-  const LengthSweep sweep = sweep_lengths(*engine_named("hard"), shakedown::Setup{}, {0.025, 0.085, 0.300}, {2, 2});
+  const LengthSweep sweep =
+      sweep_lengths(*engine_named("hard"), shakedown::Setup{}, {0.025, 0.085, 0.300}, {2, 2});
   EXPECT_EQ(sweep.fastest(), 2u);
   EXPECT_EQ(sweep.points[0].censored[3] + sweep.points[0].seconds[3].n, 2);
   EXPECT_NEAR(sweep.points[1].seconds[3].mean, 3.93, 0.2);  // 3.93 +- 0.02 s of a reference code

@@ -16,7 +16,8 @@ TEST(InitialState, DefaultIsThePapersLayerOnTheOuterWall) {
 }
 
 TEST(InitialState, RunsDifferInVelocityAndRepeat) {
-  const State first = initial_state(shakedown::Setup{}, 0), second = initial_state(shakedown::Setup{}, 1), again = initial_state(shakedown::Setup{}, 1);
+  const State first = initial_state(shakedown::Setup{}, 0), second = initial_state(shakedown::Setup{}, 1),
+              again = initial_state(shakedown::Setup{}, 1);
   EXPECT_NE(first.velocity[0], second.velocity[0]);
   EXPECT_EQ(second.velocity[5], again.velocity[5]);
 }

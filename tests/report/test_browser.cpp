@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A report in headless Chromium (browser_check.mjs): one request, ready in time, every plot drawn, the grains move, both themes and widths.
+// A report in headless Chromium (browser_check.mjs): one request, ready in time, every plot drawn, the grains
+// move, both themes and widths.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -18,12 +19,15 @@ int status_of(const std::string& command) { return std::system(command.c_str()) 
 std::string what_is_missing() {
   if (!fs::exists("/usr/bin/chromium")) return "Chromium is not installed (apt-get install chromium)";
   if (status_of("node --version > /dev/null 2>&1") != 0) return "node is not installed";
-  if (!fs::exists(fs::path(BROWSER_MODULES) / "playwright-core")) return "playwright-core is not there (tests/run fetches it with npm)";
+  if (!fs::exists(fs::path(BROWSER_MODULES) / "playwright-core"))
+    return "playwright-core is not there (tests/run fetches it with npm)";
   return "";
 }
 
 int check(const fs::path& report) {
-  return status_of("BROWSER_MODULES='" BROWSER_MODULES "' node " PROJECT_ROOT "/tests/report/browser_check.mjs " + report.string());
+  return status_of("BROWSER_MODULES='" BROWSER_MODULES "' node " PROJECT_ROOT
+                   "/tests/report/browser_check.mjs " +
+                   report.string());
 }
 
 }  // namespace
@@ -32,7 +36,9 @@ TEST(SlowBrowser, ShowsARunWithItsGrains) {
   if (const std::string missing = what_is_missing(); !missing.empty()) GTEST_SKIP() << missing;
   const shakedown::ScratchFolder folder;
   const fs::path report = folder / "run.html";
-  ASSERT_EQ(status_of(SHAKEDOWN " run " PROJECT_ROOT "/harness/examples/L065.toml --report " + report.string() + " > /dev/null"), 0);
+  ASSERT_EQ(status_of(SHAKEDOWN " run " PROJECT_ROOT "/harness/examples/L065.toml --report " +
+                      report.string() + " > /dev/null"),
+            0);
   EXPECT_LT(fs::file_size(report), 1'500'000u);
   EXPECT_EQ(check(report), 0);
 }
@@ -41,10 +47,15 @@ TEST(SlowBrowser, ShowsAStudyOfFourLengthsWithAHiddenEffect) {
   if (const std::string missing = what_is_missing(); !missing.empty()) GTEST_SKIP() << missing;
   const shakedown::ScratchFolder folder;
   const fs::path study = folder / "study", report = folder / "study.html";
-  ASSERT_EQ(status_of(SHAKEDOWN " hide " PROJECT_ROOT "/harness/examples/L040.toml --effect blade_viscous_damping --lengths 40mm,65mm,85mm,104mm --engine hard "
-                      "--duration '10 s' --out " + study.string() + " > /dev/null"), 0);
-  const int rejected = status_of(SHAKEDOWN " compare " + (study / "setup.toml").string() + " --data " + (study / "experiment.toml").string() +
-                                 " --runs 32 --report " + report.string() + " > /dev/null");
+  ASSERT_EQ(
+      status_of(SHAKEDOWN " hide " PROJECT_ROOT "/harness/examples/L040.toml --effect blade_viscous_damping "
+                          "--lengths 40mm,65mm,85mm,104mm --engine hard "
+                          "--duration '10 s' --out " +
+                study.string() + " > /dev/null"),
+      0);
+  const int rejected = status_of(SHAKEDOWN " compare " + (study / "setup.toml").string() + " --data " +
+                                 (study / "experiment.toml").string() + " --runs 32 --report " +
+                                 report.string() + " > /dev/null");
   ASSERT_LE(rejected, 1);
   EXPECT_LT(fs::file_size(report), 1'500'000u);
   EXPECT_EQ(check(report), 0);
@@ -54,7 +65,10 @@ TEST(SlowBrowser, ShowsASweepWithoutGrains) {
   if (const std::string missing = what_is_missing(); !missing.empty()) GTEST_SKIP() << missing;
   const shakedown::ScratchFolder folder;
   const fs::path report = folder / "sweep.html", results = folder / "sweep.sqlite";
-  ASSERT_EQ(status_of(SHAKEDOWN " sweep " PROJECT_ROOT "/harness/examples/L040.toml --vary box.length=40:80:10mm --vary restitution.grain_grain=0.6:0.9:0.1 --set 'run.duration=3 s' --out " +
-                      results.string() + " --report " + report.string() + " > /dev/null 2>&1"), 0);
+  ASSERT_EQ(status_of(SHAKEDOWN " sweep " PROJECT_ROOT
+                                "/harness/examples/L040.toml --vary box.length=40:80:10mm --vary "
+                                "restitution.grain_grain=0.6:0.9:0.1 --set 'run.duration=3 s' --out " +
+                      results.string() + " --report " + report.string() + " > /dev/null 2>&1"),
+            0);
   EXPECT_EQ(check(report), 0);
 }

@@ -63,7 +63,8 @@ std::string inflated(const std::string& bytes) {
 TEST(Report, PageForbidsTheNetworkAndNamesNoOtherFile) {
   const std::string html = report_html(small_report());
   EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
-  for (const char* reference : {"src=\"", "src='", "url(", "@import", "href=\"http", "fetch(", "XMLHttpRequest", "WebSocket"})
+  for (const char* reference :
+       {"src=\"", "src='", "url(", "@import", "href=\"http", "fetch(", "XMLHttpRequest", "WebSocket"})
     EXPECT_EQ(html.find(reference), std::string::npos) << reference;
 }
 
@@ -122,15 +123,24 @@ TEST(Report, ThePaperIsShownWithItsFiguresAndGrains) {
   shakedown::Setup setup;
   setup.run.duration = 1;
   paper.runs.hard = {damper_runs(*engine_named("hard"), setup, {2, 1})};
-  paper.statements = {{"a", "A < B", "1", "A is below B", {exact("A", 0.5, "mm")}, Judgement::fails, "A plain remark."}};
+  paper.statements = {
+      {"a", "A < B", "1", "A is below B", {exact("A", 0.5, "mm")}, Judgement::fails, "A plain remark."}};
   const std::vector<double> time{0, 1, 2};
-  paper.charts = {{"comp1_L40", "Box", {{"t, s", "x_box, mm", {{"one", time, {1, 2, 3}}, {"line", {0, 2}, {1, 3}, true}}}}},
-                  {"optimalLSweep", "Sweep", {{"L, mm", "time, s", {{"95 %", time, {3, 2, 1}}, {"censored", {1.5}, {60}, false, true}}, {{1.2, "L_opt"}}}}}};
+  paper.charts = {{"comp1_L40",
+                   "Box",
+                   {{"t, s", "x_box, mm", {{"one", time, {1, 2, 3}}, {"line", {0, 2}, {1, 3}, true}}}}},
+                  {"optimalLSweep",
+                   "Sweep",
+                   {{"L, mm",
+                     "time, s",
+                     {{"95 %", time, {3, 2, 1}}, {"censored", {1.5}, {60}, false, true}},
+                     {{1.2, "L_opt"}}}}}};
   paper.runs.puzzle.models = {{"one", {"L065"}, {1e-3}, {2e-3}}};
   const Report report = report_of(paper);
   EXPECT_EQ(report.replays.size(), 1u);
   ASSERT_EQ(report.sections.front().plots.size(), 1u);
-  EXPECT_EQ(report.sections.front().plots[0].curves[1].y, (std::vector<double>{1, 2, 3}));  // a line between its ends
+  // a line between its ends
+  EXPECT_EQ(report.sections.front().plots[0].curves[1].y, (std::vector<double>{1, 2, 3}));
   const ReportPlot& sweep = report.sections.back().plots.front();
   ASSERT_EQ(sweep.x.size(), 4u);
   EXPECT_TRUE(std::isnan(sweep.curves[1].y[1]));

@@ -19,8 +19,7 @@ TEST(Crosscheck, AStraightLineReachesZeroExactly) {
 
 TEST(Crosscheck, TwoPointsGiveTheErrorOfTheirExtrapolation) {
   // y(0) = 2 y(1) - y(2)
-  const LineAtZero line =
-      line_at_zero(std::array{1.0, 2.0}, std::array{5.0, 7.0}, std::array{0.3, 0.4});
+  const LineAtZero line = line_at_zero(std::array{1.0, 2.0}, std::array{5.0, 7.0}, std::array{0.3, 0.4});
   EXPECT_NEAR(line.value, 3, 1e-12);
   EXPECT_NEAR(line.error, std::hypot(0.6, 0.4), 1e-12);
 }

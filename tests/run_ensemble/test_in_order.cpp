@@ -36,8 +36,10 @@ TEST(InOrder, QuickOnesDoNotWaitForASlowOne) {
   std::latch enough(10);
   std::vector<int> delivered;
   work_in_parallel_deliver_in_order(40, 2, [&](int number) {
-    if (number == 0) enough.wait();  // as slow as ten others
-    else if (number <= 10) enough.count_down();
+    if (number == 0)
+      enough.wait();  // as slow as ten others
+    else if (number <= 10)
+      enough.count_down();
     return [&, number] { delivered.push_back(number); };
   });
   ASSERT_EQ(delivered.size(), 40u);

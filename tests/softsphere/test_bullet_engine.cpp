@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What Bullet does untouched, and what its impulse solver cannot do even with the right settings: the reasons for the settings of
-// bullet_world.cpp and for engine "soft".
+// What Bullet does untouched, and what its impulse solver cannot do even with the right settings: the reasons
+// for the settings of bullet_world.cpp and for engine "soft".
 #include "bullet_engine.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ using namespace shakedown;
 namespace {
 
 /// Velocities along x of grains in a row after their impacts, in a box that is too large to matter.
-std::vector<double> row_after_impact(const std::vector<double>& x, const std::vector<double>& v, double restitution, bool defaults) {
+std::vector<double> row_after_impact(const std::vector<double>& x, const std::vector<double>& v,
+                                     double restitution, bool defaults) {
   shakedown::Setup setup;
   setup.domain = Domain::closed;
   setup.box.length = setup.box.width[0] = setup.box.width[1] = 1;
@@ -37,7 +38,8 @@ std::vector<double> row_after_impact(const std::vector<double>& x, const std::ve
   for (int step = 0; step < 100; ++step) world.step(1e-4, 0, accounts);
   world.read(bodies);
   std::vector<double> after;
-  for (std::size_t i = 0; i < x.size(); ++i) after.push_back(bodies.velocity(static_cast<Eigen::Index>(i), 0));
+  for (std::size_t i = 0; i < x.size(); ++i)
+    after.push_back(bodies.velocity(static_cast<Eigen::Index>(i), 0));
   return after;
 }
 
@@ -61,13 +63,14 @@ double end_wall_restitution(double speed, double time_step, bool defaults) {
 }  // namespace
 
 TEST(BulletEngine, DefaultWallsBounceSlowGrainsTooLittleAndFastOnesTooMuch) {
-  // A grain 0.2 mm off the wall, steps that do and do not divide its flight. Below 0.2 m/s there is no restitution, above it the
-  // correction of the overlap adds up to .2 to it.
+  // A grain 0.2 mm off the wall, steps that do and do not divide its flight. Below 0.2 m/s there is no
+  // restitution, above it the correction of the overlap adds up to .2 to it.
   for (const double step : {6e-5, 2e-5, 1.9e-5, 5e-6}) {
     EXPECT_LT(end_wall_restitution(0.1, step, true), 0.25) << step;
     EXPECT_GE(end_wall_restitution(1.0, step, true), 0.76 - 1e-9) << step;
     EXPECT_LE(end_wall_restitution(1.0, step, true), 0.965) << step;
-    for (const double speed : {0.1, 1.0}) EXPECT_NEAR(end_wall_restitution(speed, step, false), 0.76, 1e-6) << step;
+    for (const double speed : {0.1, 1.0})
+      EXPECT_NEAR(end_wall_restitution(speed, step, false), 0.76, 1e-6) << step;
   }
   EXPECT_GT(end_wall_restitution(1.0, 5e-6, true), 0.9);
 }
@@ -83,7 +86,8 @@ TEST(BulletEngine, DefaultPairsDoNotBounceBelowAFifthOfAMetrePerSecond) {
 }
 
 TEST(BulletEngine, ResolvesSimultaneousContactsWrongly) {
-  // Newton's cradle: 0 0 0 0 1 in the laboratory. Momentum and, to a per cent, energy are right, the rest is not.
+  // Newton's cradle: 0 0 0 0 1 in the laboratory. Momentum and, to a per cent, energy are right, the rest is
+  // not.
   std::vector<double> x;
   for (int i = 0; i < 5; ++i) x.push_back(i == 0 ? -0.0202 : -0.02 + 0.01 * i);
   const auto after = row_after_impact(x, {1, 0, 0, 0, 0}, 1, false);
@@ -107,8 +111,9 @@ TEST(BulletEngine, ByDefaultTheBoxFallsAsleepOffCentre) {
   EXPECT_GT(std::abs(result.x_box.back()), 0.05);
   EXPECT_GT(result.total_energy.back(), 0.3 * result.initial_energy);
   const auto& notes = result.health.notes;
-  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(),
-                          [](const std::string& note) { return note.find("fell asleep") != std::string::npos; }));
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.find("fell asleep") != std::string::npos;
+  }));
 }
 
 TEST(BulletEngine, WithItsSettingsTheBoxComesToRestAtTheCentre) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Properties of Bullet itself that softsphere/ relies on or works around. If a new Bullet fails one of these, read bullet_world.cpp
-// again before anything else.
+// Properties of Bullet itself that softsphere/ relies on or works around. If a new Bullet fails one of these,
+// read bullet_world.cpp again before anything else.
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +8,8 @@
 
 namespace {
 
-/// A world with one sphere of 5 mm radius, flying in +x from the origin, and perhaps a wall whose surface is at x = 6 mm.
+/// A world with one sphere of 5 mm radius, flying in +x from the origin, and perhaps a wall whose surface is
+/// at x = 6 mm.
 class OneSphere : public ::testing::Test {
  protected:
   btDefaultCollisionConfiguration configuration;
@@ -98,7 +99,8 @@ TEST_F(OneSphere, SeparatedSpheresKeepNoContact) {
   sphere = add(4.04e-3, ball, 0);
   wall = add(4.04e-3, ball, 0.01 + 1e-6);
   world.performDiscreteCollisionDetection();
-  ASSERT_EQ(dispatcher.getNumManifolds(), 1);  // neighbours, but the soft engine needs the gap, so it takes geometry from places
+  // neighbours, but the soft engine needs the gap, so it takes geometry from places
+  ASSERT_EQ(dispatcher.getNumManifolds(), 1);
   EXPECT_EQ(dispatcher.getManifoldByIndexInternal(0)->getNumContacts(), 0);
 }
 
@@ -111,5 +113,6 @@ TEST_F(OneSphere, ImpulsesStayInTheSolverWithoutWarmStart) {
   EXPECT_LT(speed_after(1, 1.3e-5), -0.99);
   ASSERT_GT(dispatcher.getNumManifolds(), 0);
   const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(0);
-  for (int k = 0; k < manifold.getNumContacts(); ++k) EXPECT_EQ(manifold.getContactPoint(k).m_appliedImpulse, 0);
+  for (int k = 0; k < manifold.getNumContacts(); ++k)
+    EXPECT_EQ(manifold.getContactPoint(k).m_appliedImpulse, 0);
 }

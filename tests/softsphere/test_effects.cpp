@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What acts on box and grains beside spring and plain contacts, against closed forms. Effects are written into the physics directly, so
-// these are tests of the engine, not of the effects' records.
+// What acts on box and grains beside spring and plain contacts, against closed forms. Effects are written
+// into the physics directly, so these are tests of the engine, not of the effects' records.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -78,7 +78,8 @@ double stiffness() { return mass * angular_frequency * angular_frequency; }
 
 }  // namespace
 
-// ---- the box -------------------------------------------------------------------------------------------------------------------
+// ---- the box
+// -------------------------------------------------------------------------------------------------------------------
 
 TEST_F(SoftEffects, ViscousBoxDecaysExponentially) {
   shakedown::Setup setup = empty_box({[](const EffectChoice&, int index, Physics& physics) {
@@ -87,10 +88,13 @@ TEST_F(SoftEffects, ViscousBoxDecaysExponentially) {
   }});
   setup.run.duration = 5;
   const Trajectory result = run(setup);
-  const double decay = 0.3 / (2 * mass), rate = std::sqrt(angular_frequency * angular_frequency - decay * decay);
+  const double decay = 0.3 / (2 * mass),
+               rate = std::sqrt(angular_frequency * angular_frequency - decay * decay);
   for (std::size_t k = 0; k < result.time.size(); k += 50) {
     const double t = result.time[k];
-    EXPECT_NEAR(result.x_box[k], start * std::exp(-decay * t) * (std::cos(rate * t) + decay / rate * std::sin(rate * t)), 1e-13);
+    EXPECT_NEAR(result.x_box[k],
+                start * std::exp(-decay * t) * (std::cos(rate * t) + decay / rate * std::sin(rate * t)),
+                1e-13);
   }
   EXPECT_NEAR(result.ledger.effect_loss[0] + result.total_energy.back(), result.initial_energy, 1e-14);
 }
@@ -103,7 +107,8 @@ TEST_F(SoftEffects, DryFrictionTakesTheSameFromEveryExtremumAndThenSticks) {
   setup.run.duration = 4;
   const Trajectory result = run(setup);
   const double drop = 2 * 0.3 / stiffness();
-  // Extrema at half periods; it sticks at the first one within F / k of the centre: 107.5 - 4 x 23.1 = 14.9 -> -(-8.2) ...
+  // Extrema at half periods; it sticks at the first one within F / k of the centre: 107.5 - 4 x 23.1 = 14.9
+  // -> -(-8.2) ...
   int half_periods = 0;
   double extremum = start;
   while (extremum > 0.3 / stiffness()) {
@@ -132,7 +137,9 @@ TEST_F(SoftEffects, ForcedBoxFollowsTheClosedForm) {
   const double a = start - shift - forced * std::sin(0.4), b = -forced * drive * std::cos(0.4) / w;
   for (std::size_t k = 0; k < result.time.size(); k += 50) {
     const double t = result.time[k];
-    EXPECT_NEAR(result.x_box[k], shift + forced * std::sin(drive * t + 0.4) + a * std::cos(w * t) + b * std::sin(w * t), 1e-13);
+    EXPECT_NEAR(result.x_box[k],
+                shift + forced * std::sin(drive * t + 0.4) + a * std::cos(w * t) + b * std::sin(w * t),
+                1e-13);
   }
 }
 
@@ -144,12 +151,14 @@ TEST_F(SoftEffects, CubicSpringHasDuffingsPeriod) {
   setup.run.duration = 3;
   setup.run.sample_rate = 5000;
   const Trajectory result = run(setup);
-  // Quarter period = integral of dx / v by the substitution x = A sin(s), to which the midpoint rule converges geometrically.
+  // Quarter period = integral of dx / v by the substitution x = A sin(s), to which the midpoint rule
+  // converges geometrically.
   double quarter = 0;
   constexpr int points = 60;
   for (int k = 0; k < points; ++k) {
     const double s = (k + 0.5) / points * std::numbers::pi / 2;
-    quarter += std::numbers::pi / 2 / points / (angular_frequency * std::sqrt(1 + 0.25 * (1 + std::sin(s) * std::sin(s))));
+    quarter += std::numbers::pi / 2 / points /
+               (angular_frequency * std::sqrt(1 + 0.25 * (1 + std::sin(s) * std::sin(s))));
   }
   std::size_t k = 1;
   while (result.x_box[k] > 0) ++k;
@@ -165,17 +174,19 @@ TEST_F(SoftEffects, FormulasOnTheBoxEnterTheirLine) {
   EXPECT_GT(result.ledger.effect_loss[0], 0.1 * result.initial_energy);
 }
 
-// ---- the grains ----------------------------------------------------------------------------------------------------------------
+// ---- the grains
+// ----------------------------------------------------------------------------------------------------------------
 
 TEST_F(SoftEffects, AccelerationsBendTheFlightExactly) {
-  shakedown::Setup setup = closed_cube({[](const EffectChoice&, int index, Physics& physics) {
-                                          physics.grains.constant = Vec3(0.3, 0, -0.1);
-                                          physics.grains.constant_effect = index;
-                                        },
-                                        [](const EffectChoice&, int index, Physics& physics) {
-                                          physics.grains.harmonics.push_back({Vec3(2, 1, 0), 5.0, 0.7, index});
-                                        }},
-                                       {{-0.05, 0, 0, 0.02, 0.01, 0}});
+  shakedown::Setup setup =
+      closed_cube({[](const EffectChoice&, int index, Physics& physics) {
+                     physics.grains.constant = Vec3(0.3, 0, -0.1);
+                     physics.grains.constant_effect = index;
+                   },
+                   [](const EffectChoice&, int index, Physics& physics) {
+                     physics.grains.harmonics.push_back({Vec3(2, 1, 0), 5.0, 0.7, index});
+                   }},
+                  {{-0.05, 0, 0, 0.02, 0.01, 0}});
   setup.run.duration = 0.5;
   const Trajectory result = run(setup, 1e-10);  // of a start energy that the fields multiply by a hundred
   const double w = 2 * std::numbers::pi * 5;
@@ -201,7 +212,8 @@ TEST_F(SoftEffects, DragBringsAGrainToItsTerminalVelocity) {
   const double rate = 0.08 / 4.04e-3, terminal = 2 / rate;
   for (std::size_t k = 0; k < result.time.size(); k += 20) {
     const double t = result.time[k];
-    EXPECT_NEAR(result.x_com[k], -0.09 + terminal * (t - (1 - std::exp(-rate * t)) / rate), 2e-9);  // second order in the step
+    // second order in the step
+    EXPECT_NEAR(result.x_com[k], -0.09 + terminal * (t - (1 - std::exp(-rate * t)) / rate), 2e-9);
   }
   EXPECT_GT(result.ledger.effect_loss[1], 0);
   EXPECT_LT(result.ledger.effect_loss[0], 0);
@@ -220,7 +232,8 @@ TEST_F(SoftEffects, DragInTheDamperActsOnTheBoxToo) {
 
 TEST_F(SoftEffects, FormulasOnTheGrainsEnterTheirLine) {
   shakedown::Setup setup = with({[](const EffectChoice&, int index, Physics& physics) {
-    physics.grains.free.push_back({[](double x, double v, double t) { return -0.02 * v - 0.05 * x + 1e-3 * std::sin(9 * t); }, index});
+    physics.grains.free.push_back(
+        {[](double x, double v, double t) { return -0.02 * v - 0.05 * x + 1e-3 * std::sin(9 * t); }, index});
   }});
   const Trajectory result = run(setup);
   EXPECT_NE(result.ledger.effect_loss[0], 0);
@@ -236,7 +249,8 @@ TEST_F(SoftEffects, ArcPushesGrainsAcross) {
   EXPECT_NE(result.ledger.effect_loss[0], 0);
 }
 
-// ---- contacts ------------------------------------------------------------------------------------------------------------------
+// ---- contacts
+// ------------------------------------------------------------------------------------------------------------------
 
 TEST_F(SoftEffects, SlidingBallComesToRollAtFiveSevenths) {
   shakedown::Setup setup = closed_cube({[](const EffectChoice&, int index, Physics& physics) {
@@ -248,8 +262,9 @@ TEST_F(SoftEffects, SlidingBallComesToRollAtFiveSevenths) {
   setup.run.duration = 0.25;
   const Trajectory result = run(setup);
   const std::size_t last = result.time.size() - 1;
-  const double speed = (result.x_com[last] - result.x_com[last - 25]) / (result.time[last] - result.time[last - 25]);
-  EXPECT_NEAR(speed / 0.5, 5.0 / 7, 1e-3);  // lever R - overlap
+  const double speed =
+      (result.x_com[last] - result.x_com[last - 25]) / (result.time[last] - result.time[last - 25]);
+  EXPECT_NEAR(speed / 0.5, 5.0 / 7, 1e-3);              // lever R - overlap
   const double sliding = 2.0 / 7 * 0.5 / (0.3 * 9.81);  // s
   const auto k = static_cast<std::size_t>(std::lround(0.5 * sliding * 500));
   const double t = result.time[k];
@@ -258,7 +273,9 @@ TEST_F(SoftEffects, SlidingBallComesToRollAtFiveSevenths) {
 
 TEST_F(SoftEffects, ObliqueImpactSlipsByCoulombsLaw) {
   const double normal = 0.5, across = 1.0, m = 4.04e-3;
-  shakedown::Setup setup = closed_cube({[](const EffectChoice&, int, Physics& physics) { physics.contact.friction = {0, 0, 0.1}; }},
+  shakedown::Setup setup = closed_cube({[](const EffectChoice&, int, Physics& physics) {
+                                         physics.contact.friction = {0, 0, 0.1};
+                                       }},
                                        {{0, 0, -0.0949, across, 0, -normal}});
   setup.soft.steps_per_contact = 50;
   setup.run.duration = 4e-3;
@@ -273,14 +290,17 @@ TEST_F(SoftEffects, ObliqueImpactSlipsByCoulombsLaw) {
 
 TEST_F(SoftEffects, FrictionWithoutSlidingReversesTheSlipAndLosesNothing) {
   const double normal = 0.5, across = 0.1, m = 4.04e-3;
-  shakedown::Setup setup = closed_cube({[](const EffectChoice&, int, Physics& physics) { physics.contact.friction = {0, 0, 10}; }},
+  shakedown::Setup setup = closed_cube({[](const EffectChoice&, int, Physics& physics) {
+                                         physics.contact.friction = {0, 0, 10};
+                                       }},
                                        {{0, 0, -0.0949, across, 0, -normal}});
   setup.soft.steps_per_contact = 50;
   setup.run.duration = 4e-3;
   const Trajectory result = run(setup);
   EXPECT_NEAR(result.ledger.contact_loss[2] / (m / 2 * normal * normal * (1 - 0.76 * 0.76)), 1, 5e-3);
   const std::size_t last = result.time.size() - 1;
-  const double speed = (result.x_com[last] - result.x_com[last - 1]) / (result.time[last] - result.time[last - 1]);
+  const double speed =
+      (result.x_com[last] - result.x_com[last - 1]) / (result.time[last] - result.time[last - 1]);
   // Slip u' = -u with solid spheres: v' = v - (2/7)(1 + 1) u = (3/7) v.
   EXPECT_NEAR(speed / across, 3.0 / 7, 0.02);
 }
@@ -299,12 +319,14 @@ TEST_F(SoftEffects, AttractionCapturesSlowPairs) {
     physics.contact.attraction_force = 0.1;
     physics.contact.attraction_range = 1e-4;
   };
-  // Well of 1e-5 J; a pair at speed v leaves it when mu (eps v_in)^2 / 2 > 1e-5 J, v_in^2 = v^2 + 2e-5 J / mu.
+  // Well of 1e-5 J; a pair at speed v leaves it when mu (eps v_in)^2 / 2 > 1e-5 J, v_in^2 = v^2 + 2e-5 J /
+  // mu.
   const double mu = 2.02e-3, well = 1e-5;
   const double limit = std::sqrt(2 * well / mu * (1 / (0.75 * 0.75) - 1));
   for (const double factor : {0.8, 1.2}) {
     const double v = factor * limit;
-    shakedown::Setup setup = closed_cube({attraction}, {{-0.0053, 0, 0, v / 2, 0, 0}, {0.0053, 0, 0, -v / 2, 0, 0}});
+    shakedown::Setup setup =
+        closed_cube({attraction}, {{-0.0053, 0, 0, v / 2, 0, 0}, {0.0053, 0, 0, -v / 2, 0, 0}});
     setup.run.duration = 0.1;
     const Trajectory result = run(setup);
     if (factor > 1) {
@@ -338,7 +360,9 @@ TEST_F(SoftEffects, OwnForceByOverlapKeepsTheBooks) {
       const double k = 5e7;
       return k * std::pow(overlap, 1.5) + 0.3 * std::sqrt(reduced_mass * k) * std::pow(overlap, 0.25) * rate;
     };
-    physics.contact.stored_energy = [](ContactClass, double overlap, double, double) { return 0.4 * 5e7 * std::pow(overlap, 2.5); };
+    physics.contact.stored_energy = [](ContactClass, double overlap, double, double) {
+      return 0.4 * 5e7 * std::pow(overlap, 2.5);
+    };
   };
   std::vector<double> restitution;
   for (const double v : {0.05, 0.5}) {
@@ -353,11 +377,10 @@ TEST_F(SoftEffects, OwnForceByOverlapKeepsTheBooks) {
 }
 
 TEST_F(SoftEffects, GrainsOfManySizesKeepTheBooks) {
-  const Trajectory result =
-      run(with({[](const EffectChoice&, int, Physics& physics) {
-        physics.relative_diameter_deviation = 0.05;
-        physics.packing = Packing::random;
-      }}));
+  const Trajectory result = run(with({[](const EffectChoice&, int, Physics& physics) {
+    physics.relative_diameter_deviation = 0.05;
+    physics.packing = Packing::random;
+  }}));
   EXPECT_GT(result.collisions[0], 1000);
 }
 

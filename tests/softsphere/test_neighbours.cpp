@@ -48,9 +48,11 @@ TEST(Neighbours, NeverMissAPairWhileGrainsWander) {
       Bodies bodies = bodies_of(random_cloud(120, 0.08, random), 1);
       Neighbours neighbours(bodies, range, skin);
       for (int step = 0; step < 300; ++step) {
-        for (double& coordinate : bodies.position.topRows(bodies.grains).reshaped()) coordinate += 2e-4 * random.normal();
+        for (double& coordinate : bodies.position.topRows(bodies.grains).reshaped())
+          coordinate += 2e-4 * random.normal();
         bodies.position.col(0) += 3e-4;  // all together: must not wear the list out
-        EXPECT_EQ(within_reach(bodies, neighbours.pairs(bodies)), within_reach(bodies, every_pair(bodies, range)));
+        EXPECT_EQ(within_reach(bodies, neighbours.pairs(bodies)),
+                  within_reach(bodies, every_pair(bodies, range)));
       }
       EXPECT_EQ(neighbours.searches() > 300, skin == 0);
     }

@@ -24,7 +24,8 @@ std::vector<Sample> read_samples(const std::string& file) {
   for (std::string line; std::getline(input, line);) {
     Sample sample{};
     char comma;
-    if (std::istringstream(line) >> sample.time >> comma >> sample.x_box >> comma >> sample.x_com) samples.push_back(sample);
+    if (std::istringstream(line) >> sample.time >> comma >> sample.x_box >> comma >> sample.x_com)
+      samples.push_back(sample);
   }
   return samples;
 }
@@ -32,7 +33,8 @@ std::vector<Sample> read_samples(const std::string& file) {
 shakedown::Setup setup_of_reference(int length_mm, double duration) {
   shakedown::Setup setup;
   setup.box.length = length_mm * 1e-3;
-  setup.release.initial_grains = std::string(TEST_DATA) + "/init_damper_L" + std::to_string(length_mm) + ".csv";
+  setup.release.initial_grains =
+      std::string(TEST_DATA) + "/init_damper_L" + std::to_string(length_mm) + ".csv";
   setup.soft.contact_time = 3e-4;
   setup.run.duration = duration;
   return setup;
@@ -58,7 +60,8 @@ TEST(ReferenceRuns, FollowLammpsUntilChaosSetsIn) {
     shakedown::Setup setup = setup_of_reference(40, 0.25);
     setup.soft.steps_per_contact = steps;
     const Trajectory run = make_soft_engine()->run(setup);
-    EXPECT_LE(largest_difference(run, samples, 0.05), 2e-6);  // metre; LAMMPS's own first-order restitution error
+    // metre; LAMMPS's own first-order restitution error
+    EXPECT_LE(largest_difference(run, samples, 0.05), 2e-6);
     EXPECT_LE(largest_difference(run, samples, 0.2), 5e-5);
   }
 }
@@ -76,9 +79,11 @@ TEST(SlowReferenceRuns, StayWithLammpsForTenSeconds) {
 }
 
 TEST(SlowReferenceRuns, ApproachTheHardLimitAsContactsGetShorter) {
-  // Slope of the peaks in mm/s from earlier measurements (8 seeds, +- 0.014); ours must agree within the scatter of both.
+  // Slope of the peaks in mm/s from earlier measurements (8 seeds, +- 0.014); ours must agree within the
+  // scatter of both.
   constexpr int runs = 8;
-  for (const auto& [contact_time, steps, wanted] : {std::tuple{1e-3, 50.0, -8.055}, {3e-4, 50.0, -8.14}, {1e-4, 20.0, -8.16}}) {
+  for (const auto& [contact_time, steps, wanted] :
+       {std::tuple{1e-3, 50.0, -8.055}, {3e-4, 50.0, -8.14}, {1e-4, 20.0, -8.16}}) {
     shakedown::Setup setup;
     setup.release.packing = Packing::square;
     setup.run.duration = 8.2;

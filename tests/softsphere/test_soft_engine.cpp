@@ -93,7 +93,8 @@ TEST(SoftEngine, ClosedBoxConservesEnergyOfElasticGrains) {
   EXPECT_LE(result.health.ledger_error, 1e-12);
   EXPECT_LE(result.health.momentum_error, 1e-12);
   EXPECT_GT(result.collisions[0], 100);
-  EXPECT_NEAR(result.total_energy.back() / result.initial_energy, 1, 5e-3);  // Verlet at twenty steps per contact
+  // Verlet at twenty steps per contact
+  EXPECT_NEAR(result.total_energy.back() / result.initial_energy, 1, 5e-3);
   EXPECT_EQ(result.x_box.back(), 0);
 }
 

@@ -25,7 +25,8 @@ void expect_share(const std::map<std::string, std::string>& variables, int index
 TEST(Share, WrittenCountsFromOne) {
   EXPECT_EQ(parse_share("2/8").index, 1);
   EXPECT_EQ(parse_share("2/8").of, 8);
-  for (const char* bad : {"", "2", "0/8", "9/8", "2/", "/8", "a/b", "1/0", "-1/2", "1/2/3"}) EXPECT_THROW(parse_share(bad), InputError) << bad;
+  for (const char* bad : {"", "2", "0/8", "9/8", "2/", "/8", "a/b", "1/0", "-1/2", "1/2/3"})
+    EXPECT_THROW(parse_share(bad), InputError) << bad;
 }
 
 TEST(Share, FromLaunchers) {
@@ -33,9 +34,20 @@ TEST(Share, FromLaunchers) {
   expect_share({{"OMPI_COMM_WORLD_RANK", "1"}, {"OMPI_COMM_WORLD_SIZE", "2"}}, 1, 2);
   expect_share({{"PMI_RANK", "3"}, {"PMI_SIZE", "4"}}, 3, 4);
   expect_share({{"SLURM_PROCID", "1"}, {"SLURM_NTASKS", "2"}}, 1, 2);
-  expect_share({{"SLURM_JOB_ID", "7"}, {"SLURM_STEP_ID", "0"}, {"SLURM_PROCID", "1"}, {"SLURM_STEP_NUM_TASKS", "3"}, {"SLURM_NTASKS", "8"}}, 1, 3);
-  expect_share({{"SLURM_ARRAY_TASK_ID", "14"}, {"SLURM_ARRAY_TASK_MIN", "10"}, {"SLURM_ARRAY_TASK_STEP", "2"}, {"SLURM_ARRAY_TASK_COUNT", "5"}}, 2, 5);
-  expect_share({{"SGE_TASK_ID", "3"}, {"SGE_TASK_FIRST", "1"}, {"SGE_TASK_LAST", "4"}, {"SGE_TASK_STEPSIZE", "1"}}, 2, 4);
+  expect_share({{"SLURM_JOB_ID", "7"},
+                {"SLURM_STEP_ID", "0"},
+                {"SLURM_PROCID", "1"},
+                {"SLURM_STEP_NUM_TASKS", "3"},
+                {"SLURM_NTASKS", "8"}},
+               1, 3);
+  expect_share({{"SLURM_ARRAY_TASK_ID", "14"},
+                {"SLURM_ARRAY_TASK_MIN", "10"},
+                {"SLURM_ARRAY_TASK_STEP", "2"},
+                {"SLURM_ARRAY_TASK_COUNT", "5"}},
+               2, 5);
+  expect_share(
+      {{"SGE_TASK_ID", "3"}, {"SGE_TASK_FIRST", "1"}, {"SGE_TASK_LAST", "4"}, {"SGE_TASK_STEPSIZE", "1"}}, 2,
+      4);
   expect_share({{"SGE_TASK_ID", "undefined"}, {"SGE_TASK_LAST", "undefined"}}, 0, 1);
 }
 
@@ -44,7 +56,12 @@ TEST(Share, ABatchScriptIsNoTaskOfSrun) {
 }
 
 TEST(Share, TasksWithinMembersOfAnArray) {
-  expect_share({{"SLURM_ARRAY_TASK_ID", "2"}, {"SLURM_ARRAY_TASK_MIN", "1"}, {"SLURM_ARRAY_TASK_COUNT", "3"}, {"OMPI_COMM_WORLD_RANK", "1"}, {"OMPI_COMM_WORLD_SIZE", "4"}}, 5, 12);
+  expect_share({{"SLURM_ARRAY_TASK_ID", "2"},
+                {"SLURM_ARRAY_TASK_MIN", "1"},
+                {"SLURM_ARRAY_TASK_COUNT", "3"},
+                {"OMPI_COMM_WORLD_RANK", "1"},
+                {"OMPI_COMM_WORLD_SIZE", "4"}},
+               5, 12);
 }
 
 TEST(Share, ContradictionsAreRefused) {

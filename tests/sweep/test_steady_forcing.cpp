@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The forced box without grains has closed forms: amplitude a M / sqrt((k - M w^2)^2 + (c w)^2), phase and loss factor c w / k.
+// The forced box without grains has closed forms: amplitude a M / sqrt((k - M w^2)^2 + (c w)^2), phase and
+// loss factor c w / k.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,10 +18,14 @@ using namespace shakedown;
 namespace {
 
 shakedown::Setup forced(double frequency, double damping) {
-  return parse_setup("[grains]\ncount = 0\n[release]\ndisplacement = \"1 mm\"\n[[effect]]\nname = \"oscillating_acceleration\"\n"
-                     "amplitude = [\"0.5 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\nfrequency = \"" + std::to_string(frequency) +
-                     " Hz\"\nphase = \"0.7 rad\"\n[[effect]]\nname = \"blade_viscous_damping\"\ndamping = \"" + std::to_string(damping) + " N s/m\"\n",
-                     "test", all_effects());
+  return parse_setup(
+      "[grains]\ncount = 0\n[release]\ndisplacement = \"1 mm\"\n[[effect]]\nname = "
+      "\"oscillating_acceleration\"\n"
+      "amplitude = [\"0.5 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\nfrequency = \"" +
+          std::to_string(frequency) +
+          " Hz\"\nphase = \"0.7 rad\"\n[[effect]]\nname = \"blade_viscous_damping\"\ndamping = \"" +
+          std::to_string(damping) + " N s/m\"\n",
+      "test", all_effects());
 }
 
 }  // namespace
@@ -41,15 +46,18 @@ TEST(SteadyForcing, TheForcedDampedBox) {
 }
 
 TEST(SteadyForcing, WithGrainsTheLossIsThatOfTheContacts) {
-  shakedown::Setup setup = parse_setup("[box]\nlength = \"65 mm\"\n[[effect]]\nname = \"oscillating_acceleration\"\namplitude = [\"0.3 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\nfrequency = \"1.05 Hz\"\n",
-                                       "test", all_effects());
+  shakedown::Setup setup = parse_setup(
+      "[box]\nlength = \"65 mm\"\n[[effect]]\nname = \"oscillating_acceleration\"\namplitude = [\"0.3 "
+      "m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\nfrequency = \"1.05 Hz\"\n",
+      "test", all_effects());
   setup = long_enough_for_forcing(setup);
   const Trajectory trajectory = engine_named("hard")->run(setup);
   const SteadyState steady = steady_state(setup, trajectory);
   const std::size_t from = static_cast<std::size_t>(std::lround(30 / 1.05 * 500));
   double lost = 0;
   for (const std::vector<double>& loss : trajectory.loss) lost += loss.back() - loss[from];
-  const double stored = 0.434 * std::pow(2 * std::numbers::pi * 1.23, 2) * steady.amplitude * steady.amplitude / 2;
+  const double stored =
+      0.434 * std::pow(2 * std::numbers::pi * 1.23, 2) * steady.amplitude * steady.amplitude / 2;
   EXPECT_NEAR(steady.loss_factor, lost / 10 / (2 * std::numbers::pi * stored), 0.01 * steady.loss_factor);
 }
 
@@ -62,10 +70,14 @@ TEST(SteadyForcing, OnlyOneForcingAlongTheAxisIsSteady) {
 }
 
 TEST(SteadyForcing, ARunawayAtResonanceDoesNotRattle) {
-  shakedown::Setup setup = parse_setup("[box]\nlength = \"65 mm\"\n[run]\nduration = \"12 s\"\n[[effect]]\nname = \"oscillating_acceleration\"\namplitude = [\"1 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\nfrequency = \"1.05 Hz\"\n",
-                                       "test", all_effects());
+  shakedown::Setup setup = parse_setup(
+      "[box]\nlength = \"65 mm\"\n[run]\nduration = \"12 s\"\n[[effect]]\nname = "
+      "\"oscillating_acceleration\"\namplitude = [\"1 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\nfrequency = \"1.05 "
+      "Hz\"\n",
+      "test", all_effects());
   const Trajectory trajectory = engine_named("hard")->run(setup);
-  EXPECT_LT(trajectory.events, 800'000);  // 400 000 seen; 1 280 000 with limits that know nothing of the swing
+  // 400 000 seen; 1 280 000 with limits that know nothing of the swing
+  EXPECT_LT(trajectory.events, 800'000);
   // 607.1 +- 0.5 mm with those.
   EXPECT_NEAR(-*std::min_element(trajectory.x_box.begin(), trajectory.x_box.end()), 0.6071, 3e-3);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whatever happens on the way - threads, shards, other processes, SIGKILL - the file ends up with the same results.
+// Whatever happens on the way - threads, shards, other processes, SIGKILL - the file ends up with the same
+// results.
 #include "sweep.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,9 @@ class Sweep : public testing::Test {
  protected:
   void SetUp() override {
     base.run.duration = 2;
-    plan = plan_sweep(base, parse_axes({"box.length=40:60:10 mm", "restitution.grain_grain=0.7,0.8"}, all_effects()), 3, *engine, all_effects());
+    plan = plan_sweep(
+        base, parse_axes({"box.length=40:60:10 mm", "restitution.grain_grain=0.7,0.8"}, all_effects()), 3,
+        *engine, all_effects());
   }
 
   ResultFile file(const std::string& name, ResultFile::Opening opening = ResultFile::Opening::resume) const {
@@ -35,7 +38,9 @@ class Sweep : public testing::Test {
     ResultFile results = file(name);
     return run_sweep(*engine, plan, results, options);
   }
-  std::string digest_of(const std::string& name) const { return results_digest(ResultFile(folder / name).rows()); }
+  std::string digest_of(const std::string& name) const {
+    return results_digest(ResultFile(folder / name).rows());
+  }
   std::string undisturbed() const {
     sweep("undisturbed.sqlite", {.threads = 1});
     return digest_of("undisturbed.sqlite");
@@ -90,7 +95,8 @@ TEST_F(Sweep, ThreadsDoNotMatter) {
 
 TEST_F(Sweep, ShardsMergedEqualSerial) {
   for (int i = 0; i < 3; ++i) sweep("shard" + std::to_string(i), {.threads = 1, .share = {i, 3, ""}});
-  const ResultFile merged = merge_results(folder / "merged.sqlite", {folder / "shard2", folder / "shard0", folder / "shard1", folder / "shard0"});
+  const ResultFile merged = merge_results(
+      folder / "merged.sqlite", {folder / "shard2", folder / "shard0", folder / "shard1", folder / "shard0"});
   EXPECT_EQ(results_digest(merged.rows()), undisturbed());
 }
 
@@ -127,7 +133,9 @@ TEST_F(Sweep, KilledAndResumedLosesNothingFinished) {
 
 TEST_F(Sweep, MoreRunsAndLongerRangesGoOnWithTheSameFile) {
   sweep("a.sqlite", {.threads = 1});
-  plan = plan_sweep(base, parse_axes({"box.length=40:70:10 mm", "restitution.grain_grain=0.7,0.8"}, all_effects()), 4, *engine, all_effects());
+  plan = plan_sweep(base,
+                    parse_axes({"box.length=40:70:10 mm", "restitution.grain_grain=0.7,0.8"}, all_effects()),
+                    4, *engine, all_effects());
   const SweepOutcome outcome = sweep("a.sqlite", {.threads = 1});
   EXPECT_EQ(outcome.cost.done, 18u);
   EXPECT_EQ(outcome.added, 32u - 18u);
@@ -151,7 +159,8 @@ TEST_F(Sweep, AnotherSweepIsRefused) {
   base.grains.mass *= 2;
   plan = plan_sweep(base, plan.axes, 1, *engine, all_effects());
   EXPECT_THROW(file("a.sqlite"), InputError);
-  std::ofstream(folder / "text") << "This is no database, but it is long enough to be taken for one: " << std::string(2000, 'x');
+  std::ofstream(folder / "text") << "This is no database, but it is long enough to be taken for one: "
+                                 << std::string(2000, 'x');
   EXPECT_THROW(file("text"), FileError);
   EXPECT_THROW(ResultFile(folder / "missing"), FileError);
 }
@@ -161,7 +170,8 @@ TEST_F(Sweep, FilesThatDisagreeAreNotMerged) {
   std::vector<ResultRow> rows = ResultFile(folder / "a.sqlite").rows();
   rows[5].numbers[0] += 1e-9;
   file("b.sqlite").add(rows);
-  EXPECT_THROW(merge_results(folder / "merged.sqlite", {folder / "a.sqlite", folder / "b.sqlite"}), InputError);
+  EXPECT_THROW(merge_results(folder / "merged.sqlite", {folder / "a.sqlite", folder / "b.sqlite"}),
+               InputError);
 }
 
 TEST_F(Sweep, PointsThatAreNoSetupAreNamedBeforeAnythingRuns) {
@@ -171,5 +181,7 @@ TEST_F(Sweep, PointsThatAreNoSetupAreNamedBeforeAnythingRuns) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("[at box.length = 5 mm]"), std::string::npos) << error.what();
   }
-  EXPECT_THROW(plan_sweep(base, parse_axes({"oscillating_acceleration.frequency=1,2Hz"}, all_effects()), 1, *engine, all_effects()), InputError);
+  EXPECT_THROW(plan_sweep(base, parse_axes({"oscillating_acceleration.frequency=1,2Hz"}, all_effects()), 1,
+                          *engine, all_effects()),
+               InputError);
 }

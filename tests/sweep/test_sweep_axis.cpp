@@ -36,9 +36,12 @@ TEST(SweepAxis, AUnitAtTheEndHoldsForAll) {
 }
 
 TEST(SweepAxis, EffectsDownwardRangesAndEndsThatAreNotHit) {
-  EXPECT_EQ(parse_axis("grain_friction.grain_wall=0.3:0:-0.1", all_effects()).values, (std::vector{0.3, 0.2, 0.1, 0.0}));
-  EXPECT_EQ(parse_axis("constant_acceleration.acceleration.x=0:0.25:0.1 m/s^2", all_effects()).values, (std::vector{0.0, 0.1, 0.2}));
-  EXPECT_EQ(parse_axis("constant_acceleration.acceleration.x=0,1m/s^2", all_effects()).column(), "constant_acceleration_acceleration_x_m_per_s2");
+  EXPECT_EQ(parse_axis("grain_friction.grain_wall=0.3:0:-0.1", all_effects()).values,
+            (std::vector{0.3, 0.2, 0.1, 0.0}));
+  EXPECT_EQ(parse_axis("constant_acceleration.acceleration.x=0:0.25:0.1 m/s^2", all_effects()).values,
+            (std::vector{0.0, 0.1, 0.2}));
+  EXPECT_EQ(parse_axis("constant_acceleration.acceleration.x=0,1m/s^2", all_effects()).column(),
+            "constant_acceleration_acceleration_x_m_per_s2");
 }
 
 TEST(SweepAxis, WhatIsWrongIsSaidAllAtOnce) {
@@ -53,7 +56,8 @@ TEST(SweepAxis, WhatIsWrongIsSaidAllAtOnce) {
   expect_refused({"box.length"}, "no range");
   expect_refused({"release.packing=1,2"}, "number");
   expect_refused({"box.length=1mm,2mm", "box.length=3mm,4mm"}, "varied twice");
-  expect_refused({"box.length=1mm,2mm", "grains.count=1,2", "spring.frequency=1,2Hz"}, "one or two dimensions");
+  expect_refused({"box.length=1mm,2mm", "grains.count=1,2", "spring.frequency=1,2Hz"},
+                 "one or two dimensions");
   const std::string both = refusal({"box.lenght=1mm,2mm", "grains.cuont=1,2"});
   EXPECT_NE(both.find("lenght"), std::string::npos);
   EXPECT_NE(both.find("cuont"), std::string::npos);
