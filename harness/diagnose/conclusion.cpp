@@ -75,7 +75,8 @@ void Pipeline::sort_ranking() {
 }
 
 /// Data may be of either engine's kind: the strength of an effect in which the engines differ is uncertain by
-/// that much more.
+/// that much more. Of several strengths each by what the strongest is, for what the engines differ by may be
+/// any one's.
 FittedValue Pipeline::allowing_for_engines(FittedValue value) {
   const std::string effect = effect_of(value.key);
   const auto here = std::find_if(first_boxes_.begin(), first_boxes_.end(),
@@ -83,7 +84,10 @@ FittedValue Pipeline::allowing_for_engines(FittedValue value) {
   const double relative = options_.strength_uncertainty ? options_.strength_uncertainty(effect) : 0;
   if (here == first_boxes_.end() || relative == 0) return value;
   const double absent = effect == "side_wall_restitution" ? base_.restitution.grain_wall : 0;
-  const double more = 1.96 * relative * std::abs(value.value - absent);
+  double strongest = 0;
+  for (const FittedValue& other : final_.values)
+    if (effect_of(other.key) == effect) strongest = std::max(strongest, std::abs(other.value - absent));
+  const double more = 1.96 * relative * strongest;
   value.low = std::max(here->low, value.value - std::hypot(value.value - value.low, more));
   value.high = std::min(here->high, value.value + std::hypot(value.high - value.value, more));
   const std::string note =
