@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "quantity.hpp"
+#include "setup_file.hpp"
 #include "toml_document.hpp"
 
 namespace shakedown {
@@ -76,7 +77,7 @@ void write_experiment(const std::filesystem::path& file, const Experiment& exper
       output << "frame_rate = " << toml_string(write_quantity(run.frame_rate, "Hz")) << "\n";
     if (com && !run.has_com()) output << "column.grain_centre.from = \"\"\n";
     for (const Override& override : run.overrides)
-      if (override.key != "box.length") output << override.key << " = " << override.value << "\n";
+      if (override.key != "box.length") output << override.key << " = " << toml_value(override) << "\n";
   }
   close(output, file);
 }

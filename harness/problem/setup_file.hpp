@@ -24,6 +24,9 @@ struct Override {
 /// "key=value" split at the first equals sign; throws InputError without one.
 Override parse_override(std::string_view text, const std::string& origin = "--set");
 
+/// The value as a TOML file must have it: what the command line takes bare (65mm, random) in quotes.
+std::string toml_value(const Override& override);
+
 /// Reads a setup file. `known` are the effects it may name. Throws InputError with every violation at once,
 /// FileError when the file cannot be read. Effects at their neutral value are dropped. Relative
 /// initial_grains paths count from the file's folder, those of overrides from the working folder.

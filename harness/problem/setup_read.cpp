@@ -321,6 +321,11 @@ Override parse_override(std::string_view text, const std::string& origin) {
   return {trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1)), origin};
 }
 
+std::string toml_value(const Override& override) {
+  const TomlValue value = value_of(override);
+  return value.kind == TomlValue::Kind::text ? toml_string(value.text) : override.value;
+}
+
 Setup parse_setup(std::string_view text, const std::string& name, Known known,
                   std::span<const Override> overrides, const std::filesystem::path& folder) {
   TomlValue root = parse_toml(text, name);

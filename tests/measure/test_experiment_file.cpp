@@ -146,12 +146,14 @@ TEST_F(ExperimentFile, WrittenSeriesAreReadBack) {
             "[[run]]\nfile = \"a.csv\"\nbox_length = \"40 mm\"\nrelease.displacement = \"90 mm\"\n");
   write_measured_run(folder_ / "again.csv", experiment.runs[0]);
   experiment.runs[0].name = "again";
+  experiment.runs[0].overrides.push_back(parse_override("run.duration=20s", "--run"));  // bare, as typed
   write_experiment(folder_ / "again.toml", experiment);
   const Experiment again = read_experiment(folder_ / "again.toml");
   EXPECT_EQ(again.runs[0].time.size(), experiment.runs[0].time.size());
   EXPECT_EQ(again.runs[0].x_box[1], experiment.runs[0].x_box[1]);
   EXPECT_TRUE(std::isnan(again.runs[0].x_com[4]));
-  EXPECT_EQ(again.runs[0].overrides.size(), 2u);
+  ASSERT_EQ(again.runs[0].overrides.size(), 3u);
+  EXPECT_EQ(toml_value(experiment.runs[0].overrides.back()), "\"20s\"");
   EXPECT_EQ(again.runs[0].box_uncertainty, 2e-4);
 }
 
