@@ -147,9 +147,10 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
       });
       continue;
     }
-    // Linear gains rank well enough to leave out what promises half of what another has already brought, less
-    // where none explains.
-    const double bar = std::max(0.25 * most_promised, (mended ? 0.5 : 0.25) * best_score);
+    // Linear gains rank well enough to leave out what promises half of what another has already brought,
+    // where that explains. Where none does, a rival may have taken what another would explain, and promises
+    // are low.
+    const double bar = std::max(0.25 * most_promised, mended ? 0.5 * best_score : 0.0);
     if (!always(effect) && (effect.gain < least_gain / 2 || promise(effect) < bar)) continue;
     try {
       rivals.push_back(try_candidate(effect, candidates[effect.candidate], before, fitted, best, lowest));
