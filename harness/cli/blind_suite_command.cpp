@@ -11,6 +11,7 @@
 #include "effects.hpp"
 #include "engine_differences.hpp"
 #include "engines.hpp"
+#include "ensemble_options.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
@@ -125,8 +126,7 @@ Command add_blind_suite_command(CLI::App& program) {
   command.add_option("--budget", a->budget, "simulations of one diagnosis at most")
       ->type_name("RUNS")
       ->capture_default_str();
-  command.add_option("--threads", a->threads, "0: one for each core; the answers do not depend on it")
-      ->capture_default_str();
+  add_threads_option(command, a->threads);
   add_json_option(command, a->json);
   return {&command, [a] { return blind_suite(*a); }};
 }

@@ -10,6 +10,7 @@
 #include "command.hpp"
 #include "decay_baselines.hpp"
 #include "engines.hpp"
+#include "ensemble_options.hpp"
 #include "in_order.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
@@ -94,10 +95,7 @@ void add_ensemble_options(CLI::App& command, LinearDecayArguments& arguments) {
       ->check(CLI::Range(fewest_runs, 1000000))
       ->type_name("N")
       ->capture_default_str();
-  command.add_option("--threads", arguments.threads, "threads for the runs, 0: one a core")
-      ->check(CLI::Range(0, 1024))
-      ->type_name("T")
-      ->capture_default_str();
+  add_threads_option(command, arguments.threads);
   command.add_option("--seed", arguments.seed, "seed of the random numbers")
       ->type_name("N")
       ->capture_default_str();

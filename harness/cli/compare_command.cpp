@@ -11,6 +11,7 @@
 #include "diagnosis.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
+#include "ensemble_options.hpp"
 #include "experiment_file.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
@@ -216,12 +217,8 @@ Command add_compare_command(CLI::App& program) {
   const auto arguments = std::make_shared<CompareArguments>();
   add_setup_arguments(command, arguments->setup);
   command.add_option("--data", arguments->data, "experiment file")->type_name("EXPERIMENT")->required();
-  command.add_option("--runs", arguments->runs, "simulations of each different setup")
-      ->check(CLI::Range(16, 100000))
-      ->capture_default_str();
-  command
-      .add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")
-      ->capture_default_str();
+  add_simulations_option(command, arguments->runs);
+  add_threads_option(command, arguments->threads);
   command
       .add_option("--out", arguments->out,
                   "write compare.json and what `shakedown report` needs into this folder")

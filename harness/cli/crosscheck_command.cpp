@@ -9,6 +9,7 @@
 #include "command.hpp"
 #include "crosscheck_file.hpp"
 #include "crosscheck_report.hpp"
+#include "ensemble_options.hpp"
 #include "in_order.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
@@ -155,12 +156,8 @@ void add_ensemble_options(CLI::App& command, CrosscheckArguments& arguments) {
       ->type_name("N")
       ->capture_default_str();
   arguments.options.threads = 0;
-  command
-      .add_option("--threads", arguments.options.threads,
-                  "threads for the runs, 0: one a core; only wall times depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->type_name("T")
-      ->capture_default_str();
+  add_threads_option(command, arguments.options.threads,
+                     "threads for the runs, 0: one a core; only wall times depend on it");
   command.add_option("--engines", arguments.options.engines, "engines, separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false)

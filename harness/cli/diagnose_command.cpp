@@ -14,6 +14,7 @@
 #include "effects.hpp"
 #include "engine_differences.hpp"
 #include "engines.hpp"
+#include "ensemble_options.hpp"
 #include "experiment_file.hpp"
 #include "in_order.hpp"
 #include "interruption.hpp"
@@ -169,9 +170,7 @@ Command add_diagnose_command(CLI::App& program) {
       ->capture_default_str();
   command.add_option("--seconds", arguments->seconds, "choose the budget for about this time and say which")
       ->check(CLI::PositiveNumber);
-  command
-      .add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")
-      ->capture_default_str();
+  add_threads_option(command, arguments->threads);
   add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return diagnose_data(*arguments); }};

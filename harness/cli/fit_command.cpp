@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
+#include "ensemble_options.hpp"
 #include "experiment_file.hpp"
 #include "fit_report.hpp"
 #include "free_parameters.hpp"
@@ -99,13 +100,8 @@ Command add_fit_command(CLI::App& program) {
                   "write the fitted setup, fit.json and what `shakedown report` needs into this folder")
       ->type_name("DIR");
   add_report_option(command, arguments->report);
-  command.add_option("--runs", arguments->count, "simulations of each different setup in a round")
-      ->check(CLI::Range(32, 100000))
-      ->capture_default_str();
-  command
-      .add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  add_simulations_option(command, arguments->count, 32, "simulations of each different setup in a round");
+  add_threads_option(command, arguments->threads);
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return fit(*arguments); }};
 }

@@ -9,6 +9,7 @@
 #include "effects.hpp"
 #include "engine_differences.hpp"
 #include "engines.hpp"
+#include "ensemble_options.hpp"
 #include "hidden_case.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
@@ -239,8 +240,7 @@ Command add_hide_command(CLI::App& program) {
       ->type_name("TIME");
   command.add_option("--title", a->title, "of the experiment");
   command.add_option("--seed", a->seed, "of initial states and noise")->capture_default_str();
-  command.add_option("--threads", a->threads, "0: one for each core; the measurements do not depend on it")
-      ->capture_default_str();
+  add_threads_option(command, a->threads);
   command.add_flag(
       "--power", a->power,
       "write nothing; repeat measurement and diagnosis: how often is the effect seen, how often named?");

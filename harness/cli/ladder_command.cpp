@@ -9,6 +9,7 @@
 #include "command.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
+#include "ensemble_options.hpp"
 #include "experiment_file.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
@@ -171,12 +172,8 @@ Command add_ladder_command(CLI::App& program) {
   command.add_flag(
       "--refit", arguments->refit,
       "refit both restitutions and the frequency of each, and predict each box length from the others");
-  command.add_option("--runs", arguments->runs, "simulations of each different setup")
-      ->check(CLI::Range(16, 100000))
-      ->capture_default_str();
-  command
-      .add_option("--threads", arguments->threads, "0: one for each core; the answer does not depend on it")
-      ->capture_default_str();
+  add_simulations_option(command, arguments->runs);
+  add_threads_option(command, arguments->threads);
   command
       .add_option("--out", arguments->out,
                   "write ladder.json and what `shakedown report` needs into this folder")

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "command.hpp"
+#include "ensemble_options.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
@@ -69,10 +70,7 @@ Command add_paper_command(CLI::App& program) {
       ->required()
       ->type_name("DIR");
   command.add_flag("--quick", arguments->quick, "few runs: minutes instead of a quarter of an hour");
-  command
-      .add_option("--threads", arguments->threads, "0: one for each core; the numbers do not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  add_threads_option(command, arguments->threads);
   add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return paper(*arguments); }};

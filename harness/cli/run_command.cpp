@@ -8,6 +8,7 @@
 #include "command.hpp"
 #include "engines.hpp"
 #include "ensemble.hpp"
+#include "ensemble_options.hpp"
 #include "in_order.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
@@ -124,12 +125,7 @@ Command add_run_command(CLI::App& program) {
       ->check(CLI::Range(1, 1000000))
       ->type_name("N")
       ->capture_default_str();
-  command
-      .add_option("--threads", arguments->threads,
-                  "threads for the runs, 0: one a core; the results do not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->type_name("T")
-      ->capture_default_str();
+  add_threads_option(command, arguments->threads);
   command.add_flag("--every-series", arguments->every_series,
                    "with --out: the series of every run, not only of the first");
   add_report_option(command, arguments->report);

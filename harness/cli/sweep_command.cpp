@@ -12,6 +12,7 @@
 #include "command.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
+#include "ensemble_options.hpp"
 #include "in_order.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
@@ -188,12 +189,8 @@ Command add_sweep_command(CLI::App& program) {
                   "do the i-th of n shares only; without it the launcher's environment says (mpirun, srun, "
                   "job arrays)")
       ->type_name("i/n");
-  command
-      .add_option("--threads", arguments->threads,
-                  "0: one for each core, one under a launcher; the numbers do not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->type_name("T")
-      ->capture_default_str();
+  add_threads_option(command, arguments->threads,
+                     "0: one for each core, one under a launcher; the numbers do not depend on it");
   add_presentation(command, arguments->results);
   return {&command, [arguments] { return sweep(*arguments); }};
 }

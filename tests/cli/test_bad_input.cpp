@@ -57,6 +57,9 @@ TEST_F(BadInput, Usage) {
   expect_refused({}, {"--help"}, 2);
   expect_refused({"run"}, {"SETUP"}, 2);
   expect_refused({"run", example("L040.toml"), "--runs", "0"}, {"--runs"}, 2);
+  expect_refused({"compare", example("L040.toml"), "--runs", "15"}, {"--runs", "16"}, 2);
+  for (const char* command : {"run", "compare", "diagnose", "ladder", "fit", "sweep", "paper"})
+    expect_refused({command, "--threads", "-1"}, {"--threads", "1024"}, 2);
   expect_refused({"run", example("L040.toml"), "--no-such-option"}, {"--no-such-option"}, 2);
   expect_refused({"jump"}, {"jump"}, 2);
 }
