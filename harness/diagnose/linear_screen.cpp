@@ -4,7 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
 #include "feature_covariance.hpp"
 #include "linear_model.hpp"
@@ -65,38 +65,50 @@ struct Left {
   Eigen::VectorXd residual;
 };
 
-/// Candidates with knobs, scattered together in `count` runs, judged by what the fitted parameters leave
-/// without them: of these runs, or, where they are few and what is scattered is far from linear, of others.
-Left screen_together(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
-                     const std::vector<Candidate>& candidates, const std::vector<std::size_t>& members,
-                     const Workshop& workshop, int count, int first_run, Screening& screening,
-                     const Left* without = nullptr) {
-  const auto [knobs, candidate_of, with] =
-      beside_fitted(measured, fitted, candidates, members, workshop.known);
-  const auto n_fitted = static_cast<Eigen::Index>(fitted.size());
-  const std::vector<Emulator> emulators = emulate(with, knobs, count, first_run, workshop);
-  if (screening.roots.empty()) screening.roots = roots_of(with, emulators);
-  const LinearModel linear = whitened(with, emulators, knobs.size(), screening.roots);
-  std::optional<Left> own;
-  if (without == nullptr) {
-    const Outside outside(linear.columns.leftCols(n_fitted));
-    without = &own.emplace(Left{outside, outside(residual_without(linear, knobs, fitted.size()))});
+/// Candidates with knobs, scattered together beside the fitted parameters.
+struct Scattered {
+  std::vector<Knob> knobs;  ///< the fitted parameters first
+  std::vector<std::size_t> candidate_of;
+  LinearModel linear;
+  Eigen::Index fitted = 0;
+
+  Left left() const {
+    const Outside outside(linear.columns.leftCols(fitted));
+    return {outside, outside(residual_without(linear, knobs, static_cast<std::size_t>(fitted)))};
   }
-  const auto& [outside, residual] = *without;
-  for (std::size_t k = 0; k < candidate_of.size(); ++k) {
-    const Knob& knob = knobs[fitted.size() + k];
-    const Eigen::VectorXd signature = outside(linear.columns.col(n_fitted + static_cast<Eigen::Index>(k)));
+};
+
+/// In `count` runs of each setup. Sets the metric, if none is there.
+Scattered scattered(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
+                    const std::vector<Candidate>& candidates, const std::vector<std::size_t>& members,
+                    const Workshop& workshop, int count, int first_run, Roots& roots) {
+  auto [knobs, candidate_of, with] = beside_fitted(measured, fitted, candidates, members, workshop.known);
+  const std::vector<Emulator> emulators = emulate(with, knobs, count, first_run, workshop);
+  if (roots.empty()) roots = roots_of(with, emulators);
+  LinearModel linear = whitened(with, emulators, knobs.size(), roots);
+  return {std::move(knobs), std::move(candidate_of), std::move(linear),
+          static_cast<Eigen::Index>(fitted.size())};
+}
+
+/// Each scattered candidate by what the fitted parameters leave without them: in the same runs, or, where
+/// they are few and what is scattered is far from linear, in others.
+void judge_scattered(const Scattered& s, const std::vector<Candidate>& candidates, const Left& without,
+                     Screening& screening) {
+  const auto& [outside, residual] = without;
+  for (std::size_t k = 0; k < s.candidate_of.size(); ++k) {
+    const Eigen::Index column = s.fitted + static_cast<Eigen::Index>(k);
+    const Knob& knob = s.knobs[static_cast<std::size_t>(column)];
+    const Eigen::VectorXd signature = outside(s.linear.columns.col(column));
     const double square = signature.squaredNorm(), by = square > 0 ? signature.dot(residual) / square : 0;
     const double z = knob.z_of(when_absent(knob)) + by;
     const bool allowed = by == 0 || knob.at(z) != when_absent(knob);  // a drag cannot push
-    screening.list.push_back({candidate_of[k],
-                              candidates[candidate_of[k]].effect,
+    screening.list.push_back({s.candidate_of[k],
+                              candidates[s.candidate_of[k]].effect,
                               allowed ? by * by * square : 0,
                               knob.at(z),
                               {}});
     screening.signatures.push_back(signature);
   }
-  return *without;
 }
 
 /// On or off: the model with it, beside the model without. The difference is its signature at the strength
@@ -130,24 +142,26 @@ std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured
   for (std::size_t c = 0; c < candidates.size(); ++c)
     if (!candidates[c].dear && !candidates[c].knobs.empty()) (candidates[c].slow ? slow : cheap).push_back(c);
   int batch = 0;
-  const auto next = [&] { return first_run + 5000 * batch++; };
-  const Left without =
-      screen_together(measured, fitted, candidates, cheap, workshop, count, next(), screening);
-  if (!slow.empty())
-    screen_together(measured, fitted, candidates, slow, workshop, std::max(64, count / 4), next(), screening,
-                    &without);
+  const auto together = [&](const std::vector<std::size_t>& members, int simulations) {
+    return scattered(measured, fitted, candidates, members, workshop, simulations, first_run + 5000 * batch++,
+                     screening.roots);
+  };
+  const Scattered all = together(cheap, count);
+  const Left without = all.left();
+  judge_scattered(all, candidates, without, screening);
+  if (!slow.empty()) judge_scattered(together(slow, std::max(64, count / 4)), candidates, without, screening);
   // what is dear has a strong signature
   const int few = std::max(40, count / 8), fewest = std::max(24, few / 2);
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (candidates[c].dear && candidates[c].always) {
       screening.list.push_back({c, candidates[c].effect, 0, candidates[c].knobs.front().centre, {}});
       screening.signatures.emplace_back();
-      continue;
+    } else if (candidates[c].knobs.empty()) {
+      screen_switch(measured, fitted, candidates, c, workshop, few, first_run + 5000 * batch++, without,
+                    screening);
+    } else if (candidates[c].dear) {
+      judge_scattered(together({c}, fewest), candidates, without, screening);
     }
-    if (candidates[c].dear)
-      screen_together(measured, fitted, candidates, {c}, workshop, fewest, next(), screening, &without);
-    if (!candidates[c].knobs.empty()) continue;
-    screen_switch(measured, fitted, candidates, c, workshop, few, next(), without, screening);
   }
   std::vector<ScreenedEffect>& list = screening.list;
   const std::vector<Eigen::VectorXd>& signatures = screening.signatures;
