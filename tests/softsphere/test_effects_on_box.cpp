@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// What acts on the box beside its spring, against closed forms.
+#include <cmath>
+#include <numbers>
+
+#include "soft_effects.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+const double angular_frequency = 2 * std::numbers::pi * 1.23;
+constexpr double mass = 0.434, start = 0.1075;
+
+double stiffness() { return mass * angular_frequency * angular_frequency; }
+
+}  // namespace
+
+TEST_F(SoftEffects, ViscousBoxDecaysExponentially) {
+  shakedown::Setup setup = empty_box({[](const EffectChoice&, int index, Physics& physics) {
+    physics.box.viscous = 0.3;
+    physics.box.viscous_effect = index;
+  }});
+  setup.run.duration = 5;
+  const Trajectory result = run(setup);
+  const double decay = 0.3 / (2 * mass),
+               rate = std::sqrt(angular_frequency * angular_frequency - decay * decay);
+  for (std::size_t k = 0; k < result.time.size(); k += 50) {
+    const double t = result.time[k];
+    EXPECT_NEAR(result.x_box[k],
+                start * std::exp(-decay * t) * (std::cos(rate * t) + decay / rate * std::sin(rate * t)),
+                1e-13);
+  }
+  EXPECT_NEAR(result.ledger.effect_loss[0] + result.total_energy.back(), result.initial_energy, 1e-14);
+}
+
+TEST_F(SoftEffects, DryFrictionTakesTheSameFromEveryExtremumAndThenSticks) {
+  shakedown::Setup setup = empty_box({[](const EffectChoice&, int index, Physics& physics) {
+    physics.box.dry_friction = 0.3;
+    physics.box.dry_friction_effect = index;
+  }});
+  setup.run.duration = 4;
+  const Trajectory result = run(setup);
+  const double drop = 2 * 0.3 / stiffness();
+  // Extrema at half periods; it sticks at the first one within F / k of the centre: 107.5 - 4 x 23.1 = 14.9
+  // -> -(-8.2) ...
+  int half_periods = 0;
+  double extremum = start;
+  while (extremum > 0.3 / stiffness()) {
+    extremum -= drop;
+    ++half_periods;
+  }
+  const double rest = (half_periods % 2 == 0 ? 1 : -1) * extremum;
+  EXPECT_NEAR(result.x_box.back(), rest, 1e-10);
+  EXPECT_EQ(result.v_box.back(), 0);
+  EXPECT_EQ(result.x_box.back(), result.x_box[result.x_box.size() - 100]);
+  const double rate = angular_frequency, offset = 0.3 / stiffness();
+  for (std::size_t k = 0; result.time[k] < 0.4; k += 20)
+    EXPECT_NEAR(result.x_box[k], offset + (start - offset) * std::cos(rate * result.time[k]), 1e-13);
+}
+
+TEST_F(SoftEffects, ForcedBoxFollowsTheClosedForm) {
+  shakedown::Setup setup = empty_box({[](const EffectChoice&, int index, Physics& physics) {
+    physics.box.constant = 0.2;
+    physics.box.constant_effect = index;
+    physics.box.harmonics.push_back({0.1, 2.0, 0.4, index});
+  }});
+  setup.run.duration = 3;
+  const Trajectory result = run(setup);
+  const double w = angular_frequency, drive = 2 * std::numbers::pi * 2.0;
+  const double forced = 0.1 / mass / (w * w - drive * drive), shift = 0.2 / stiffness();
+  const double a = start - shift - forced * std::sin(0.4), b = -forced * drive * std::cos(0.4) / w;
+  for (std::size_t k = 0; k < result.time.size(); k += 50) {
+    const double t = result.time[k];
+    EXPECT_NEAR(result.x_box[k],
+                shift + forced * std::sin(drive * t + 0.4) + a * std::cos(w * t) + b * std::sin(w * t),
+                1e-13);
+  }
+}
+
+TEST_F(SoftEffects, CubicSpringHasDuffingsPeriod) {
+  shakedown::Setup setup = empty_box({[](const EffectChoice&, int index, Physics& physics) {
+    physics.spring_cubic = 0.5 / (start * start);
+    physics.spring_cubic_effect = index;
+  }});
+  setup.run.duration = 3;
+  setup.run.sample_rate = 5000;
+  const Trajectory result = run(setup);
+  // Quarter period = integral of dx / v by the substitution x = A sin(s), to which the midpoint rule
+  // converges geometrically.
+  double quarter = 0;
+  constexpr int points = 60;
+  for (int k = 0; k < points; ++k) {
+    const double s = (k + 0.5) / points * std::numbers::pi / 2;
+    quarter += std::numbers::pi / 2 / points /
+               (angular_frequency * std::sqrt(1 + 0.25 * (1 + std::sin(s) * std::sin(s))));
+  }
+  std::size_t k = 1;
+  while (result.x_box[k] > 0) ++k;
+  const double share = result.x_box[k - 1] / (result.x_box[k - 1] - result.x_box[k]);
+  EXPECT_NEAR(result.time[k - 1] + share / 5000, quarter, 1e-9);
+  EXPECT_NEAR(result.total_energy.back() / result.initial_energy, 1, 1e-12);
+}
+
+TEST_F(SoftEffects, FormulasOnTheBoxEnterTheirLine) {
+  const Trajectory result = run(empty_box({[](const EffectChoice&, int index, Physics& physics) {
+    physics.box.free.push_back({[](double, double v, double) { return -0.8 * v * std::abs(v); }, index});
+  }}));
+  EXPECT_GT(result.ledger.effect_loss[0], 0.1 * result.initial_energy);
+}
