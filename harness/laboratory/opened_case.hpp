@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// One case of a blind suite: what is hidden, opened beside what the diagnosis says.
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "blind_case.hpp"
+#include "trial.hpp"
+
+namespace shakedown {
+
+/// 95 %, in the unit of the parameter's key.
+struct FoundInterval {
+  double low = 0, high = 0;
+};
+
+struct OfferedForce {
+  std::map<std::string, double> constants;
+  std::vector<std::string> forms;  ///< the formula and its look-alikes
+};
+
+struct OpenedCase {
+  std::string name;
+  BlindKind kind = BlindKind::null;
+  double signal = 0;  ///< to noise, of what is hidden
+
+  // what is hidden
+  std::vector<std::string> hidden;
+  std::string twin;   ///< the other one of a pair of twins
+  std::string setup;  ///< the truth, as a setup file
+  std::map<std::string, double>
+      strengths;  ///< truth of the keys that a diagnosis may fit, SI; of a vector key.x, and its size across
+                  ///< the axis as both key.y and key.z: which way across, a square box cannot tell
+  std::map<std::string, double> laboratory;  ///< parameters that are not what the diagnosis is told, SI
+
+  // what the diagnosis says
+  bool lost = false;  ///< nothing: it broke down
+  std::string verdict = "no answer";
+  std::vector<std::string> missing;
+  std::set<std::string> look_alikes;  ///< of what is missing, as it says itself, with what is missing
+  std::map<std::string, FoundInterval> found;  ///< fitted parameters with an interval
+  std::optional<double> p_as_given, p_of_balance;
+  std::optional<double> error_over_floor;  ///< of the box, at the last step of the ladder
+  double seconds = 0;
+  std::vector<OfferedForce> forces;
+  std::map<std::string, std::string> naive;  ///< what simpler methods answer, if they were asked
+
+  Judgement judgement;
+  std::optional<Judgement> after_more;  ///< of a twin with the runs that decide
+
+  bool exact() const { return judgement.named; }
+  bool first_suspects_family_is_right() const;
+  /// Something that is not the camera's is called missing.
+  bool names_physics() const;
+};
+
+/// Case `name` of the suite in `folder`, sealed with digest `seal`. Throws FileError; InputError when the
+/// sealed answer is not the one that was sealed.
+OpenedCase open_case(const std::filesystem::path& folder, const std::string& name, const std::string& seal);
+
+}  // namespace shakedown
