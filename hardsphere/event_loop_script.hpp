@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "event_loop.hpp"
+#include "fnv.hpp"
 
 namespace shakedown {
 
@@ -36,10 +37,8 @@ void EventLoop<Grains, Motion>::execute(const LoggedEvent& event) {
 /// FNV-1a over the bits of all flights, spins and the box.
 template <class Grains, class Motion>
 std::uint64_t EventLoop<Grains, Motion>::digest() const {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  const auto mix = [&hash](double value) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3u;
-  };
+  std::uint64_t hash = fnv_start;
+  const auto mix = [&hash](double value) { hash = fnv_step(hash, std::bit_cast<std::uint64_t>(value)); };
   for (int i = 0; i < grains_.size(); ++i) {
     const Flight3 flight = grains_.flight(i);
     for (std::size_t axis = 0; axis < 3; ++axis) mix(flight.x[axis]), mix(flight.v[axis]);

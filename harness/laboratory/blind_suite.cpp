@@ -4,10 +4,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "fnv.hpp"
 #include "naive_answers.hpp"
 #include "output_file.hpp"
 #include "provenance.hpp"
-#include "sealed.hpp"
 #include "toml_document.hpp"
 
 namespace shakedown {
@@ -159,7 +159,7 @@ class Suite {
       sealed["signal_to_noise"] = one.signal_to_noise;
       sealed["twin"] = one.twin;
       const std::string text = sealed.dump(2) + "\n";
-      digests[one.name] = digest_of_text(text);
+      digests[one.name] = hexadecimal(fnv1a(text));
       const fs::path file = folder_ / "sealed" / (one.name + ".json");
       if (!fs::exists(file)) write_file(file, text);
     }

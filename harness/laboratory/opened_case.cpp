@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "effects.hpp"
-#include "sealed.hpp"
+#include "fnv.hpp"
 #include "toml_document.hpp"
 
 namespace shakedown {
@@ -112,7 +112,7 @@ bool OpenedCase::names_physics() const {
 OpenedCase open_case(const fs::path& folder, const std::string& name, const std::string& seal) {
   const fs::path file = folder / "sealed" / (name + ".json");
   const std::string sealed = read_text_file(file);
-  if (digest_of_text(sealed) != seal)
+  if (hexadecimal(fnv1a(sealed)) != seal)
     throw InputError({{{file.string(), 0, 0},
                        "",
                        "is not the answer that was sealed (its digest differs from plan.json's)",

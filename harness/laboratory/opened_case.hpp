@@ -58,8 +58,8 @@ struct OpenedCase {
   bool names_physics() const;
 };
 
-/// Case `name` of the suite in `folder`, sealed with digest `seal`. Throws FileError; InputError when the
-/// sealed answer is not the one that was sealed.
+/// Case `name` of the suite in `folder`, sealed with digest `seal` (FNV-1a). Throws FileError; InputError
+/// when the sealed answer is not the one that was sealed.
 OpenedCase open_case(const std::filesystem::path& folder, const std::string& name, const std::string& seal);
 
 }  // namespace shakedown

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cstdint>
 #include <fstream>
 #include <iterator>
 
+#include "fnv.hpp"
 #include "quantity.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
@@ -51,18 +51,6 @@ bool left_out(const SetupKey& key, const Setup& setup) {
                      [&](const EffectChoice& choice) { return choice.record->claims == key.path; });
 }
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo).
-std::uint64_t hash_of(std::string_view text, std::uint64_t hash = 0xcbf29ce484222325u) {
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
-}
-
-std::string hexadecimal(std::uint64_t value) {
-  std::string text(16, '0');
-  for (std::size_t i = 16; i-- > 0; value >>= 4) text[i] = "0123456789abcdef"[value & 15];
-  return text;
-}
-
 }  // namespace
 
 std::string write_setup(const Setup& setup) {
@@ -86,9 +74,9 @@ std::string digest(const Setup& setup) {
   std::ifstream grains(bare.release.initial_grains, std::ios::binary);
   if (!bare.release.initial_grains.empty() && grains) {
     const std::string contents(std::istreambuf_iterator<char>(grains), {});
-    bare.release.initial_grains = "grains " + hexadecimal(hash_of(contents));
+    bare.release.initial_grains = "grains " + hexadecimal(fnv1a(contents));
   }
-  return hexadecimal(hash_of(write_setup(bare)));
+  return hexadecimal(fnv1a(write_setup(bare)));
 }
 
 }  // namespace shakedown

@@ -16,6 +16,7 @@
 #include <sstream>
 
 #include "errors.hpp"
+#include "fnv.hpp"
 #include "quantity.hpp"
 #include "run_numbers.hpp"
 #include "series_file.hpp"
@@ -257,16 +258,14 @@ std::string results_digest(const std::vector<ResultRow>& rows) {
   std::sort(order.begin(), order.end(), [](const ResultRow* a, const ResultRow* b) {
     return std::tie(a->point, a->run) < std::tie(b->point, b->run);
   });
-  std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
-  const auto add = [&](std::string_view text) {
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  };
+  std::uint64_t hash = fnv_start;
+  const auto add = [&](std::string_view text) { hash = fnv1a(text, hash); };
   for (const ResultRow* row : order) {
     add(fmt::format("{} {} {}", row->point, row->run, row->failure.empty() ? "done" : "failed"));
     for (const double number : row->numbers) add(" " + write_number(number));
     add("\n");
   }
-  return fmt::format("{:016x}", hash);
+  return hexadecimal(hash);
 }
 
 std::vector<PointSummary> summaries_of(const std::vector<ResultRow>& rows) {
