@@ -22,9 +22,11 @@
 #include "output_file.hpp"
 #include "parameter_knobs.hpp"
 #include "progress_display.hpp"
+#include "provenance.hpp"
 #include "report_output.hpp"
 #include "setup_arguments.hpp"
 #include "setup_file.hpp"
+#include "simulation_journal.hpp"
 
 namespace shakedown {
 
@@ -38,6 +40,7 @@ struct DiagnoseArguments {
   std::int64_t budget = 14000;
   double seconds = 0;
   int threads = 0;
+  bool resume = false;
 };
 
 std::vector<std::string> split_at_commas(const std::string& text) {
@@ -98,6 +101,27 @@ std::int64_t budget_for(double seconds, const Setup& setup, const Experiment& ex
       1000, static_cast<std::int64_t>(seconds * threads_or_all(threads) / each) / 1000 * 1000);
 }
 
+/// Nothing without a folder to keep it in.
+std::unique_ptr<SimulationJournal> journal_in(const OutputFolder* folder, const Experiment& experiment,
+                                              bool resume) {
+  if (folder == nullptr) {
+    if (resume)
+      throw InputError({{{"--resume", 0, 0},
+                         "",
+                         "needs the folder of the diagnosis that was interrupted",
+                         "name it with --out DIR"}});
+    return nullptr;
+  }
+  return std::make_unique<SimulationJournal>(folder->path() / "simulations.journal",
+                                             version_line() + ", experiment " + digest(experiment), resume);
+}
+
+std::string what_is_kept(const SimulationJournal* journal) {
+  return journal ? fmt::format("{} simulations are kept in {}; --resume goes on", journal->kept(),
+                               journal->file().string())
+                 : "nothing was kept; with --out DIR simulations are, and --resume goes on";
+}
+
 int diagnose_data(const DiagnoseArguments& arguments) {
   const Setup setup = arguments.setup.read();
   const Experiment experiment = read_experiment(arguments.data);
@@ -112,8 +136,9 @@ int diagnose_data(const DiagnoseArguments& arguments) {
     budget = budget_for(arguments.seconds, setup, experiment, *engine, arguments.threads);
     fmt::print(stderr, "about {:g} s: --budget {}\n", arguments.seconds, budget);
   }
+  const std::unique_ptr<SimulationJournal> journal = journal_in(folder.get(), experiment, arguments.resume);
   Diagnosis diagnosis;
-  {
+  try {
     ProgressDisplay display(fmt::format("{}: diagnosing, at most {} simulations", arguments.data, budget));
     DiagnoseOptions options{split_at_commas(arguments.effects),
                             budget,
@@ -127,13 +152,17 @@ int diagnose_data(const DiagnoseArguments& arguments) {
       display.rename(stage);
       display.show(fraction);
     };
+    options.journal = journal.get();
     diagnosis = diagnose(setup, experiment, *engine, options);
+  } catch (const Interrupted&) {
+    throw Interrupted(what_is_kept(journal.get()));
   }
   const std::string document = diagnosis_json(diagnosis);
   fmt::print(arguments.json.for_people(), "{}", diagnosis_text(diagnosis));
   if (folder) {
     folder->write("setup.toml", amended_setup(diagnosis));
     folder->write("diagnosis.json", document);
+    std::filesystem::remove(journal->file());
     fmt::print(arguments.json.for_people(), "amended setup: {}\n", (folder->path() / "setup.toml").string());
   }
   if (arguments.report.wanted(arguments.out)) {
@@ -170,6 +199,9 @@ Command add_diagnose_command(CLI::App& program) {
       ->capture_default_str();
   command.add_option("--seconds", arguments->seconds, "choose the budget for about this time and say which")
       ->check(CLI::PositiveNumber);
+  command.add_flag(
+      "--resume", arguments->resume,
+      "go on with an interrupted diagnosis in --out DIR: what was simulated is not simulated again");
   add_threads_option(command, arguments->threads);
   add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);

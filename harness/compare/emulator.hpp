@@ -15,6 +15,7 @@
 #include "ensemble_cache.hpp"
 #include "features.hpp"
 #include "method_fault.hpp"
+#include "simulation_journal.hpp"
 #include "simulation_pool.hpp"
 
 namespace shakedown {
@@ -59,6 +60,7 @@ struct Workshop {
   MethodFault fault = MethodFault::none;
   EnsembleCache* ensembles =
       nullptr;  ///< where simulations that other experiments repeat are kept; may be null
+  SimulationJournal* journal = nullptr;  ///< of this work, begun before or not; may be null
 };
 
 /// Regression of one run's features on the knobs.

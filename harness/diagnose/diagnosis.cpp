@@ -38,6 +38,7 @@ Pipeline::Pipeline(const Setup& setup, const Experiment& experiment, const Engin
       audit_(audited(experiment, options.fault)) {
   workshop_ = {&engine, options.known,           options.threads, options.stop,
                {},      &result_.runs_simulated, &pool_,          options.fault};
+  workshop_.journal = options.journal;
   workshop_.done = [this](int) {
     if (options_.progress && result_.runs_simulated % 64 == 0)
       options_.progress(stage_,

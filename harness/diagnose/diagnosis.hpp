@@ -72,7 +72,8 @@ struct DiagnoseOptions {
   /// (effects/engine_differences.hpp); null: none.
   double (*strength_uncertainty)(std::string_view effect) = nullptr;
   MethodFault fault = MethodFault::none;
-  EnsembleCache* ensembles = nullptr;  ///< shared by diagnoses of one setup; may be null
+  EnsembleCache* ensembles = nullptr;    ///< shared by diagnoses of one setup; may be null
+  SimulationJournal* journal = nullptr;  ///< of this diagnosis, begun before or not; may be null
 };
 
 /// Throws InputError when the setup does not fit the experiment, Interrupted when stopped.

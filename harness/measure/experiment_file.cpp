@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "column_reading.hpp"
+#include "fnv.hpp"
 #include "quantity.hpp"
 #include "suggestion.hpp"
 #include "toml_document.hpp"
@@ -329,6 +331,23 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
 
 Experiment read_experiment(const std::filesystem::path& file) {
   return parse_experiment(read_text_file(file), file.string(), file.parent_path());
+}
+
+std::string digest(const Experiment& experiment) {
+  std::uint64_t hash = fnv_start;
+  const auto text = [&](const std::string& part) { hash = fnv1a(part + '\n', hash); };
+  const auto number = [&](double part) { hash = fnv_step(hash, std::bit_cast<std::uint64_t>(part)); };
+  for (const MeasuredRun& run : experiment.runs) {
+    text(run.name);
+    for (const Override& one : run.overrides) text(one.key), text(one.value);
+    for (const double part : {run.box_length, run.frame_rate, run.box_uncertainty, run.com_uncertainty})
+      number(part);
+    for (const std::vector<double>* column : {&run.time, &run.x_box, &run.x_com}) {
+      number(static_cast<double>(column->size()));
+      for (const double part : *column) number(part);
+    }
+  }
+  return hexadecimal(hash);
 }
 
 Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known) {

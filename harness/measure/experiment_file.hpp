@@ -30,6 +30,9 @@ Experiment read_experiment(const std::filesystem::path& file);
 Experiment parse_experiment(std::string_view text, const std::string& name,
                             const std::filesystem::path& folder);
 
+/// A short digest of what was measured and in which setups: changes with any number.
+std::string digest(const Experiment& experiment);
+
 /// The setup of one run: the user's, with the run's own keys. Throws InputError that names the run's line for
 /// a key that does not exist or does not fit.
 Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known);

@@ -41,3 +41,35 @@ TEST_F(Interruption, KeepsFinishedRunsOfAnEnsemble) {
   EXPECT_LT(summary["runs"]["finished"], 100000);
   EXPECT_EQ(summary["initial_energy_J"]["n"], summary["runs"]["finished"]);
 }
+
+class SlowInterruption : public Interruption {};
+
+TEST_F(SlowInterruption, DiagnosisGoesOnWithWhatItHasSimulated) {
+  // Other restitutions: the model as given fails, and parameters are fitted.
+  ASSERT_EQ(shakedown_program({"hide", example("L040.toml"), "--engine", "hard", "--lengths", "40mm,65mm",
+                               "--duration", "2 s", "--set", "restitution.grain_wall=0.9", "--out",
+                               in_folder("case")})
+                .code,
+            0);
+  const std::vector<std::string> diagnosis{
+      "diagnose",  example("L040.toml"), "--data", in_folder("case/experiment.toml"),
+      "--effects", "spring_cubic",       "--json", "-"};
+  const auto with = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = diagnosis;
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const Outcome whole = shakedown_program(diagnosis);
+  EXPECT_EQ(whole.code, 1) << whole.err;
+  const Outcome cut = interrupted_program(with({"--out", in_folder("out")}), " %");
+  EXPECT_EQ(cut.code, 130) << cut.err;
+  EXPECT_NE(cut.err.find("--resume goes on"), std::string::npos) << cut.err;
+  const auto journal = folder / "out/simulations.journal";
+  EXPECT_GT(std::filesystem::file_size(journal), 1000u);
+  const Outcome resumed = shakedown_program(with({"--out", in_folder("out"), "--resume"}));
+  EXPECT_EQ(resumed.code, 1) << resumed.err;
+  EXPECT_FALSE(std::filesystem::exists(journal));
+  json a = json::parse(whole.out), b = json::parse(resumed.out);
+  a.erase("seconds"), b.erase("seconds");
+  EXPECT_EQ(a, b);
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What simulations gave, written down while long work goes on: the work can be stopped at any moment and
+// begun again, and what is in the journal is not simulated a second time. The answer is the same either way.
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shakedown {
+
+class SimulationJournal {
+ public:
+  using Features = std::vector<Eigen::VectorXd>;  ///< of one simulation, for each run that shares it
+
+  /// Begins the file, or, with `resume`, goes on in it when it is there: up to the first record that was not
+  /// written whole. `work` names program and measurements, for journals serve no other. Throws FileError;
+  /// InputError when there is a journal of other work to go on in.
+  SimulationJournal(std::filesystem::path file, const std::string& work, bool resume);
+
+  /// May be called from many threads, as keep().
+  std::optional<Features> find(const std::string& simulation) const;
+  void keep(const std::string& simulation, const Features& features);
+
+  std::int64_t kept() const;
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  void read(const std::string& title);
+
+  std::filesystem::path file_;
+  std::ofstream stream_;
+  mutable std::mutex mutex_;
+  std::map<std::uint64_t, Features> kept_;  ///< by FNV-1a of the name
+};
+
+}  // namespace shakedown
