@@ -52,7 +52,7 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
        false});
   add("grain_polydispersity", "relative_deviation", false);
   add("grain_air_drag", "linear", false);
-  list.back().dear = true;
+  list.back().slow = true;
   list.back().doubt = 10;  // air of 1 bar drags a grain some hundred times less than such data can show
   for (const char* axis : {".y", ".z"}) {
     // Across the axis both signs do the same: nothing is linear about zero, so it is looked for about a

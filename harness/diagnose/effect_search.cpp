@@ -23,6 +23,9 @@ constexpr double goes_first = 0.25, goes_first_when_dear = 0.5;
 constexpr double beyond_noise = 100;
 /// Share of the best one's gain that makes a rival one from which an experiment should tell it.
 constexpr double contends = 0.5;
+/// A rival whose fit leaves more than this p-value has mended the model: what imitates the truth often leaves
+/// a misfit that is merely not proven. (True friction leaves one too: the two engines' friction differs.)
+constexpr double mends = 0.1;
 /// Gain (chi2) of an accepted model beside which what is tried in any case need not be.
 constexpr double explains_much = 300;
 
@@ -156,9 +159,9 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
       rivals.push_back(try_candidate(effect, candidates[effect.candidate], before, fitted, best, lowest));
       lowest = std::min(lowest, rivals.back().fit.judged_chi2);
       best_score = std::max(best_score, rivals.back().score());
-      const bool noise_left = rivals.back().fit.p_value > doubtful;
-      mended = mended || noise_left;
-      explained = explained || (!always(effect) && noise_left && rivals.back().score() > explains_much);
+      const double left = rivals.back().fit.p_value;
+      mended = mended || left > (always(effect) ? doubtful : mends);
+      explained = explained || (!always(effect) && left > doubtful && rivals.back().score() > explains_much);
     } catch (const PhysicsError& error) {
       result_.notes.push_back(effect.effect + " could not be tried: " + error.what());
     }
@@ -171,6 +174,10 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
     for (Rival& rival : rivals) rival = decide(rival, best);
     std::stable_sort(rivals.begin(), rivals.end(), better);
   }
+  // Physics is not accused of what the camera explains as well: a late clock, before a push at release.
+  if (rivals.size() > 1 && alike(rivals[0], rivals[1]) && !acts_on_camera(rivals[0].effect) &&
+      acts_on_camera(rivals[1].effect))
+    std::swap(rivals[0], rivals[1]);
   base_ = before;
   return rivals;
 }
@@ -222,6 +229,19 @@ Refit Pipeline::conclude(const std::string& step, const Refit& so_far) {
   return apart;
 }
 
+/// The data do not tell the better one from the other. Lengths left out may rank what the fits do not, but
+/// their gains are too noisy to say that one of two alike is not the truth.
+bool Pipeline::alike(const Rival& better, const Rival& other) {
+  return other.gain > 0.8 * better.gain && (better.gain - other.gain < too_close ||
+                                            (other.decided && better.score() - other.score() < too_close));
+}
+
+bool Pipeline::acts_on_camera(const std::string& effect) const {
+  return std::any_of(options_.known.begin(), options_.known.end(), [&](const EffectRecord* record) {
+    return record->name == effect && record->acts_on == ActsOn::camera;
+  });
+}
+
 /// Adds an effect and fits it with full effort. False, and all as before: it neither explains nor differs
 /// from nothing, so that its gain was the emulators' noise.
 bool Pipeline::take(const Rival& winner, Refit& best) {
@@ -264,11 +284,7 @@ bool Pipeline::add_best_candidate(Refit& best) {
   runner_up_.reset();
   if (rivals.size() == 1) return true;
   const Rival& second = rivals[1];
-  // Lengths left out may rank what the fits do not, but their gains are too noisy to say that one of two
-  // alike is not the truth.
-  const bool alike = winner.gain - second.gain < too_close ||
-                     (second.decided && winner.score() - second.score() < too_close);
-  if (alike && second.gain > 0.8 * winner.gain) call_twins(winner.effect, second.effect);
+  if (alike(winner, second)) call_twins(winner.effect, second.effect);
   if (second.score() > 0 && second.gain > contends * winner.gain)
     for (const Candidate& candidate : candidates)
       if (candidate.effect == second.effect && !candidate.fitted_knobs().empty()) runner_up_ = candidate;

@@ -96,6 +96,8 @@ class Pipeline {
   std::vector<Candidate> open_candidates() const;
   std::vector<Rival> rivals_among(const std::vector<Candidate>& candidates, const Refit& best);
   bool pays(const Rival& rival, const Refit& best) const;
+  static bool alike(const Rival& better, const Rival& other);
+  bool acts_on_camera(const std::string& effect) const;
   Refit conclude(const std::string& step, const Refit& so_far);
   bool take(const Rival& winner, Refit& best);
   bool add_best_candidate(Refit& best);
