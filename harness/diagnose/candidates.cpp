@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "known_effects.hpp"
 #include "setup_file.hpp"
 
 namespace shakedown {
@@ -25,10 +26,9 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
   std::vector<Candidate> list;
   const auto add = [&](std::string_view name, std::string_view parameter, bool momentum,
                        std::string_view component = "") {
-    for (const EffectRecord* effect : known)
-      if (effect->name == name)
-        list.push_back(
-            {std::string(name), {knob_of(*effect, *effect->find(parameter), component)}, {}, momentum});
+    if (const EffectRecord* effect = find_record(known, name))
+      list.push_back(
+          {std::string(name), {knob_of(*effect, *effect->find(parameter), component)}, {}, momentum});
   };
   // The first tenth of friction does as much as the next two, and more than .25 dissipates less again (fitted
   // restitutions of frictional runs): no parabola.

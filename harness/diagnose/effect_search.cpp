@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "key_unit.hpp"
+#include "known_effects.hpp"
 #include "pipeline.hpp"
 #include "setup_keys.hpp"
 
@@ -237,9 +238,8 @@ bool Pipeline::alike(const Rival& better, const Rival& other) {
 }
 
 bool Pipeline::acts_on_camera(const std::string& effect) const {
-  return std::any_of(options_.known.begin(), options_.known.end(), [&](const EffectRecord* record) {
-    return record->name == effect && record->acts_on == ActsOn::camera;
-  });
+  const EffectRecord* record = find_record(options_.known, effect);
+  return record != nullptr && record->acts_on == ActsOn::camera;
 }
 
 /// Adds an effect and fits it with full effort. False, and all as before: it neither explains nor differs

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "effects.hpp"
+#include "known_effects.hpp"
 
 #include <array>
 
@@ -45,10 +46,6 @@ std::span<const EffectRecord* const> all_effects() {
   return effects;
 }
 
-const EffectRecord* find_effect(std::string_view name) {
-  for (const EffectRecord* effect : all_effects())
-    if (effect->name == name) return effect;
-  return nullptr;
-}
+const EffectRecord* find_effect(std::string_view name) { return find_record(all_effects(), name); }
 
 }  // namespace shakedown

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "key_unit.hpp"
+#include "known_effects.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
 
@@ -16,15 +17,6 @@ namespace {
 /// Elastic grains never come to rest; and pressed layers of very inelastic ones make endless impacts (0.1: 30
 /// times the events of 0.75), so a fit goes there only when it starts near.
 constexpr double least_restitution = 0.05, usual_restitution = 0.3, most_restitution = 0.995;
-
-const Parameter* parameter_of(std::string_view key, std::span<const EffectRecord* const> known) {
-  const std::size_t dot = key.find('.');
-  if (dot == key.npos) return nullptr;
-  const std::string_view rest = key.substr(dot + 1);
-  for (const EffectRecord* record : known)
-    if (record->name == key.substr(0, dot)) return record->find(rest.substr(0, rest.find('.')));
-  return nullptr;
-}
 
 Knob knob_of_setup_key(const SetupKey& key, double start) {
   const std::string path(key.path);
@@ -55,7 +47,7 @@ Knob knob_of(const std::string& keys, const Setup& setup, std::span<const Effect
     knob.key = keys;
     return knob;
   }
-  const Parameter& parameter = *parameter_of(first, known);
+  const Parameter& parameter = *find_parameter(known, first);
   const double width = parameter.typical > 0 ? parameter.typical : std::max(0.1 * std::abs(start), 1e-6);
   return {keys,
           start,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "key_unit.hpp"
 
+#include "known_effects.hpp"
 #include "setup_keys.hpp"
 
 namespace shakedown {
@@ -12,13 +13,8 @@ constexpr char key_joint = '&';
 std::string unit_of_key(std::string_view key, std::span<const EffectRecord* const> known) {
   key = key.substr(0, key.find(key_joint));
   if (const SetupKey* found = find_setup_key(key)) return std::string(found->unit);
-  const std::size_t dot = key.find('.');
-  if (dot == key.npos) return "";
-  const std::string_view rest = key.substr(dot + 1), parameter = rest.substr(0, rest.find('.'));
-  for (const EffectRecord* record : known)
-    if (record->name == key.substr(0, dot))
-      if (const Parameter* found = record->find(parameter)) return std::string(found->unit);
-  return "";
+  const Parameter* parameter = find_parameter(known, key);
+  return parameter ? std::string(parameter->unit) : "";
 }
 
 std::vector<std::string> joined_keys(std::string_view keys) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "known_effects.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
 #include "suggestion.hpp"
@@ -28,9 +29,7 @@ struct EffectPath {
 const EffectRecord* record_named(const Setup& setup, std::string_view name, Known known) {
   for (const EffectChoice& choice : setup.effects)
     if (choice.record->name == name) return choice.record;
-  for (const EffectRecord* record : known)
-    if (record->name == name) return record;
-  return nullptr;
+  return find_record(known, name);
 }
 
 [[noreturn]] void unknown(const Setup& setup, std::string_view key, Known known) {

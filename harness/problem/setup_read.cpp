@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "known_effects.hpp"
 #include "quantity.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
@@ -12,12 +13,6 @@ namespace shakedown {
 namespace {
 
 using Known = std::span<const EffectRecord* const>;
-
-const EffectRecord* record_of(Known known, std::string_view name) {
-  for (const EffectRecord* record : known)
-    if (record->name == name) return record;
-  return nullptr;
-}
 
 std::vector<std::string_view> names_of(Known known) {
   std::vector<std::string_view> names;
@@ -123,8 +118,8 @@ void write_override(TomlValue& root, const Override& override, Known known) {
   };
   std::string_view word = next_word();
   if (path.empty()) return set(entry_of(root, word, place), std::move(value));
-  TomlValue* table = record_of(known, word) ? &effect_table(root, word, place)
-                                            : &as_table(entry_of(root, word, place).value, place);
+  TomlValue* table = find_record(known, word) ? &effect_table(root, word, place)
+                                              : &as_table(entry_of(root, word, place).value, place);
   for (word = next_word(); !path.empty(); word = next_word()) {
     TomlEntry& deeper = entry_of(*table, word, place);
     if (TomlValue* axis = component(deeper.value, path)) {
@@ -218,7 +213,7 @@ struct Reader {
   void read_section(const TomlEntry& section) {
     const auto names = section_names();
     if (std::find(names.begin(), names.end(), section.key) == names.end()) {
-      const bool effect = record_of(known, section.key) != nullptr;
+      const bool effect = find_record(known, section.key) != nullptr;
       return add(section.place, section.key, "is not a section of a setup",
                  effect ? "write [[effect]] and name = " + toml_string(section.key)
                         : remedy_for(section.key, names, "sections"));
@@ -269,7 +264,7 @@ struct Reader {
     if (name == nullptr || name->kind != TomlValue::Kind::text)
       return add(table.place, "effect", "has no name",
                  "write name = \"...\"; `shakedown effects` lists the names");
-    const EffectRecord* record = record_of(known, name->text);
+    const EffectRecord* record = find_record(known, name->text);
     if (record == nullptr)
       return add(name->place, "effect.name", toml_string(name->text) + " is not an effect",
                  remedy_for(name->text, names_of(known), "effects"));

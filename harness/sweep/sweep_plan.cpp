@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "known_effects.hpp"
 #include "quantity.hpp"
 #include "setup_file.hpp"
 #include "steady_forcing.hpp"
@@ -24,9 +25,8 @@ std::vector<Violation> effects_that_need_more(const Setup& base, const std::vect
     if (std::any_of(base.effects.begin(), base.effects.end(),
                     [&](const EffectChoice& choice) { return choice.record->name == name; }))
       continue;
-    for (const EffectRecord* record : known)
-      for (const Parameter& parameter :
-           record->name == name ? record->parameters : std::vector<Parameter>{}) {
+    if (const EffectRecord* record = find_record(known, name))
+      for (const Parameter& parameter : record->parameters) {
         const std::string needed = name + "." + std::string(parameter.name);
         const bool varied = std::any_of(
             axes.begin(), axes.end(), [&](const SweepAxis& other) { return other.key.starts_with(needed); });
