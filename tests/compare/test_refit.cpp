@@ -4,6 +4,7 @@
 
 #include <Eigen/QR>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 
@@ -11,6 +12,7 @@
 #include "fit_round.hpp"
 #include "random.hpp"
 #include "refit.hpp"
+#include "scratch_folder.hpp"
 #include "setup_file.hpp"
 
 using namespace shakedown;
@@ -268,6 +270,47 @@ TEST(EnsembleCache, ChangesNoAnswerAndSimulatesOnce) {
   // shorter runs are the beginnings of longer ones
   EXPECT_EQ(refit(first, {}, workshop, options).chi2, alone.chi2);
   EXPECT_EQ(cache.reused(), 64);
+}
+
+class CountingEngine final : public Engine {
+ public:
+  std::string_view name() const override { return inner_.name(); }
+  Capability can_model(const EffectRecord& record) const override { return inner_.can_model(record); }
+  Trajectory run(const Setup& setup, const RunOptions& options) const override {
+    ++runs;
+    return inner_.run(setup, options);
+  }
+  mutable std::atomic<int> runs = 0;
+
+ private:
+  DampedOscillation inner_;
+};
+
+TEST(SimulationJournal, WhatItHoldsIsNotSimulatedAgainAndTheAnswerIsTheSame) {
+  const CountingEngine engine;
+  Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  RefitOptions options;
+  options.count = 48;
+  const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
+  const Refit alone = refit(measured, theta, workshop, options);
+  const int whole = engine.runs.exchange(0);
+  const ScratchFolder folder;
+  {
+    SimulationJournal journal(folder / "journal", "test", false);
+    workshop.journal = &journal;
+    emulate(measured, theta, 64, options.first_run + 10000, workshop);  // as if interrupted after a round
+    EXPECT_EQ(journal.kept(), 128);
+  }
+  engine.runs = 0;
+  SimulationJournal journal(folder / "journal", "test", true);
+  workshop.journal = &journal;
+  EXPECT_EQ(journal.kept(), 128);
+  const Refit resumed = refit(measured, theta, workshop, options);
+  EXPECT_EQ(engine.runs, whole - 128);
+  EXPECT_EQ(resumed.chi2, alone.chi2);
+  engine.runs = 0;
+  EXPECT_EQ(refit(measured, theta, workshop, options).chi2, alone.chi2);
+  EXPECT_EQ(engine.runs, 0);
 }
 
 TEST(MethodFault, AWrongSignLeadsTheFitAstray) {
