@@ -80,11 +80,6 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
   return list;
 }
 
-bool has(const Setup& setup, std::string_view effect) {
-  return std::any_of(setup.effects.begin(), setup.effects.end(),
-                     [&](const EffectChoice& choice) { return choice.record->name == effect; });
-}
-
 }  // namespace
 
 std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std::string>& only,
@@ -92,7 +87,7 @@ std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std:
   std::vector<Candidate> list = all_candidates(setup, known);
   std::erase_if(list, [&](const Candidate& candidate) {
     if (!only.empty() && std::find(only.begin(), only.end(), candidate.effect) == only.end()) return true;
-    return has(setup, candidate.effect);
+    return find_choice(setup, candidate.effect) != nullptr;
   });
   return list;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "key_unit.hpp"
+#include "known_effects.hpp"
 #include "next_experiment.hpp"
 #include "pipeline.hpp"
 #include "quantity.hpp"
@@ -37,7 +38,7 @@ void Pipeline::advise_experiments() {
                 [&](const Knob& knob) { return effect_of(knob.key) != effect_of(chosen_.back().key); });
   const RunAudit& camera = audit_.runs.front();
   std::vector<Design> designs = possible_designs(result_.amended);
-  const std::string effect = effect_of(found.front().key);
+  const std::string effect(effect_of(found.front().key));
   for (Design& design : designs)
     std::erase_if(design.setup.effects,
                   [&](const EffectChoice& choice) { return choice.record->name == runner_up_->effect; });
@@ -78,7 +79,7 @@ void Pipeline::sort_ranking() {
 /// that much more. Of several strengths each by what the strongest is, for what the engines differ by may be
 /// any one's.
 FittedValue Pipeline::allowing_for_engines(FittedValue value) {
-  const std::string effect = effect_of(value.key);
+  const std::string effect(effect_of(value.key));
   const auto here = std::find_if(first_boxes_.begin(), first_boxes_.end(),
                                  [&](const Knob& knob) { return knob.key == value.key; });
   const double relative = options_.strength_uncertainty ? options_.strength_uncertainty(effect) : 0;

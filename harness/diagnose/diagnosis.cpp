@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "known_effects.hpp"
 #include "packing_choice.hpp"
 #include "parameter_knobs.hpp"
 #include "pipeline.hpp"
@@ -13,12 +14,6 @@
 namespace shakedown {
 
 namespace {
-
-const EffectRecord* record_of(const std::string& effect, std::span<const EffectRecord* const> known) {
-  for (const EffectRecord* record : known)
-    if (record->name == effect) return record;
-  return nullptr;
-}
 
 Audit audited(const Experiment& experiment, MethodFault fault) {
   Audit found = audit(experiment);
@@ -119,7 +114,7 @@ std::vector<Knob> together(const std::vector<Knob>& a, const std::vector<Knob>& 
 }
 
 bool Pipeline::possible(const FoundTerm& term) const {
-  const EffectRecord* record = record_of(term.effect, options_.known);
+  const EffectRecord* record = find_record(options_.known, term.effect);
   const Parameter* parameter = record ? record->find(term.parameter) : nullptr;
   return parameter == nullptr || term.effect == "oscillating_acceleration" ||
          (term.value >= parameter->low && term.value <= parameter->high);
@@ -164,7 +159,7 @@ void Pipeline::add_momentum_terms() {
     }
     const std::string key = term.effect + "." + term.parameter + component;
     set_number(base_, key, term.value, options_.known);
-    const EffectRecord* record = record_of(term.effect, options_.known);
+    const EffectRecord* record = find_record(options_.known, term.effect);
     const Parameter* parameter = record ? record->find(term.parameter) : nullptr;
     if (parameter == nullptr ||
         (parameter->kind != ParameterKind::number && parameter->kind != ParameterKind::vector))

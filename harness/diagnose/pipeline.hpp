@@ -34,8 +34,6 @@ constexpr double too_close = 15;
 constexpr double quick_elastic_speed = 1e-2;  // m/s
 constexpr double quick_kick_interval = 1e-2;  // s
 
-inline std::string effect_of(const std::string& key) { return key.substr(0, key.find('.')); }
-
 /// Re-centrings at least, simulations of each different setup in a fit's last round, and at its solution;
 /// whether a poor one looks beside it.
 struct Effort {

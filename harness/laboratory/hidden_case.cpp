@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "effects.hpp"
+#include "known_effects.hpp"
 #include "quantity.hpp"
 #include "setup_keys.hpp"
 #include "suggestion.hpp"
@@ -75,12 +76,6 @@ bool differs(const SetupKey& key, const HiddenCase& hidden) {
   return toml_of(key, hidden.believed) != toml_of(key, hidden.truth);
 }
 
-const EffectChoice* find_choice(const Setup& setup, const EffectRecord* record) {
-  for (const EffectChoice& choice : setup.effects)
-    if (choice.record == record) return &choice;
-  return nullptr;
-}
-
 nlohmann::ordered_json differences(const HiddenCase& hidden, bool nuisances) {
   nlohmann::ordered_json found = nlohmann::ordered_json::object();
   for (const SetupKey& key : setup_keys()) {
@@ -98,7 +93,7 @@ nlohmann::ordered_json differences(const HiddenCase& hidden, bool nuisances) {
 nlohmann::ordered_json strengths(const HiddenCase& hidden) {
   nlohmann::ordered_json found = nlohmann::ordered_json::object();
   for (const EffectChoice& choice : hidden.truth.effects) {
-    if (const EffectChoice* same = find_choice(hidden.believed, choice.record);
+    if (const EffectChoice* same = find_choice(hidden.believed, choice.record->name);
         same != nullptr && same->values == choice.values)
       continue;
     for (const auto& [name, value] : choice.values) {
@@ -224,7 +219,7 @@ RecordingSettings parse_recording(const std::vector<std::string>& parts, const s
 std::vector<std::string> hidden_effects(const HiddenCase& hidden) {
   std::vector<std::string> names;
   for (const EffectChoice& choice : hidden.truth.effects) {
-    const EffectChoice* same = find_choice(hidden.believed, choice.record);
+    const EffectChoice* same = find_choice(hidden.believed, choice.record->name);
     if (same != nullptr && same->values == choice.values) continue;
     if (choice.record->name == "user_force") return {"unknown"};
     if (choice.record->name != "initial_packing") names.emplace_back(choice.record->name);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Records among those that a caller knows: libraries below the catalogue of effects are handed them.
+// Effects by name: records among those that a caller knows (libraries below the catalogue of effects are
+// handed them), and what a setup has chosen of them.
 #pragma once
 #include <span>
 #include <string_view>
 
 #include "effect.hpp"
+#include "setup.hpp"
 
 namespace shakedown {
 
@@ -14,6 +16,16 @@ inline const EffectRecord* find_record(std::span<const EffectRecord* const> know
     if (record->name == name) return record;
   return nullptr;
 }
+
+/// The setup's choice of this effect; null: it has none. It lives as long as the setup's list is not changed.
+inline const EffectChoice* find_choice(const Setup& setup, std::string_view name) {
+  for (const EffectChoice& choice : setup.effects)
+    if (choice.record->name == name) return &choice;
+  return nullptr;
+}
+
+/// The effect whose parameter a key names: what stands before its first dot.
+inline std::string_view effect_of(std::string_view key) { return key.substr(0, key.find('.')); }
 
 /// The parameter at "effect.parameter" or "effect.parameter.component"; null: there is none.
 inline const Parameter* find_parameter(std::span<const EffectRecord* const> known, std::string_view key) {

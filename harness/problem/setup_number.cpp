@@ -27,9 +27,8 @@ struct EffectPath {
 };
 
 const EffectRecord* record_named(const Setup& setup, std::string_view name, Known known) {
-  for (const EffectChoice& choice : setup.effects)
-    if (choice.record->name == name) return choice.record;
-  return find_record(known, name);
+  const EffectChoice* choice = find_choice(setup, name);
+  return choice ? choice->record : find_record(known, name);
 }
 
 [[noreturn]] void unknown(const Setup& setup, std::string_view key, Known known) {

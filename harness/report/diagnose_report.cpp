@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "effects.hpp"
+#include "known_effects.hpp"
 #include "page_figures.hpp"
 #include "report_parts.hpp"
 #include "setup_file.hpp"
@@ -140,11 +141,7 @@ ReportSection suspects_section(const Diagnosis& diagnosis) {
 
 /// An effect that the setup does not have has no value there.
 double value_in(const Setup& setup, const std::string& key) {
-  const std::string section = key.substr(0, key.find('.'));
-  const bool known = find_setup_key(key) != nullptr ||
-                     std::any_of(setup.effects.begin(), setup.effects.end(),
-                                 [&](const EffectChoice& choice) { return choice.record->name == section; });
-  if (!known) return std::nan("");
+  if (find_setup_key(key) == nullptr && find_choice(setup, effect_of(key)) == nullptr) return std::nan("");
   try {
     return get_number(setup, key, all_effects());
   } catch (const InputError&) {

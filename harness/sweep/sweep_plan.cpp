@@ -21,10 +21,8 @@ std::vector<Violation> effects_that_need_more(const Setup& base, const std::vect
                                               std::span<const EffectRecord* const> known) {
   std::vector<Violation> found;
   for (const SweepAxis& axis : axes) {
-    const std::string name = axis.key.substr(0, axis.key.find('.'));
-    if (std::any_of(base.effects.begin(), base.effects.end(),
-                    [&](const EffectChoice& choice) { return choice.record->name == name; }))
-      continue;
+    const std::string name(effect_of(axis.key));
+    if (find_choice(base, name)) continue;
     if (const EffectRecord* record = find_record(known, name))
       for (const Parameter& parameter : record->parameters) {
         const std::string needed = name + "." + std::string(parameter.name);
