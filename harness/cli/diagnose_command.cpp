@@ -37,7 +37,7 @@ struct DiagnoseArguments {
   JsonOutput json;
   ReportOutput report;
   std::string data, out, effects, fixed;
-  std::int64_t budget = 14000;
+  std::int64_t budget = 0;
   double seconds = 0;
   int threads = 0;
   bool resume = false;
@@ -131,7 +131,8 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   std::unique_ptr<OutputFolder> folder;
   if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
   const std::unique_ptr<Engine> engine = engine_named("hard");
-  std::int64_t budget = arguments.budget;
+  std::int64_t budget =
+      arguments.budget > 0 ? arguments.budget : usual_budget(setup, experiment, all_effects());
   if (arguments.seconds > 0) {
     budget = budget_for(arguments.seconds, setup, experiment, *engine, arguments.threads);
     fmt::print(stderr, "about {:g} s: --budget {}\n", arguments.seconds, budget);
@@ -194,9 +195,12 @@ Command add_diagnose_command(CLI::App& program) {
                   "not refitted, because known otherwise: restitution.grain_grain, restitution.grain_wall, "
                   "spring.frequency")
       ->type_name("KEY,KEY,...");
-  command.add_option("--budget", arguments->budget, "simulations at most")
-      ->type_name("RUNS")
-      ->capture_default_str();
+  command
+      .add_option(
+          "--budget", arguments->budget,
+          "simulations at most; default: 3500 for each different setup among the runs, for four at least")
+      ->check(CLI::PositiveNumber)
+      ->type_name("RUNS");
   command.add_option("--seconds", arguments->seconds, "choose the budget for about this time and say which")
       ->check(CLI::PositiveNumber);
   command.add_flag(

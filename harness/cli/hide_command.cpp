@@ -30,7 +30,7 @@ struct HideArguments {
   int threads = 0;
   bool power = false;
   int repeats = 20;
-  std::int64_t budget = 14000;
+  std::int64_t budget = 0;
   JsonOutput json;
 };
 
@@ -247,9 +247,11 @@ Command add_hide_command(CLI::App& program) {
   command.add_option("--repeats", a->repeats, "with --power")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command.add_option("--budget", a->budget, "with --power: simulations of one diagnosis at most")
-      ->type_name("RUNS")
-      ->capture_default_str();
+  command
+      .add_option("--budget", a->budget,
+                  "with --power: simulations of one diagnosis at most; default: as `shakedown diagnose`")
+      ->check(CLI::PositiveNumber)
+      ->type_name("RUNS");
   add_json_option(command, a->json);
   return {&command, [a] { return hide_or_measure_power(*a); }};
 }

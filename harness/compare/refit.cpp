@@ -124,6 +124,12 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
     set_value(knobs[k], knobs[k].at(minimum.z[i]), value);
     result.values.push_back(value);
   }
+  result.covariance = covariance;
+  for (std::size_t k = 0; k < knobs.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    result.covariance.row(i) *= knobs[k].width;
+    result.covariance.col(i) *= knobs[k].width;
+  }
   if (!knobs.empty()) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(covariance);  // in units of the box
     const Eigen::Index least = covariance.rows() - 1;

@@ -37,6 +37,7 @@ struct Refit {
   std::vector<Eigen::MatrixXd>
       covariances;  ///< m^2, of each measured run's features: chaos, camera noise and model error
   std::vector<FittedValue> values;
+  Eigen::MatrixXd covariance;  ///< of the values, in their units
   double chi2 = 0, degrees = 0;
   double p_value = 1;  ///< share of pseudo-experiments that, refitted, fit no better
   double scatter = 1;  ///< chi2 over the median of the pseudo-experiments'

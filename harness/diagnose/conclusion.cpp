@@ -31,22 +31,19 @@ void Pipeline::advise_experiments() {
           value.key + " +- " + write_number(std::round(value.error * 1e3) / 1e3) + ")");
       break;
     }
-  if (result_.verdict != Verdict::missing || !runner_up_ || chosen_.empty()) return;
+  if (result_.verdict != Verdict::missing || !runner_up_ ||
+      std::find(result_.missing.begin(), result_.missing.end(), runner_up_->added) == result_.missing.end())
+    return;
   stage_ = "which experiment would decide";
-  std::vector<Knob> found = chosen_;
-  std::erase_if(found,
-                [&](const Knob& knob) { return effect_of(knob.key) != effect_of(chosen_.back().key); });
+  FittedModel found = fitted_model(result_.amended, final_);
+  found.setup.hard = base_.hard;
   const RunAudit& camera = audit_.runs.front();
-  std::vector<Design> designs = possible_designs(result_.amended);
-  const std::string effect(effect_of(found.front().key));
-  for (Design& design : designs)
-    std::erase_if(design.setup.effects,
-                  [&](const EffectChoice& choice) { return choice.record->name == runner_up_->effect; });
-  const int count = dear_ ? 48 : 96;
-  for (const Advice& advice : advise(designs, theta_, found, *runner_up_, camera.box.standard_deviation,
+  const std::vector<Design> designs = possible_designs(result_.amended, features());
+  const int count = dear_ ? 32 : 64;
+  for (const Advice& advice : advise(designs, found, runner_up_->setup, camera.box.standard_deviation,
                                      camera.com.standard_deviation, workshop_, count, 100000 * ++batch_))
     if (list.size() < 4 && advice.sigmas > 1)
-      list.push_back(advice.words + ": tells " + effect + " from " + runner_up_->effect + " at " +
+      list.push_back(advice.words + ": tells " + runner_up_->added + " from " + runner_up_->effect + " at " +
                      write_number(std::round(advice.sigmas * 10) / 10) + " sigma a run");
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include "known_effects.hpp"
 #include "packing_choice.hpp"
@@ -30,14 +31,14 @@ Pipeline::Pipeline(const Setup& setup, const Experiment& experiment, const Engin
       base_(setup),
       experiment_(experiment),
       options_(options),
+      budget_(options.budget > 0 ? options.budget : usual_budget(setup, experiment, options.known)),
       audit_(audited(experiment, options.fault)) {
   workshop_ = {&engine, options.known,           options.threads, options.stop,
                {},      &result_.runs_simulated, &pool_,          options.fault};
   workshop_.journal = options.journal;
   workshop_.done = [this](int) {
     if (options_.progress && result_.runs_simulated % 64 == 0)
-      options_.progress(stage_,
-                        static_cast<double>(result_.runs_simulated) / static_cast<double>(options_.budget));
+      options_.progress(stage_, static_cast<double>(result_.runs_simulated) / static_cast<double>(budget_));
   };
 }
 
@@ -256,6 +257,16 @@ std::string_view name_of(Verdict verdict) {
     case Verdict::unknown: return "unknown";
   }
   return "";
+}
+
+std::int64_t usual_budget(const Setup& setup, const Experiment& experiment,
+                          std::span<const EffectRecord* const> known) {
+  std::set<std::string> different;
+  for (Setup& of_run : setups_of_runs(setup, experiment, known)) {
+    of_run.run.duration = 1;  // repeats that end at different times share simulations
+    different.insert(digest(of_run));
+  }
+  return 3500 * std::max<std::int64_t>(4, std::ssize(different));
 }
 
 Diagnosis diagnose(const Setup& setup, const Experiment& experiment, const Engine& engine,

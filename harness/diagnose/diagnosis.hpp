@@ -60,7 +60,7 @@ struct Diagnosis {
 
 struct DiagnoseOptions {
   std::vector<std::string> effects;  ///< only these may be added; empty: all
-  std::int64_t budget = 14000;       ///< simulations at most
+  std::int64_t budget = 0;           ///< simulations at most; 0: usual_budget()
   int threads = 0;
   std::span<const EffectRecord* const> known;
   const std::atomic<bool>* stop = nullptr;
@@ -75,6 +75,11 @@ struct DiagnoseOptions {
   EnsembleCache* ensembles = nullptr;    ///< shared by diagnoses of one setup; may be null
   SimulationJournal* journal = nullptr;  ///< of this diagnosis, begun before or not; may be null
 };
+
+/// Simulations that a diagnosis may make unless told otherwise: 3500 for each different setup among the runs,
+/// for four at least.
+std::int64_t usual_budget(const Setup& setup, const Experiment& experiment,
+                          std::span<const EffectRecord* const> known);
 
 /// Throws InputError when the setup does not fit the experiment, Interrupted when stopped.
 Diagnosis diagnose(const Setup& setup, const Experiment& experiment, const Engine& engine,

@@ -6,6 +6,7 @@
 
 #include "key_unit.hpp"
 #include "known_effects.hpp"
+#include "next_experiment.hpp"
 #include "pipeline.hpp"
 #include "setup_keys.hpp"
 
@@ -130,18 +131,20 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   std::stable_partition(screened.begin(), screened.end(), always);
   const auto others = std::find_if_not(screened.begin(), screened.end(), always);
   const double most_promised = others == screened.end() ? 0 : promise(*others);
-  // What promises to explain a good part of the misfit goes first: it may make closer looks at the others
-  // needless.
+  // What promises to explain a good part of the misfit goes first, with what contends with it: closer looks
+  // at the others may be needless.
   const double share =
       others != screened.end() && candidates[others->candidate].dear ? goes_first_when_dear : goes_first;
-  if (most_promised > std::max(2 * least_gain, share * (best.judged_chi2 - best.degrees)))
-    std::rotate(screened.begin(), others, others + 1);
+  if (most_promised > std::max(2 * least_gain, share * (best.judged_chi2 - best.degrees))) {
+    const bool second = others + 1 < screened.end() && promise(others[1]) > contends * most_promised;
+    std::rotate(screened.begin(), others, others + (second ? 2 : 1));
+  }
   const Setup before = base_;
   std::vector<Rival> rivals;
   double best_score = 0, lowest = best.judged_chi2;
   bool mended = false, explained = false;
   for (const ScreenedEffect& effect : screened) {
-    if (rivals.size() >= most_tried || result_.runs_simulated > options_.budget) break;
+    if (rivals.size() >= most_tried || result_.runs_simulated > budget_) break;
     const bool silent = accepted && promise(effect) < speaks_up && !(always(effect) && strayed);
     // nothing that acts otherwise takes up so much and leaves noise alone
     if (silent || (always(effect) && explained)) {
@@ -284,10 +287,13 @@ bool Pipeline::add_best_candidate(Refit& best) {
   runner_up_.reset();
   if (rivals.size() == 1) return true;
   const Rival& second = rivals[1];
-  if (alike(winner, second)) call_twins(winner.effect, second.effect);
-  if (second.score() > 0 && second.gain > contends * winner.gain)
-    for (const Candidate& candidate : candidates)
-      if (candidate.effect == second.effect && !candidate.fitted_knobs().empty()) runner_up_ = candidate;
+  const bool twins = alike(winner, second);
+  if (twins) call_twins(winner.effect, second.effect);
+  if (twins || (second.score() > 0 && second.gain > contends * winner.gain)) {
+    runner_up_ = {winner.effect, second.effect, second.setup};
+    for (const Knob& knob : fitted_model(second.setup, second.fit).knobs)
+      set_knob(runner_up_->setup, knob, options_.known);
+  }
   return true;
 }
 

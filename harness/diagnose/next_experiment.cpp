@@ -13,17 +13,16 @@ namespace shakedown {
 
 namespace {
 
-/// What a camera would make of the design: its plan, from one run of the model.
-MeasuredFeatures seen(const Design& design, double noise_box, double noise_centre, const Workshop& workshop) {
+/// What a camera would make of the setup: its plan, from one run of the model.
+MeasuredFeatures seen(Setup setup, double noise_box, double noise_centre, const Workshop& workshop) {
   RunOptions options;
   options.stop = workshop.stop;
-  Setup setup = design.setup;
   setup.run.sample_rate = 500;
   const Trajectory trajectory = workshop.engine->run(setup, options);
   if (trajectory.interrupted) throw Interrupted("interrupted");
   const Recording recording = recorded_by(physics_of(setup).camera, trajectory);
   MeasuredRun run;
-  run.name = design.words;
+  run.name = "next experiment";
   run.box_length = setup.box.length;
   run.frame_rate = 500;
   run.time = recording.time;
@@ -42,68 +41,82 @@ MeasuredFeatures seen(const Design& design, double noise_box, double noise_centr
   return m;
 }
 
-/// Length of the found effect's signature, in standard errors, outside what the other columns can imitate.
-double standing_out(const Emulator& emulator, const FeaturePlan& plan, Eigen::Index others,
-                    const Eigen::VectorXd& strengths) {
-  const Eigen::LLT<Eigen::MatrixXd> root(feature_covariance(emulator.residuals, plan, 0));
-  const Eigen::MatrixXd free = root.matrixL().solve(emulator.coefficients.middleRows(1, others).transpose());
-  const Eigen::VectorXd effect = root.matrixL().solve(
-      emulator.coefficients.middleRows(1 + others, strengths.size()).transpose() * strengths);
-  const Eigen::VectorXd left =
-      effect - free * (free.transpose() * free).ldlt().solve(free.transpose() * effect);
-  // The emulator's noise makes a signature of its own, whose square is known.
-  const double noise = strengths.squaredNorm() * emulator.inverse_normal(1 + others, 1 + others) *
-                       static_cast<double>(effect.size());
-  return std::sqrt(std::max(0.0, left.squaredNorm() - noise));
+/// Distance of the means in standard errors: Mahalanobis, in the covariance of a measurement of `model` whose
+/// parameters are known to `covariance` (in units of the knobs' widths). What the error of the two means adds
+/// to its square is known, and taken off.
+double distance(const Emulator& model, const Emulator& rival, const FeaturePlan& plan,
+                const Eigen::MatrixXd& covariance, double model_error) {
+  const Eigen::MatrixXd open = model.coefficients.middleRows(1, covariance.rows());
+  const Eigen::LLT<Eigen::MatrixXd> root(feature_covariance(model.residuals, plan, model_error) +
+                                         open.transpose() * covariance * open);
+  const Eigen::VectorXd apart =
+      root.matrixL().solve((rival.coefficients.row(0) - model.coefficients.row(0)).transpose());
+  const auto noise = [&](const Emulator& of) {
+    const Eigen::MatrixXd chaos = root.matrixL().solve(of.residuals.transpose());
+    return of.inverse_normal(0, 0) * chaos.squaredNorm() / static_cast<double>(of.residuals.rows());
+  };
+  return std::sqrt(std::max(0.0, apart.squaredNorm() - noise(model) - noise(rival)));
 }
 
 }  // namespace
 
-std::vector<Design> possible_designs(const Setup& setup) {
-  std::vector<Design> designs;
-  const auto add = [&](int grains, double length, double release) {
-    Setup changed = setup;
-    changed.grains.count = grains;
-    changed.box.length = length;
-    changed.release.displacement = release;
-    designs.push_back({"N = " + std::to_string(grains) + ", L = " + write_quantity(length, "mm") +
-                           ", release " + write_quantity(release, "mm"),
-                       changed});
-  };
+std::string Design::words() const {
+  return "N = " + std::to_string(grains) + ", L = " + write_quantity(length, "mm") + ", release " +
+         write_quantity(release, "mm");
+}
+
+std::vector<Design> possible_designs(const Setup& setup, const std::vector<MeasuredFeatures>& measured) {
   const int grains = setup.grains.count;
-  const double release = setup.release.displacement;
-  add(grains, 0.040, release);
-  add(grains, 0.104, release);
-  add(grains / 2, 0.040, release);
-  add(grains * 8 / 5, 0.065, release);
+  const double length = setup.box.length, release = setup.release.displacement;
+  std::vector<Design> designs{{grains, 0.040, release},      {grains, 0.104, release},
+                              {grains / 2, 0.040, release},  {grains * 8 / 5, 0.065, release},
+                              {grains, length, release / 2}, {0, length, release}};
+  std::erase_if(designs, [&](const Design& design) {
+    return std::any_of(measured.begin(), measured.end(), [&](const MeasuredFeatures& m) {
+      return m.setup.grains.count == design.grains && std::abs(m.setup.box.length - design.length) < 1e-3 &&
+             std::abs(m.setup.release.displacement - design.release) < 1e-3;
+    });
+  });
   return designs;
 }
 
-std::vector<Advice> advise(const std::vector<Design>& designs, const std::vector<Knob>& parameters,
-                           const std::vector<Knob>& found, const Candidate& rival, double noise_box,
-                           double noise_centre, const Workshop& workshop, int count, int first_run) {
-  std::vector<Knob> knobs = parameters;
-  for (Knob& knob : knobs) knob.width = std::min(knob.width, 0.05);
-  knobs.insert(knobs.end(), rival.fitted_knobs().begin(), rival.fitted_knobs().end());
-  const auto others = static_cast<Eigen::Index>(knobs.size());
-  Eigen::VectorXd strengths(static_cast<Eigen::Index>(found.size()));
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    Knob knob = found[k];
-    // scattered about the fitted strength, which is two widths
-    knob.width = std::max(0.5 * std::abs(knob.centre), 1e-9);
-    strengths[static_cast<Eigen::Index>(k)] = 2;
-    knobs.push_back(knob);
+Setup in_design(Setup setup, const Design& design) {
+  setup.grains.count = design.grains;
+  setup.box.length = design.length;
+  setup.release.displacement = design.release;
+  return setup;
+}
+
+FittedModel fitted_model(Setup setup, const Refit& fit) {
+  FittedModel model{std::move(setup), fit.knobs, fit.covariance};
+  for (std::size_t k = 0; k < model.knobs.size(); ++k) model.knobs[k].centre = fit.values[k].value;
+  return model;
+}
+
+std::vector<Advice> advise(const std::vector<Design>& designs, const FittedModel& found, const Setup& rival,
+                           double noise_box, double noise_centre, const Workshop& workshop, int count,
+                           int first_run) {
+  std::vector<Knob> knobs = found.knobs;
+  Eigen::VectorXd per_width(static_cast<Eigen::Index>(knobs.size()));
+  for (std::size_t k = 0; k < knobs.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    knobs[k].curved = false;
+    knobs[k].width = std::max(2 * std::sqrt(found.covariance(i, i)), 1e-12);
+    per_width[i] = 1 / knobs[k].width;
   }
-  for (Knob& knob : knobs) knob.curved = false;
+  const Eigen::MatrixXd covariance = per_width.asDiagonal() * found.covariance * per_width.asDiagonal();
   std::vector<Advice> list;
-  for (std::size_t d = 0; d < designs.size(); ++d) {
-    Design design = designs[d];
-    design.setup = prepared(design.setup, rival, workshop.known);
+  for (const Design& design : designs) {
     try {
-      const MeasuredFeatures m = seen(design, noise_box, noise_centre, workshop);
-      const std::vector<Emulator> emulators =
-          emulate({m}, knobs, count, first_run + static_cast<int>(d) * 5000, workshop);
-      list.push_back({design.words, standing_out(emulators.front(), m.plan, others, strengths)});
+      const MeasuredFeatures m = seen(in_design(found.setup, design), noise_box, noise_centre, workshop);
+      MeasuredFeatures other = m;
+      other.setup = in_design(rival, design);
+      other.setup.run = m.setup.run;
+      const int first = first_run + 5000 * static_cast<int>(list.size());
+      const std::vector<Emulator> model = emulate({m}, knobs, count, first, workshop),
+                                  imitation = emulate({other}, {}, count, first + 2500, workshop);
+      list.push_back({design.words(), distance(model.front(), imitation.front(), m.plan, covariance,
+                                               RefitOptions{}.model_error * std::abs(design.release))});
     } catch (const InputError&) {  // the grains do not fit into the box: no such design
     }
   }

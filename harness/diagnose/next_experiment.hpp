@@ -1,33 +1,46 @@
 // SPDX-License-Identifier: MIT
-// Which experiment would tell two suspects apart: other box lengths, numbers of grains, releases are
-// simulated with both effects scattered, and the one is told by how far its signature stands out of what the
-// other and refitted parameters can imitate.
+// Which experiment would tell two suspects apart. Both models, as fitted to what was measured, are simulated
+// in other box lengths, numbers of grains and releases; what counts is how far apart their motions lie beside
+// camera noise, chaos, and what is left open in the parameters.
 #pragma once
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
-#include "candidates.hpp"
+#include "emulator.hpp"
+#include "refit.hpp"
 
 namespace shakedown {
 
 struct Design {
-  std::string words;  ///< e.g. "N = 60, L = 65 mm"
-  Setup setup;
+  int grains = 0;
+  double length = 0, release = 0;  ///< m
+  std::string words() const;       ///< "N = 59, L = 65 mm, release 107.5 mm"
 };
 
-/// Designs that need no other apparatus: the setup with other numbers of grains, box lengths and releases.
-std::vector<Design> possible_designs(const Setup& setup);
+/// Designs that need no other apparatus, without those that were measured: there both models were fitted.
+std::vector<Design> possible_designs(const Setup& setup, const std::vector<MeasuredFeatures>& measured);
+
+Setup in_design(Setup setup, const Design& design);
+
+/// A model as fitted.
+struct FittedModel {
+  Setup setup;                 ///< with the fitted values
+  std::vector<Knob> knobs;     ///< what was fitted, centred at the fitted values
+  Eigen::MatrixXd covariance;  ///< of these, in their units
+};
+FittedModel fitted_model(Setup setup, const Refit& fit);
 
 struct Advice {
   std::string words;
-  double sigmas = 0;  ///< of the found effect at its fitted strength beside the rival, one run of the design
+  double sigmas = 0;  ///< by which one run of the design tells the one model from the other
 };
 
-/// The found effect's knobs (at their fitted values in `found`) against the rival's; `parameters` are
-/// refitted. One entry a design, best first. `noise_box`, `noise_centre`: of a frame, m. Linear in the
-/// strengths.
-std::vector<Advice> advise(const std::vector<Design>& designs, const std::vector<Knob>& parameters,
-                           const std::vector<Knob>& found, const Candidate& rival, double noise_box,
-                           double noise_centre, const Workshop& workshop, int count, int first_run);
+/// One entry a design, best first; designs whose grains do not fit into the box are left out. `noise_box`,
+/// `noise_centre`: of a frame, m. Linear in what is open in the parameters of `found`. Simulates 2 `count`
+/// runs a design, whose noise is allowed for: what is told by less than about one sigma reads 0.
+std::vector<Advice> advise(const std::vector<Design>& designs, const FittedModel& found, const Setup& rival,
+                           double noise_box, double noise_centre, const Workshop& workshop, int count,
+                           int first_run);
 
 }  // namespace shakedown

@@ -91,6 +91,11 @@ class Pipeline {
              doubt;
     }
   };
+  /// What explains the data nearly as well as the effect that was added, as it was fitted.
+  struct RunnerUp {
+    std::string added, effect;
+    Setup setup;
+  };
   std::vector<Candidate> open_candidates() const;
   std::vector<Rival> rivals_among(const std::vector<Candidate>& candidates, const Refit& best);
   bool pays(const Rival& rival, const Refit& best) const;
@@ -116,6 +121,7 @@ class Pipeline {
   Setup user_, base_;
   const Experiment& experiment_;
   const DiagnoseOptions& options_;
+  std::int64_t budget_;
   Audit audit_;
   SimulationPool pool_;
   Workshop workshop_;
@@ -127,7 +133,7 @@ class Pipeline {
   Refit final_;
   bool refitted_ = false;
   bool concluded_ = false;                                  // the latest fit was made with full effort
-  std::optional<Candidate> runner_up_;                      // to the effect added last
+  std::optional<RunnerUp> runner_up_;                       // to the effect added last
   std::vector<std::pair<std::string, std::string>> twins_;  // named, and what explains the data as well
   bool dear_ = false;  // an effect was added whose runs cost several times a plain one
   int batch_ = 0;

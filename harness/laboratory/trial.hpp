@@ -22,7 +22,7 @@ struct TrialTools {
   const Engine* laboratory = nullptr;  ///< measures
   const Engine* model = nullptr;       ///< the diagnosis' engine
   std::span<const EffectRecord* const> known;
-  std::int64_t budget = 14000;  ///< simulations of one diagnosis
+  std::int64_t budget = 0;  ///< simulations of one diagnosis at most; 0: usual_budget()
   int threads = 0;
   const std::atomic<bool>* stop = nullptr;
   double (*strength_uncertainty)(std::string_view effect) = nullptr;  ///< DiagnoseOptions
