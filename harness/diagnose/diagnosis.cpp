@@ -129,16 +129,19 @@ void Pipeline::add_sine(const FoundTerm& term) {
     if (!run.time.empty()) longest = std::max(longest, run.time.back() - run.time.front());
   const double error = std::max((term.high - term.low) / 3.92, 0.01 * std::abs(term.value)),
                relative = std::min(1.0, error / std::abs(term.value));
-  const auto knob = [&](const char* key, double value, double width) {
+  const auto knob = [&](const char* key, double value, double known_to) {
     set_number(base_, key, value, options_.known);
-    chosen_.push_back({key, value, width, value - 10 * width, value + 10 * width, false});
+    const double width = 4 * known_to;
+    chosen_.push_back({key, value, width, value - 10 * width, value + 10 * width, false, value, known_to});
   };
-  knob("oscillating_acceleration.amplitude.x", term.value, 4 * error);
-  knob("oscillating_acceleration.frequency", term.frequency, 4 * relative * 0.78 / std::max(longest, 1.0));
-  knob("oscillating_acceleration.phase", term.phase, 8 * relative);
+  knob("oscillating_acceleration.amplitude.x", term.value, error);
+  knob("oscillating_acceleration.frequency", term.frequency, relative * 0.78 / std::max(longest, 1.0));
+  knob("oscillating_acceleration.phase", term.phase, 2 * relative);
 }
 
-/// Forces that the momentum balance convicts go in first, at the strength that it finds.
+/// Forces that the momentum balance convicts go in first, at the strength that it finds, and stay near it:
+/// chaos does not touch the balance, and it knows them five times better than the ensembles do, which would
+/// bend them to take up what else is missing.
 void Pipeline::add_momentum_terms() {
   const std::vector<FoundTerm>& terms = result_.momentum.terms;
   for (const FoundTerm& term : terms) {
@@ -167,7 +170,7 @@ void Pipeline::add_momentum_terms() {
       continue;
     const double error = (term.high - term.low) / 3.92;
     chosen_.push_back({key, term.value, std::max(4 * error, 0.05 * std::abs(term.value)), parameter->low,
-                       parameter->high, true});
+                       parameter->high, true, term.value, error});
   }
 }
 

@@ -31,10 +31,13 @@ constexpr double mends = 0.1;
 /// Gain (chi2) of an accepted model beside which what is tried in any case need not be.
 constexpr double explains_much = 300;
 
+/// A parameter of which the user believes something; what the balance knows of a force is no belief.
+bool is_believed(const Knob& knob) { return knob.believed_error > 0 && find_setup_key(knob.key) != nullptr; }
+
 /// Without the effect the restitutions were led astray: the box reaches from there to what the user gave.
 std::vector<Knob> covering_the_users_values(std::vector<Knob> knobs) {
   for (Knob& knob : knobs) {
-    if (knob.believed_error == 0) continue;
+    if (!is_believed(knob)) continue;
     const double apart = std::abs(knob.centre - knob.believed);
     knob.centre = (knob.centre + knob.believed) / 2;
     knob.width = apart / 2 + 0.08;
@@ -48,7 +51,7 @@ std::vector<Knob> second_start(const Refit& fit, const std::vector<Knob>& first_
   for (std::size_t k = 0; k < start.size(); ++k) {
     Knob& knob = start[k];
     knob.centre = fit.values[k].value;
-    if (knob.believed_error > 0) knob.centre = knob.believed, knob.width = knob.believed_error;
+    if (is_believed(knob)) knob.centre = knob.believed, knob.width = knob.believed_error;
     for (const Knob& first : first_range)
       if (first.key == knob.key) {
         knob.width = 0.6 * first.width;
@@ -73,7 +76,7 @@ bool stands_out(const Refit& fit, const std::vector<Knob>& knobs) {
 /// restitutions.
 bool has_strayed(const Refit& fit) {
   for (std::size_t k = 0; k < fit.values.size(); ++k)
-    if (fit.knobs[k].believed_error > 0 &&
+    if (is_believed(fit.knobs[k]) &&
         std::abs(fit.values[k].value - fit.knobs[k].believed) > 1.5 * fit.knobs[k].believed_error)
       return true;
   return false;
