@@ -132,7 +132,8 @@ void Pipeline::add_sine(const FoundTerm& term) {
   const auto knob = [&](const char* key, double value, double known_to) {
     set_number(base_, key, value, options_.known);
     const double width = 4 * known_to;
-    chosen_.push_back({key, value, width, value - 10 * width, value + 10 * width, false, value, known_to});
+    chosen_.push_back({key, value, width, value - 10 * width, value + 10 * width, false, value,
+                       balance_is_believed * known_to});
   };
   knob("oscillating_acceleration.amplitude.x", term.value, error);
   knob("oscillating_acceleration.frequency", term.frequency, relative * 0.78 / std::max(longest, 1.0));
@@ -170,7 +171,7 @@ void Pipeline::add_momentum_terms() {
       continue;
     const double error = (term.high - term.low) / 3.92;
     chosen_.push_back({key, term.value, std::max(4 * error, 0.05 * std::abs(term.value)), parameter->low,
-                       parameter->high, true, term.value, error});
+                       parameter->high, true, term.value, balance_is_believed * error});
   }
 }
 

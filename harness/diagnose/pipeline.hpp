@@ -26,6 +26,9 @@ constexpr double least_gain = 14, least_share = 0.06;
 /// What an effect must promise, and then bring (chi2), beside a model that is accepted. Where nothing is
 /// hidden the best of some twelve promises 3 to 9.
 constexpr double speaks_up = 17;
+/// Errors of a strength that the balance convicts to which fits hold it: they are of noise alone, and the
+/// form of the force may be another code's.
+constexpr double balance_is_believed = 2;
 constexpr int most_effects = 3;
 constexpr std::size_t most_cells = 12;
 constexpr std::size_t most_tried = 4;
