@@ -16,6 +16,9 @@ namespace shakedown {
 
 namespace {
 
+/// Of a term with its 95 % interval.
+double error_of(const FoundTerm& term) { return (term.high - term.low) / 3.92; }
+
 Audit audited(const Experiment& experiment, MethodFault fault) {
   Audit found = audit(experiment);
   if (fault == MethodFault::noise_tenfold)
@@ -127,7 +130,7 @@ void Pipeline::add_sine(const FoundTerm& term) {
   double longest = 0;
   for (const MeasuredRun& run : experiment_.runs)
     if (!run.time.empty()) longest = std::max(longest, run.time.back() - run.time.front());
-  const double error = std::max((term.high - term.low) / 3.92, 0.01 * std::abs(term.value)),
+  const double error = std::max(error_of(term), 0.01 * std::abs(term.value)),
                relative = std::min(1.0, error / std::abs(term.value));
   const auto knob = [&](const char* key, double value, double known_to) {
     set_number(base_, key, value, options_.known);
@@ -169,7 +172,7 @@ void Pipeline::add_momentum_terms() {
     if (parameter == nullptr ||
         (parameter->kind != ParameterKind::number && parameter->kind != ParameterKind::vector))
       continue;
-    const double error = (term.high - term.low) / 3.92;
+    const double error = error_of(term);
     chosen_.push_back({key, term.value, std::max(4 * error, 0.05 * std::abs(term.value)), parameter->low,
                        parameter->high, true, term.value, balance_is_believed * error});
   }

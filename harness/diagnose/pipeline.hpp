@@ -147,4 +147,7 @@ LadderStep step_of(const std::string& name, const Refit& fit);
 
 std::vector<Knob> together(const std::vector<Knob>& a, const std::vector<Knob>& b);
 
+/// A parameter of which the user believes something; what the balance knows of a force is no belief.
+bool is_believed(const Knob& knob);
+
 }  // namespace shakedown
