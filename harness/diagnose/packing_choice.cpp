@@ -11,9 +11,6 @@ namespace shakedown {
 
 namespace {
 
-/// A layer whose centre lies farther than this from the measured one is another.
-constexpr double other_packing = 0.5e-3;  // m
-
 /// Where the grains' centre of a measured run lies in the box before anything has moved.
 struct ReleasedCentre {
   std::size_t run;
@@ -52,9 +49,9 @@ double misfit_up_to_scale(const std::vector<ReleasedCentre>& measured, const std
 
 }  // namespace
 
-Packing packing_before_release(const Setup& given, const Experiment& experiment, const Audit& audit,
-                               std::span<const EffectRecord* const> known) {
-  Packing best = given.release.packing;
+PackingChoice packing_before_release(const Setup& given, const Experiment& experiment, const Audit& audit,
+                                     std::span<const EffectRecord* const> known) {
+  PackingChoice best{given.release.packing, 0};
   if (!given.release.initial_grains.empty() || given.grains.count == 0) return best;
   const std::vector<ReleasedCentre> measured = released_centres(experiment, audit);
   if (measured.empty()) return best;
@@ -69,15 +66,15 @@ Packing packing_before_release(const Setup& given, const Experiment& experiment,
     }
     return misfit_up_to_scale(measured, modelled);
   };
-  const double as_given = misfit_of(best);
-  if (as_given < other_packing) return best;
-  double least = as_given / 2;
+  best.apart = misfit_of(best.packing);
+  if (best.apart < other_packing) return best;
+  double least = best.apart / 2;
   for (const Packing packing : {Packing::fcc, Packing::square, Packing::random, Packing::spread}) {
     // Layers are the same in every run, grains laid at random are not.
     const bool laid_at_random = packing == Packing::random || packing == Packing::spread;
     const double misfit = misfit_of(packing);
     if (misfit >= least || misfit >= (laid_at_random ? 5 : 1) * other_packing) continue;
-    best = packing;
+    best = {packing, misfit};
     least = misfit;
   }
   return best;

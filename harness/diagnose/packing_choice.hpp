@@ -5,10 +5,18 @@
 
 namespace shakedown {
 
+struct PackingChoice {
+  Packing packing;
+  double apart;  ///< m, rms from where this packing has the grains' centre; 0 where nothing was measured
+};
+
+/// Farther than this from the grains' centre of a packing (m) lies another.
+constexpr double other_packing = 0.5e-3;
+
 /// The grains' centre in the box before anything has moved tells the packing: the arrangements differ by
 /// millimetres. A camera's bias or scale shortens all distances by the same share, which box lengths tell
 /// from a packing. The setup's own where it is near enough, or where nothing was measured.
-Packing packing_before_release(const Setup& setup, const Experiment& experiment, const Audit& audit,
-                               std::span<const EffectRecord* const> known);
+PackingChoice packing_before_release(const Setup& setup, const Experiment& experiment, const Audit& audit,
+                                     std::span<const EffectRecord* const> known);
 
 }  // namespace shakedown
