@@ -203,6 +203,7 @@ void Pipeline::accept_as_given(const Refit& given) {
 
 void Pipeline::judge() {
   choose_packing();
+  release_scale_ = scale_at_release(user_, experiment_, audit_, options_.known);
   workshop_.ensembles = options_.ensembles;  // every diagnosis of this setup begins with the same simulations
   const Refit given = fit("the model as given", as_given(base_), only_look);
   workshop_.ensembles = nullptr;
@@ -230,6 +231,9 @@ void Pipeline::judge() {
   result_.ladder.push_back(step_of(step, best));
   keep(best);
   if (result_.missing.empty()) note_failures(best);  // else those of the model as given stay
+  // A fit may end along the valley of the restitutions where fresh simulations find nothing gained: effects
+  // are to beat the better of the two.
+  if (adequate && chosen_.empty() && given.p_value > best.p_value) best = given;
   const auto without_effects = std::tuple(base_, theta_, chosen_, first_boxes_, final_, result_.missing);
   for (bool looked = false, searched = false;;) {
     // An accepted model is searched once: chi2 of hundreds of features does not see what a single effect

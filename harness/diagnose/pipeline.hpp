@@ -7,6 +7,7 @@
 #include "diagnosis.hpp"
 #include "experiment_file.hpp"
 #include "linear_screen.hpp"
+#include "release_scale.hpp"
 
 namespace shakedown {
 
@@ -135,6 +136,7 @@ class Pipeline {
   std::vector<Knob> theta_;        // what the user may refit, at its latest values
   Refit final_;
   bool refitted_ = false;
+  std::optional<ReleaseScale> release_scale_;
   bool concluded_ = false;                                  // the latest fit was made with full effort
   std::optional<RunnerUp> runner_up_;                       // to the effect added last
   std::vector<std::pair<std::string, std::string>> twins_;  // named, and what explains the data as well

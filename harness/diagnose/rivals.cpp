@@ -83,6 +83,11 @@ Pipeline::Rival Pipeline::try_candidate(const ScreenedEffect& effect, const Cand
     if (other.judged_chi2 < rival.fit.judged_chi2) rival.fit = other;
   }
   rank(rival, best);
+  // What lengthens all records shows in the box before it moves; another arrangement of the grains, which the
+  // same fit would take for it, does not.
+  if (candidate.effect == "camera_scale" && release_scale_)
+    rival.doubt +=
+        std::pow((rival.fit.values.back().value - release_scale_->value) / release_scale_->error, 2);
   return rival;
 }
 

@@ -15,6 +15,7 @@
 #include "next_experiment.hpp"
 #include "packing_choice.hpp"
 #include "parameter_knobs.hpp"
+#include "release_scale.hpp"
 
 using namespace shakedown;
 
@@ -78,6 +79,18 @@ TEST(Diagnosis, ABalanceWithDryFrictionInTheSetupHoldsThoughTheBoxSticks) {
   EXPECT_GT(
       audit_momentum(experiment, found, setups_of_runs(amended, experiment, all_effects())).as_given.p_value,
       0.01);
+}
+
+TEST(Diagnosis, TheBoxBeforeItMovesTellsTheCamerasScale) {
+  for (const auto& [hidden, truth] :
+       {std::pair("camera_scale=scale:0.01", 0.01), {"camera_com_bias=bias:0.08", 0.0}}) {
+    const Experiment experiment = measured({{hidden}});
+    const std::optional<ReleaseScale> found =
+        scale_at_release(believed(), experiment, audit(experiment), all_effects());
+    ASSERT_TRUE(found);
+    EXPECT_LT(found->error, 1.5e-3) << hidden;         // seen: 7.6e-4
+    EXPECT_NEAR(found->value, truth, 8e-4) << hidden;  // seen: 4e-5
+  }
 }
 
 TEST(SlowDiagnosis, OtherRestitutionsAreARefitThatCoversThem) {
