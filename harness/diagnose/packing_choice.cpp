@@ -11,6 +11,12 @@ namespace shakedown {
 
 namespace {
 
+/// Farther than this from the grains' centre of a packing (m) lies another. Layers are the same in every run,
+/// grains laid at random are not.
+double other_than(Packing packing) {
+  return packing == Packing::random || packing == Packing::spread ? 2.5e-3 : 0.5e-3;
+}
+
 /// Where the grains' centre of a measured run lies in the box before anything has moved.
 struct ReleasedCentre {
   std::size_t run;
@@ -51,7 +57,7 @@ double misfit_up_to_scale(const std::vector<ReleasedCentre>& measured, const std
 
 PackingChoice packing_before_release(const Setup& given, const Experiment& experiment, const Audit& audit,
                                      std::span<const EffectRecord* const> known) {
-  PackingChoice best{given.release.packing, 0};
+  PackingChoice best{given.release.packing};
   if (!given.release.initial_grains.empty() || given.grains.count == 0) return best;
   const std::vector<ReleasedCentre> measured = released_centres(experiment, audit);
   if (measured.empty()) return best;
@@ -67,13 +73,12 @@ PackingChoice packing_before_release(const Setup& given, const Experiment& exper
     return misfit_up_to_scale(measured, modelled);
   };
   best.apart = misfit_of(best.packing);
-  if (best.apart < other_packing) return best;
+  if (best.apart < other_than(Packing::fcc)) return best;
   double least = best.apart / 2;
+  best.fits = best.apart < other_than(best.packing);
   for (const Packing packing : {Packing::fcc, Packing::square, Packing::random, Packing::spread}) {
-    // Layers are the same in every run, grains laid at random are not.
-    const bool laid_at_random = packing == Packing::random || packing == Packing::spread;
     const double misfit = misfit_of(packing);
-    if (misfit >= least || misfit >= (laid_at_random ? 5 : 1) * other_packing) continue;
+    if (misfit >= least || misfit >= other_than(packing)) continue;
     best = {packing, misfit};
     least = misfit;
   }

@@ -7,11 +7,9 @@ namespace shakedown {
 
 struct PackingChoice {
   Packing packing;
-  double apart;  ///< m, rms from where this packing has the grains' centre; 0 where nothing was measured
+  double apart = 0;  ///< m, rms from where this packing has the grains' centre; 0 where nothing was measured
+  bool fits = true;  ///< as near as the grains of such a packing are laid
 };
-
-/// Farther than this from the grains' centre of a packing (m) lies another.
-constexpr double other_packing = 0.5e-3;
 
 /// The grains' centre in the box before anything has moved tells the packing: the arrangements differ by
 /// millimetres. A camera's bias or scale shortens all distances by the same share, which box lengths tell

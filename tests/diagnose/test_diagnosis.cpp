@@ -68,6 +68,19 @@ TEST(Diagnosis, ForcesInNoListAreUnknownAndAFormulaIsOffered) {
   EXPECT_NE(d.next_experiments.front().find("alone"), std::string::npos);
 }
 
+// Half way between the layers of fcc and of square.
+TEST(Diagnosis, AnArrangementThatNoPackingHasIsTold) {
+  Experiment experiment = measured({{}, {}, {}, {0.040}});
+  const auto chosen = [&] {
+    return packing_before_release(believed(), experiment, audit(experiment), all_effects());
+  };
+  EXPECT_TRUE(chosen().fits);
+  for (MeasuredRun& run : experiment.runs)
+    for (double& x : run.x_com) x -= 1e-3;
+  EXPECT_FALSE(chosen().fits);
+  EXPECT_EQ(chosen().packing, believed().release.packing);
+}
+
 TEST(Diagnosis, ABalanceWithDryFrictionInTheSetupHoldsThoughTheBoxSticks) {
   const Experiment experiment = measured({{"clamp_dry_friction=force:20 mN"}});
   shakedown::Setup amended = believed();
