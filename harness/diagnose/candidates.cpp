@@ -2,6 +2,7 @@
 #include "candidates.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "known_effects.hpp"
 #include "setup_file.hpp"
@@ -90,6 +91,20 @@ std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std:
     return find_choice(setup, candidate.effect) != nullptr;
   });
   return list;
+}
+
+ScatterGroups scatter_groups(const std::vector<Candidate>& candidates) {
+  ScatterGroups groups;
+  std::map<std::string, std::vector<std::size_t>> slow;
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    if (candidates[c].knobs.empty()) continue;
+    if (candidates[c].dear)
+      groups.dear.push_back({c});
+    else
+      (candidates[c].slow ? slow[candidates[c].effect] : groups.cheap).push_back(c);
+  }
+  for (auto& [effect, members] : slow) groups.slow.push_back(std::move(members));
+  return groups;
 }
 
 Setup prepared(const Setup& setup, const Candidate& candidate, std::span<const EffectRecord* const> known) {

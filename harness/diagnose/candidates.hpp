@@ -37,6 +37,14 @@ inline double when_absent(const Knob& knob) { return knob.low <= 0 ? 0 : knob.ce
 std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std::string>& only,
                                       std::span<const EffectRecord* const> known);
 
+/// Indices of the candidates with knobs, by which runs they are scattered in: the cheap ones together, then
+/// what makes runs slow or dear, each effect apart (gravity across bends what drag does).
+struct ScatterGroups {
+  std::vector<std::size_t> cheap;
+  std::vector<std::vector<std::size_t>> slow, dear;
+};
+ScatterGroups scatter_groups(const std::vector<Candidate>& candidates);
+
 /// The setup with the candidate at no strength.
 Setup prepared(const Setup& setup, const Candidate& candidate, std::span<const EffectRecord* const> known);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "linear_model.hpp"
 
+#include <algorithm>
+
 namespace shakedown {
 
 LinearModel linear_model(const std::vector<MeasuredFeatures>& measured,
@@ -35,6 +37,13 @@ BesideFitted beside_fitted(const std::vector<MeasuredFeatures>& measured, const 
     for (MeasuredFeatures& m : beside.measured) m.setup = prepared(m.setup, candidates[c], known);
   }
   return beside;
+}
+
+std::vector<MeasuredFeatures> kicked_rarely(std::vector<MeasuredFeatures> measured) {
+  constexpr double rarely = 4e-2;  // s
+  for (MeasuredFeatures& m : measured)
+    m.setup.hard.kick_interval = std::max(m.setup.hard.kick_interval, rarely);
+  return measured;
 }
 
 Eigen::VectorXd residual_without(const LinearModel& model, const std::vector<Knob>& knobs,

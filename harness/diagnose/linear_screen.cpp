@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "feature_covariance.hpp"
@@ -133,52 +132,40 @@ void screen_switch(const std::vector<MeasuredFeatures>& measured, const std::vec
   screening.signatures.push_back(signature);
 }
 
-/// Drag on grains comes in kicks that cost more than all else. At 60 ms the slope of the decay differs by
-/// less than its error over 128 runs, 0.004 mm/s of 8.4, of which drag of 3 mN s/m makes 0.23.
-std::vector<MeasuredFeatures> kicked_rarely(std::vector<MeasuredFeatures> measured) {
-  constexpr double rarely = 4e-2;  // s
-  for (MeasuredFeatures& m : measured)
-    m.setup.hard.kick_interval = std::max(m.setup.hard.kick_interval, rarely);
-  return measured;
-}
-
 }  // namespace
 
 std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured,
                                    const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
                                    const Workshop& workshop, int count, int first_run) {
   Screening screening;
-  std::vector<std::size_t> cheap;
-  std::map<std::string, std::vector<std::size_t>> slow;  // by effect: gravity across bends what drag does
-  for (std::size_t c = 0; c < candidates.size(); ++c)
-    if (!candidates[c].dear && !candidates[c].knobs.empty())
-      (candidates[c].slow ? slow[candidates[c].effect] : cheap).push_back(c);
+  const ScatterGroups groups = scatter_groups(candidates);
   int batch = 0;
   const auto together = [&](const std::vector<MeasuredFeatures>& of, const std::vector<std::size_t>& members,
                             int simulations) {
     return scattered(of, fitted, candidates, members, workshop, simulations, first_run + 5000 * batch++,
                      screening.roots);
   };
-  const Scattered all = together(measured, cheap, count);
+  const Scattered all = together(measured, groups.cheap, count);
   const Left without = all.left();
   judge_scattered(all, candidates, without, screening);
   const int few = std::max(40, count / 8), fewest = std::max(24, few / 2);
   const std::vector<MeasuredFeatures> rough = kicked_rarely(measured);
-  for (const auto& [effect, members] : slow)
+  for (const std::vector<std::size_t>& members : groups.slow)
     judge_scattered(together(rough, members, std::max(few, count / 6 * static_cast<int>(members.size()))),
                     candidates, without, screening);
-  // what is dear has a strong signature
-  for (std::size_t c = 0; c < candidates.size(); ++c) {
-    if (candidates[c].dear && candidates[c].always) {
-      screening.list.push_back({c, candidates[c].effect, 0, candidates[c].knobs.front().centre, {}});
+  for (const std::vector<std::size_t>& members : groups.dear) {
+    const Candidate& candidate = candidates[members.front()];
+    if (candidate.always) {
+      screening.list.push_back({members.front(), candidate.effect, 0, candidate.knobs.front().centre, {}});
       screening.signatures.emplace_back();
-    } else if (candidates[c].knobs.empty()) {
-      screen_switch(measured, fitted, candidates, c, workshop, few, first_run + 5000 * batch++, without,
-                    screening);
-    } else if (candidates[c].dear) {
-      judge_scattered(together(measured, {c}, fewest), candidates, without, screening);
+    } else {  // what is dear has a strong signature
+      judge_scattered(together(measured, members, fewest), candidates, without, screening);
     }
   }
+  for (std::size_t c = 0; c < candidates.size(); ++c)
+    if (candidates[c].knobs.empty())
+      screen_switch(measured, fitted, candidates, c, workshop, few, first_run + 5000 * batch++, without,
+                    screening);
   std::vector<ScreenedEffect>& list = screening.list;
   const std::vector<Eigen::VectorXd>& signatures = screening.signatures;
   for (std::size_t a = 0; a < list.size(); ++a)

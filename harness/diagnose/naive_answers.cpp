@@ -67,7 +67,13 @@ class Naive {
     const std::vector<Candidate> candidates = candidates_for(measured_.front().setup, {}, workshop_.known);
     for (const Candidate& candidate : candidates)
       if (candidate.knobs.empty()) offer_switch(candidate);
-    offer_strengths(candidates);
+    const ScatterGroups groups = scatter_groups(candidates);
+    offer_strengths(measured_, candidates, groups.cheap, many);
+    const std::vector<MeasuredFeatures> rough = kicked_rarely(measured_);
+    for (const std::vector<std::size_t>& members : groups.slow)
+      offer_strengths(rough, candidates, members, few);
+    for (const std::vector<std::size_t>& members : groups.dear)
+      offer_strengths(measured_, candidates, members, few);
     return {least_error_.effect, akaike_.effect, one_seed_.effect};
   }
 
@@ -94,14 +100,15 @@ class Naive {
           linear_model(with, of_one_seed(emulators, theta_.size()), theta_.size()));
   }
 
-  /// All strengths scattered at once; each is then fitted beside the parameters with the others absent.
-  void offer_strengths(const std::vector<Candidate>& candidates) {
-    std::vector<std::size_t> members;
-    for (std::size_t c = 0; c < candidates.size(); ++c)
-      if (!candidates[c].knobs.empty()) members.push_back(c);
+  /// The members' strengths scattered at once; each is then fitted beside the parameters with the others
+  /// absent.
+  void offer_strengths(const std::vector<MeasuredFeatures>& measured,
+                       const std::vector<Candidate>& candidates, const std::vector<std::size_t>& members,
+                       int count) {
+    if (members.empty()) return;
     const auto [knobs, candidate_of, with] =
-        beside_fitted(measured_, theta_, candidates, members, workshop_.known);
-    const std::vector<Emulator> emulators = emulators_of(with, knobs, many);
+        beside_fitted(measured, theta_, candidates, members, workshop_.known);
+    const std::vector<Emulator> emulators = emulators_of(with, knobs, count);
     const std::size_t n = theta_.size();
     LinearModel mean = linear_model(with, emulators, knobs.size()),
                 single = linear_model(with, of_one_seed(emulators, knobs.size()), knobs.size());
