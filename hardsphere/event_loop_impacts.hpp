@@ -113,13 +113,13 @@ void EventLoop<Grains, Motion>::pair_impact(int i, int j) {
   auto& [a, b, r, distance, opening, opening_rate] = pair;
   const double closing = -opening;
   if (closing <= 0) return refuse(i, a, nullptr);
-  const double e = restitution(ContactClass::grain_grain, closing, elastic_below(limits_.pair_speed, i, j),
-                               elastic_pairs_);
+  const double limit = elastic_below(limits_.pair_speed, i, j),
+               e = restitution(ContactClass::grain_grain, closing, limit, elastic_pairs_);
   const double ma = grains_.mass(i), mb = grains_.mass(j), reduced = ma * mb / (ma + mb);
   const double impulse = reduced * (1 + e) * closing;
   double loss = reduced / 2 * (1 - e * e) * closing * closing;
   if constexpr (driven)
-    if (contact_.friction[0] > 0 && e < 1) {
+    if (contact_.friction[0] > 0 && rubs(closing, limit)) {
       const Vec3 normal = vec(r) / distance, apart = vec(b.v) - vec(a.v);
       const double ra = grains_.radius(i), rb = grains_.radius(j);
       Vec3 &spin_a = spin_[static_cast<std::size_t>(i)], &spin_b = spin_[static_cast<std::size_t>(j)];
@@ -229,7 +229,7 @@ void EventLoop<Grains, Motion>::end_impact(int i, int side) {
   double loss = reduced / 2 * (1 - e * e) * closing * closing;
   if constexpr (driven) {
     Vec3 on_grain(-side * impulse, 0, 0);
-    if (contact_.friction[1] > 0 && e < 1) {
+    if (contact_.friction[1] > 0 && rubs(closing, limit)) {
       const Vec3 normal(side, 0, 0);
       Vec3& spin = spin_[static_cast<std::size_t>(i)];
       Vec3 slip = vec(flight.v) + spin.cross(normal) * grains_.radius(i);
@@ -268,13 +268,13 @@ void EventLoop<Grains, Motion>::moving_side_impact(int i, int axis, int side) {
                                      walls_across(2).at(now_).v};
     const double closing = side * (flight.v[k] - wall[k]);
     if (closing <= 0) return refuse(i, flight, side_walls_.empty() ? nullptr : &walls(axis));
-    const double e = resolved(
-        restitution(ContactClass::side_wall, closing, elastic_below(limits_.wall_speed, i), elastic_walls_),
-        closing, walls_across(axis).top_acceleration());
+    const double limit = elastic_below(limits_.wall_speed, i),
+                 e = resolved(restitution(ContactClass::side_wall, closing, limit, elastic_walls_), closing,
+                              walls_across(axis).top_acceleration());
     const double m = grains_.mass(i), impulse = m * (1 + e) * closing;
     double loss = m / 2 * (1 - e * e) * closing * closing, jump = 0;
     Vec3 on_grain = Vec3::Zero();
-    if (contact_.friction[2] > 0 && e < 1) {
+    if (contact_.friction[2] > 0 && rubs(closing, limit)) {
       Vec3 normal = Vec3::Zero();
       normal[axis] = side;
       Vec3& spin = spin_[static_cast<std::size_t>(i)];

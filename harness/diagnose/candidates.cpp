@@ -19,10 +19,6 @@ Knob knob_of(const EffectRecord& effect, const Parameter& parameter, std::string
   return {key, 0.0, parameter.typical, parameter.low, parameter.high, true};
 }
 
-/// Friction as an impulse differs from a tangential spring (at mu = 0.3 by 0.1 mm/s in the slope of the
-/// decay): about this much chi2 of a true friction is left, which no rival may claim.
-constexpr double impulsive_friction = -10;
-
 std::vector<Candidate> all_candidates(const Setup& setup, std::span<const EffectRecord* const> known) {
   std::vector<Candidate> list;
   const auto add = [&](std::string_view name, std::string_view parameter, bool momentum,
@@ -35,7 +31,7 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
   // restitutions of frictional runs): no parabola.
   Knob friction{"grain_friction.grain_grain&grain_friction.grain_wall", 0, 0.2, 0, 1, true};
   friction.cubic = true;
-  list.push_back({"grain_friction", {friction}, {}, false, impulsive_friction, true, true});
+  list.push_back({"grain_friction", {friction}, {}, false, 0, true, true});
   add("velocity_dependent_restitution", "exponent", false);
   list.back().always = true;
   // What matters to moving grains is force times range. Ranges beyond the gaps of the packing let the hard

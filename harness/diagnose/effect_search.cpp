@@ -23,7 +23,7 @@ constexpr double beyond_noise = 100;
 /// Share of the best one's gain that makes a rival one from which an experiment should tell it.
 constexpr double contends = 0.5;
 /// A rival whose fit leaves more than this p-value has mended the model: what imitates the truth often leaves
-/// a misfit that is merely not proven. (True friction leaves one too: the two engines' friction differs.)
+/// a misfit that is merely not proven.
 constexpr double mends = 0.1;
 /// Gain (chi2) of an accepted model beside which what is tried in any case need not be.
 constexpr double explains_much = 300;
@@ -134,7 +134,7 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
       lowest = std::min(lowest, rivals.back().fit.judged_chi2);
       best_score = std::max(best_score, rivals.back().score());
       const double left = rivals.back().fit.p_value;
-      mended = mended || left > (always(effect) ? doubtful : mends);
+      mended = mended || left > mends;
       explained = explained || (!always(effect) && left > doubtful && rivals.back().score() > explains_much);
     } catch (const PhysicsError& error) {
       result_.notes.push_back(effect.effect + " could not be tried: " + error.what());
