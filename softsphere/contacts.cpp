@@ -110,7 +110,7 @@ void update_contact(const ContactModel& model, const Bodies& bodies, const Geome
     contact.dashpot = 0;
   }
   if (model.law.has_attraction()) set_attraction(model.law, fresh, overlap_before, rate, step, contact);
-  if (model.law.has_friction()) stretch_tangentially(bodies, step * part_touching, contact);
+  if (rubs(model, contact)) stretch_tangentially(bodies, step * part_touching, contact);
   const double range = model.law.has_attraction() ? model.law.attraction_range : 0;
   contact.over = contact.overlap <= -range;
 }
@@ -232,7 +232,7 @@ double stored_energy(const ContactModel& model, const Contact& contact) {
     energy += model.law.stored_energy ? model.law.stored_energy(contact.kind, contact.overlap,
                                                                 contact.closing_speed, contact.reduced_mass)
                                       : contact.spring.stiffness * contact.overlap * contact.overlap / 2;
-    if (model.law.has_friction()) energy += energy_of_stretch(model, contact);
+    if (rubs(model, contact)) energy += energy_of_stretch(model, contact);
   }
   if (model.law.has_attraction() && contact.overlap > -model.law.attraction_range)
     energy -= model.law.attraction_force * (contact.overlap + model.law.attraction_range);

@@ -47,6 +47,10 @@ Vec3 slip_velocity(const Bodies& bodies, const Contact& contact) {
   return velocity - velocity.dot(contact.normal) * contact.normal;
 }
 
+bool rubs(const ContactModel& model, const Contact& contact) {
+  return model.law.friction[static_cast<std::size_t>(contact.kind)] > 0;
+}
+
 void stretch_tangentially(const Bodies& bodies, double time, Contact& contact) {
   if (!contact.touching) {
     contact.stretch.setZero();
@@ -62,11 +66,11 @@ void stretch_tangentially(const Bodies& bodies, double time, Contact& contact) {
 void set_friction(const ContactModel& model, const Bodies& bodies, Contact& contact) {
   contact.tangential_force.setZero();
   contact.sliding = false;
-  const double coefficient = model.law.friction[static_cast<std::size_t>(contact.kind)];
-  if (!contact.touching || coefficient == 0) return;
+  if (!contact.touching || !rubs(model, contact)) return;
   const Vec3 force =
       -tangential_stiffness(model, contact) * contact.stretch + dashpot_force(model, bodies, contact);
-  const double limit = coefficient * std::max(contact.elastic_force, 0.0);
+  const double limit =
+      model.law.friction[static_cast<std::size_t>(contact.kind)] * std::max(contact.elastic_force, 0.0);
   const double size = force.norm();
   contact.sliding = size > limit;
   contact.tangential_force = contact.sliding ? Vec3(force * (limit / size)) : force;

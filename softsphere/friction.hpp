@@ -13,6 +13,10 @@
 
 namespace shakedown {
 
+/// Whether surfaces of its kind have friction; where they have none there is no spring, and nothing is
+/// stored.
+bool rubs(const ContactModel& model, const Contact& contact);
+
 /// Energy stored in the tangential spring, J.
 double energy_of_stretch(const ContactModel& model, const Contact& contact);
 

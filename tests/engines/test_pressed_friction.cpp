@@ -10,6 +10,7 @@
 #include "ensemble.hpp"
 #include "hard_engine.hpp"
 #include "setup_file.hpp"
+#include "soft_engine.hpp"
 
 using namespace shakedown;
 
@@ -38,5 +39,18 @@ TEST(PressedFriction, LosesInTheFirstStrokesWhatSoftContactsLose) {
     const Statistic peak =
         hard.over_runs([&](const RunResult& run) { return std::abs(run.observables.peaks.at(k).position); });
     EXPECT_NEAR(peak.mean, soft[k], 0.25e-3) << k;  // seen: 0.08, 0.06, 0.10, 0.12 mm
+  }
+}
+
+// Smooth walls have no tangential spring that could store what slips along them.
+TEST(PressedFriction, OfGrainsAloneOrOfWallsAloneNeverAddsEnergy) {
+  for (const char* rubbing : {"grain_grain", "grain_wall"}) {
+    const shakedown::Setup setup =
+        parse_setup("[run]\nduration = \"0.1 s\"\n[[effect]]\nname = \"grain_friction\"\n" +
+                        std::string(rubbing) + " = 0.4\n",
+                    rubbing, all_effects());
+    const Trajectory run = make_soft_engine()->run(setup, {});
+    for (const double energy : run.total_energy)
+      EXPECT_LE(energy, run.initial_energy * (1 + 1e-9)) << rubbing;
   }
 }
