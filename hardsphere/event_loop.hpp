@@ -84,6 +84,7 @@ class EventLoop {
   void refuse(int i, Flight3 flight, EndWalls* walls);
   double restitution(ContactClass contact, double closing, double elastic_below, std::int64_t& rescues) const;
   double elastic_below(double limit, int i, int j = -1) const;
+  bool rubs(double closing, double elastic_below, int i, int j = -1);
   void note_touch(std::uint64_t bond, double momentum, int i, int j = -1);
   void let_go();
   void kick_box(double jump);
@@ -151,7 +152,8 @@ class EventLoop {
   EndWalls end_walls_;
   // across y and z, where they move or attract; empty: fixed, found by Grains
   std::vector<EndWalls> side_walls_;
-  std::vector<Vec3> spin_;  // empty without friction
+  std::vector<Vec3> spin_;       // empty without friction
+  std::vector<double> touched_;  // latest impact of each grain, s; likewise
   HeldBonds held_;
   int attraction_effect_ = -1;  // its line in the ledger
 

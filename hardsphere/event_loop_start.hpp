@@ -102,8 +102,10 @@ EventLoop<Grains, Motion>::EventLoop(const State& state, const Physics& physics,
   for (std::size_t e = 0; e < setup.effects.size(); ++e)
     if (setup.effects[e].record->name == "grain_cohesion") attraction_effect_ = static_cast<int>(e);
   if (forces_.arc_length != 0) arc_curvature_ = 0.6 / forces_.arc_length;
-  if (contact_.has_friction())
+  if (contact_.has_friction()) {
     spin_ = state.spin.empty() ? std::vector<Vec3>(state.size(), Vec3::Zero()) : state.spin;
+    touched_.assign(state.size(), -1.0);
+  }
   if (driven && has_walls_ && (falling_ || arc_curvature_ != 0 || contact_.has_attraction()))
     for (const double width : setup.box.width)
       side_walls_.emplace_back(rooms(state, width), state.size() <= always_watched,

@@ -20,13 +20,6 @@ struct ElasticLimits {
       -1;  ///< m/s^2, acceleration that presses layers on walls and sets the last two; negative: none does
 };
 
-/// Whether an impact at this closing speed rubs, where impacts below `elastic_below` are elastic. A layer
-/// pressed on a wall consists of such impacts, and without friction in them it slips as none of soft contacts
-/// does: with coefficients of 0.41 (restitution 0.66, 128 runs) the peaks at 40 mm fell by 9.00 mm/s; soft
-/// contacts of 0.1 ms give 8.78, friction down to 0.3, 0.1 and 0.03 of the limit 8.85, 8.83 and 8.83, and
-/// first peaks within 0.15, 0.02 mm and less of each other. Down to nothing the layer collapses.
-inline bool rubs(double closing, double elastic_below) { return closing >= 0.1 * elastic_below; }
-
 /// A tangential impulse and the energy that it takes out.
 struct Friction {
   Vec3 impulse = Vec3::Zero();  ///< N s

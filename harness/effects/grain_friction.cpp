@@ -31,10 +31,10 @@ extern const EffectRecord grain_friction{
         "O. R. Walton and R. L. Braun, J. Rheol. 30, 949 (1986); S. F. Foerster et al., Phys. Fluids 6, 1108 "
         "(1994); the tangential spring of 2/7 k_n: L. E. Silbert et al., Phys. Rev. E 64, 051302 (2001)",
     .limits =
-        "One coefficient for rest and motion; no rolling resistance. Impacts slower than a tenth of "
-        "the speed below which the regularisation of inelastic collapse makes them elastic are frictionless. "
-        "Slip after an impact and after a soft contact "
-        "agree to 0.07 of the slip "
+        "One coefficient for rest and motion; no rolling resistance. Of the impacts that the regularisation "
+        "of "
+        "inelastic collapse makes elastic those slower than a tenth of its limit, or less than 10 us after "
+        "another, are frictionless. Slip after an impact and after a soft contact agree to 0.07 of the slip "
         "before. An impulse and a tangential spring agree for free flight between impacts; in a pressed "
         "layer they come within 0.6 % of the slope of the decay (coefficients of 0.41, restitution 0.66).",
     .parameters = {{.name = "grain_grain",
