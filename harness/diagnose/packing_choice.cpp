@@ -11,16 +11,20 @@ namespace shakedown {
 
 namespace {
 
-/// Farther than this from the grains' centre of a packing (m) lies another. Layers are the same in every run,
-/// grains laid at random are not.
-double other_than(Packing packing) {
-  return packing == Packing::random || packing == Packing::spread ? 2.5e-3 : 0.5e-3;
+/// How far from where a packing has the grains' centre (m, standard deviation) grains of that packing may be
+/// laid. Layers are the same in every run, grains laid at random are not.
+double laid_within(Packing packing) {
+  return packing == Packing::random || packing == Packing::spread ? 1.25e-3 : 0.25e-3;
 }
+
+/// A camera's scale or bias (standard deviation), and what another packing must bring in chi2.
+constexpr double usual_scale = 0.03, better_by = 10;
 
 /// Where the grains' centre of a measured run lies in the box before anything has moved.
 struct ReleasedCentre {
   std::size_t run;
   double apart;  ///< m, x_com - x_box
+  double error;  ///< m, of the camera's noise
 };
 
 std::vector<ReleasedCentre> released_centres(const Experiment& experiment, const Audit& audit) {
@@ -33,24 +37,39 @@ std::vector<ReleasedCentre> released_centres(const Experiment& experiment, const
     for (std::size_t i = 0; i < run.time.size() && run.time[i] < still; ++i)
       if (const double apart = audit.runs[r].x_com[i] - audit.runs[r].x_box[i]; std::isfinite(apart))
         sum += apart, ++count;
-    if (count >= 3) list.push_back({r, sum / count});
+    const double noise =
+        std::hypot(audit.runs[r].com.standard_deviation, audit.runs[r].box.standard_deviation);
+    if (count >= 3) list.push_back({r, sum / count, noise / std::sqrt(count)});
   }
   return list;
 }
 
-/// rms of measured - scale * modelled, m. The scale is free within a tenth where box lengths tell it.
-double misfit_up_to_scale(const std::vector<ReleasedCentre>& measured, const std::vector<double>& modelled) {
+struct Misfit {
+  double rms;   ///< m
+  double chi2;  ///< up to what all packings share; the less certain places of a wide packing count against it
+};
+
+/// Of measured - scale * modelled. The scale is free within a tenth where box lengths tell it.
+Misfit misfit_up_to_scale(const std::vector<ReleasedCentre>& measured, const std::vector<double>& modelled,
+                          double laid) {
   double cross = 0, square = 0, low = 1e9, high = 0;
   for (std::size_t i = 0; i < measured.size(); ++i) {
-    cross += measured[i].apart * modelled[i];
-    square += modelled[i] * modelled[i];
+    const double weight = 1 / (laid * laid + std::pow(measured[i].error, 2));
+    cross += weight * measured[i].apart * modelled[i];
+    square += weight * modelled[i] * modelled[i];
     low = std::min(low, modelled[i]), high = std::max(high, modelled[i]);
   }
-  const double scale = high - low > 0.01 && square > 0 ? std::clamp(cross / square, 0.88, 1.1) : 1.0;
-  double squares = 0;
-  for (std::size_t i = 0; i < measured.size(); ++i)
-    squares += std::pow(measured[i].apart - scale * modelled[i], 2);
-  return std::sqrt(squares / static_cast<double>(measured.size()));
+  const double known = 1 / (usual_scale * usual_scale);
+  const double scale = high - low > 0.01 ? std::clamp((cross + known) / (square + known), 0.88, 1.1) : 1.0;
+  Misfit misfit{0, known * std::pow(scale - 1, 2)};
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const double variance = laid * laid + std::pow(measured[i].error, 2),
+                 squared = std::pow(measured[i].apart - scale * modelled[i], 2);
+    misfit.rms += squared / static_cast<double>(measured.size());
+    misfit.chi2 += squared / variance + std::log(variance);
+  }
+  misfit.rms = std::sqrt(misfit.rms);
+  return misfit;
 }
 
 }  // namespace
@@ -70,17 +89,20 @@ PackingChoice packing_before_release(const Setup& given, const Experiment& exper
       const State state = initial_state(setups[centre.run]);
       modelled.push_back(centre_of_mass_x(state) - state.x_box);
     }
-    return misfit_up_to_scale(measured, modelled);
+    return misfit_up_to_scale(measured, modelled, laid_within(packing));
   };
-  best.apart = misfit_of(best.packing);
-  if (best.apart < other_than(Packing::fcc)) return best;
-  double least = best.apart / 2;
-  best.fits = best.apart < other_than(best.packing);
+  const auto fits = [](const Misfit& misfit, Packing packing) {
+    return misfit.rms < 2 * laid_within(packing);
+  };
+  const Misfit of_given = misfit_of(best.packing);
+  best.apart = of_given.rms;
+  best.fits = fits(of_given, best.packing);
+  double least = of_given.chi2 - better_by;
   for (const Packing packing : {Packing::fcc, Packing::square, Packing::random, Packing::spread}) {
-    const double misfit = misfit_of(packing);
-    if (misfit >= least || misfit >= other_than(packing)) continue;
-    best = {packing, misfit};
-    least = misfit;
+    const Misfit misfit = misfit_of(packing);
+    if (misfit.chi2 >= least || !fits(misfit, packing)) continue;
+    best = {packing, misfit.rms};
+    least = misfit.chi2;
   }
   return best;
 }

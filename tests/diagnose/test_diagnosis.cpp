@@ -15,6 +15,7 @@
 #include "next_experiment.hpp"
 #include "packing_choice.hpp"
 #include "parameter_knobs.hpp"
+#include "random.hpp"
 #include "release_scale.hpp"
 
 using namespace shakedown;
@@ -79,6 +80,30 @@ TEST(Diagnosis, AnArrangementThatNoPackingHasIsTold) {
     for (double& x : run.x_com) x -= 1e-3;
   EXPECT_FALSE(chosen().fits);
   EXPECT_EQ(chosen().packing, believed().release.packing);
+}
+
+// Up to a camera's scale layers of fcc and of square lie some 0.6 mm apart; 0.2 mm is the error of a dozen
+// frames of a bad camera.
+TEST(Diagnosis, LayersAreToldFromEachOtherThroughNoise) {
+  for (const Packing truth : {Packing::fcc, Packing::square}) {
+    const Experiment clean = measured({{},
+                                       {{"release.packing", truth == Packing::fcc ? "fcc" : "square"}},
+                                       {},
+                                       {0.040, 0.040, 0.065, 0.085, 0.104},
+                                       5,
+                                       "0.5 s"});
+    for (std::uint64_t draw = 0; draw < 50; ++draw) {
+      Experiment experiment = clean;
+      Random random(draw, 0, Stream::other);
+      for (MeasuredRun& run : experiment.runs) {
+        const double wrong = 0.2e-3 * random.normal();
+        for (double& x : run.x_com) x += wrong;
+      }
+      EXPECT_EQ(packing_before_release(believed(), experiment, audit(experiment), all_effects()).packing,
+                truth)
+          << draw;
+    }
+  }
 }
 
 TEST(Diagnosis, ABalanceWithDryFrictionInTheSetupHoldsThoughTheBoxSticks) {
