@@ -112,8 +112,14 @@ std::unique_ptr<SimulationJournal> journal_in(const OutputFolder* folder, const 
                          "name it with --out DIR"}});
     return nullptr;
   }
-  return std::make_unique<SimulationJournal>(folder->path() / "simulations.journal",
-                                             version_line() + ", experiment " + digest(experiment), resume);
+  const std::filesystem::path file = folder->path() / "simulations.journal";
+  if (!resume && std::filesystem::exists(file))
+    fmt::print(stderr,
+               "{} is of a diagnosis that was interrupted; kept as {}.old, and all is simulated anew "
+               "(--resume would have gone on)\n",
+               file.string(), file.filename().string());
+  return std::make_unique<SimulationJournal>(file, version_line() + ", experiment " + digest(experiment),
+                                             resume);
 }
 
 std::string what_is_kept(const SimulationJournal* journal) {

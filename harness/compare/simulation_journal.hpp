@@ -18,9 +18,10 @@ class SimulationJournal {
  public:
   using Features = std::vector<Eigen::VectorXd>;  ///< of one simulation, for each run that shares it
 
-  /// Begins the file, or, with `resume`, goes on in it when it is there: up to the first record that was not
-  /// written whole. `work` names program and measurements, for journals serve no other. Throws FileError;
-  /// InputError when there is a journal of other work to go on in.
+  /// Begins the file (one that is there is kept beside it, its name ending in .old), or, with `resume`, goes
+  /// on in it when it is there: up to the first record that was not written whole. `work` names program and
+  /// measurements, for journals serve no other. Throws FileError; InputError when there is a journal of other
+  /// work to go on in.
   SimulationJournal(std::filesystem::path file, const std::string& work, bool resume);
 
   /// May be called from many threads, as keep().

@@ -47,6 +47,7 @@ TEST_F(Journal, GivesBackBitForBitWhatWasKeptAfterAnInterruption) {
 TEST_F(Journal, BeginsAfreshWithoutResume) {
   opened(false).keep("a", one);
   EXPECT_EQ(opened(false).kept(), 0);
+  EXPECT_EQ(SimulationJournal(file.string() + ".old", "these measurements", true).find("a"), one);
   EXPECT_EQ(opened(true).kept(), 0);
 }
 
