@@ -18,7 +18,7 @@ double laid_within(Packing packing) {
 }
 
 /// A camera's scale or bias (standard deviation), and what another packing must bring in chi2.
-constexpr double usual_scale = 0.03, better_by = 10;
+constexpr double usual_scale = 0.03, better_by = 5;
 
 /// Where the grains' centre of a measured run lies in the box before anything has moved.
 struct ReleasedCentre {
