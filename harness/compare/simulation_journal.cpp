@@ -71,8 +71,9 @@ SimulationJournal::SimulationJournal(fs::path file, const std::string& work, boo
   const std::string title = "shakedown simulations of " + work + "\n";
   const bool go_on = resume && fs::exists(file_);
   if (go_on) read(title);
-  std::error_code kept_where_it_can_be;
-  if (!go_on && fs::exists(file_)) fs::rename(file_, file_.string() + ".old", kept_where_it_can_be);
+  std::error_code problem;
+  if (!go_on && fs::exists(file_)) fs::rename(file_, file_.string() + ".old", problem);
+  if (problem) throw FileError(file_.string() + ": cannot be kept under another name: " + problem.message());
   stream_.open(file_, go_on ? std::ios::binary | std::ios::app : std::ios::binary | std::ios::trunc);
   if (!go_on) stream_ << title << std::flush;
   if (!stream_) throw FileError(file_.string() + ": cannot be written");

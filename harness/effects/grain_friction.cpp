@@ -32,9 +32,9 @@ extern const EffectRecord grain_friction{
         "(1994); the tangential spring of 2/7 k_n: L. E. Silbert et al., Phys. Rev. E 64, 051302 (2001)",
     .limits =
         "One coefficient for rest and motion; no rolling resistance. Of the impacts that the regularisation "
-        "of "
-        "inelastic collapse makes elastic those slower than a tenth of its limit, or less than 10 us after "
-        "another, are frictionless. Slip after an impact and after a soft contact agree to 0.07 of the slip "
+        "of inelastic collapse makes elastic those slower than a tenth of its limit, or less than 10 us "
+        "after another, are frictionless. Slip after an impact and after a soft contact agree to 0.07 of the "
+        "slip "
         "before. An impulse and a tangential spring agree for free flight between impacts; in a pressed "
         "layer they come within 0.6 % of the slope of the decay (coefficients of 0.41, restitution 0.66).",
     .parameters = {{.name = "grain_grain",
