@@ -147,7 +147,7 @@ PlateauSlope plateau_slope(const Experiment& experiment, const std::vector<RunAu
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   std::set<double> lengths;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (!std::isfinite(runs[i].plateau)) continue;
+    if (!std::isfinite(runs[i].plateau) || !std::isfinite(experiment.runs[i].box_length)) continue;
     const Eigen::Vector2d row(1, experiment.runs[i].box_length);
     const double weight = 1 / (runs[i].plateau_error * runs[i].plateau_error);
     normal += weight * row * row.transpose();

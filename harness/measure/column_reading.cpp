@@ -75,22 +75,23 @@ void report_text(const Table& table, const TableColumn& column, std::vector<Viol
 
 std::string seconds(double value) { return write_quantity(value, "s"); }
 
-/// The clock must run forwards; says where it does not.
+/// The clock must run forwards; says where it does not. Rows that nobody told apart by track are `mixed`:
+/// what to do about it, or nothing.
 void check_clock(const Table& table, const std::vector<std::size_t>& rows, const std::vector<double>& time,
-                 const std::string& column, std::vector<Violation>& violations) {
+                 const std::string& column, const std::string& mixed, std::vector<Violation>& violations) {
   for (std::size_t i = 1; i < rows.size() && violations.size() < most_violations; ++i) {
     if (time[i] > time[i - 1]) continue;
     const SourcePlace place{table.file, table.line[rows[i]], 1};
-    if (time[i] == time[i - 1])
-      violations.push_back({place, column,
-                            "the time " + seconds(time[i]) + " stands twice (also in line " +
-                                std::to_string(table.line[rows[i - 1]]) + ")",
-                            "delete one of the two lines"});
-    else
-      violations.push_back(
-          {place, column,
-           "the clock runs backwards (" + seconds(time[i]) + " after " + seconds(time[i - 1]) + ")",
-           "sort the table by time, or separate the recordings"});
+    const bool twice = time[i] == time[i - 1];
+    const std::string problem =
+        twice ? "the time " + seconds(time[i]) + " stands twice (also in line " +
+                    std::to_string(table.line[rows[i - 1]]) + ")"
+              : "the clock runs backwards (" + seconds(time[i]) + " after " + seconds(time[i - 1]) + ")";
+    const std::string remedy = !mixed.empty() ? mixed
+                               : twice        ? "delete one of the two lines"
+                                              : "sort the table by time, or separate the recordings";
+    violations.push_back({place, column, problem, remedy});
+    if (!mixed.empty()) return;  // the same of every frame
   }
 }
 
@@ -133,8 +134,8 @@ const TableColumn* track_column(const Table& table, const ColumnChoice& choice,
                             remedy_for_column(table, choice.track_from)});
     return column;
   }
-  for (const char* name : {"TRACK_ID", "particle", "track", "Track n", "Track", "track_id", "id"})
-    if (const TableColumn* column = find_column(table, name)) return column;
+  if (const TableColumn* column = find_track_column(table)) return column;
+  if (const TableColumn* column = find_column(table, "id")) return column;
   violations.push_back({choice.place, "track", "no column of " + table.file + " holds track numbers",
                         "say which with track_from"});
   return nullptr;
@@ -148,6 +149,16 @@ bool is_track(double number, const std::vector<std::string>& tracks) {
       return false;
     }
   });
+}
+
+/// What to do about rows of several tracks that are read as one; nothing when the table has no such rows.
+std::string choose_a_track(const Table& table) {
+  const TableColumn* column = find_track_column(table);
+  if (!column) return "";
+  const auto [low, high] = std::minmax_element(column->value.begin(), column->value.end());
+  if (!(*low < *high)) return "";
+  return "column " + quoted(column->name) + " tells tracks apart: say which one with track = \"" +
+         write_quantity(*low, "") + "\" or another";
 }
 
 using Series = std::map<double, double>;  // s -> m
@@ -174,10 +185,11 @@ Series series_of(const Table& table, const ColumnChoice& choice, const std::vect
   if (rows_of_track.size() < std::max<std::size_t>(1, choice.tracks.size()))
     violations.push_back({choice.place, "track", "not every one of these tracks is in " + table.file,
                           "look at the track numbers there"});
+  const std::string mixed = tracks ? "" : choose_a_track(table);
   for (const auto& [track, rows] : rows_of_track) {
     std::vector<double> own;
     for (const std::size_t row : rows) own.push_back(time[row]);
-    check_clock(table, rows, own, clock, violations);
+    check_clock(table, rows, own, clock, mixed, violations);
   }
   Series series;
   // The mean of grains of which one is lost would jump: such a frame is missing.
@@ -235,8 +247,14 @@ RunSeries read_columns(const Table& table, const RunColumns& columns, const Cloc
   if (columns.com) {
     std::vector<Violation> of_com;
     com = series_of(table, *columns.com, time, scale, clock, of_com);
-    for (Violation& violation : of_com)  // the clock is judged once where both are rows of one table
-      if (violation.key != clock || clock.empty()) run.violations.push_back(std::move(violation));
+    const auto reported = [&](const Violation& violation) {  // without tracks both stand in the same rows
+      return std::any_of(run.violations.begin(), run.violations.end(), [&](const Violation& other) {
+        return other.key == violation.key && other.place.line == violation.place.line &&
+               other.problem == violation.problem;
+      });
+    };
+    std::erase_if(of_com, reported);
+    run.violations.insert(run.violations.end(), of_com.begin(), of_com.end());
   }
   Series all = box;
   all.insert(com.begin(), com.end());

@@ -14,7 +14,7 @@ namespace shakedown {
 struct MeasuredRun {
   std::string name;  ///< file name without folder and ending; with "#2" ... where a file is used twice
   std::string file;
-  double box_length = 0;                      ///< m
+  double box_length = 0;                      ///< m; NaN: as in the setup
   double frame_rate = 0;                      ///< Hz, as stated, else the inverse of the median interval
   std::vector<Override> overrides;            ///< setup keys of this run, box.length among them
   std::map<std::string, SourcePlace> places;  ///< where the experiment file gives each override

@@ -11,6 +11,7 @@
 #include "fnv.hpp"
 #include "quantity.hpp"
 #include "suggestion.hpp"
+#include "table_text.hpp"
 #include "toml_document.hpp"
 #include "value_reading.hpp"
 
@@ -52,10 +53,19 @@ class Reader {
   }
 
   double positive(std::string_view key, std::string_view unit, double otherwise) {
-    const double value = number(key, unit, otherwise);
-    if (value > 0 || !table_->find(key) || value == otherwise) return value;
-    report(*table_->find(key), key, "must be greater than 0", "");
+    constexpr double absent = -std::numeric_limits<double>::infinity();  // or wrong, and reported
+    const double value = number(key, unit, absent);
+    if (value > 0) return value;
+    if (value != absent) report(*table_->find(key), key, "must be greater than 0", "");
     return otherwise;
+  }
+
+  /// The table of this name; nullptr when there is none or it is something else (reported).
+  const TomlValue* table(std::string_view key, const std::string& remedy) {
+    const TomlValue* value = find(key);
+    if (!value || value->kind == Kind::table) return value;
+    report(*value, key, "is " + std::string(describe(value->kind)) + " where a table is due", remedy);
+    return nullptr;
   }
 
   bool boolean(std::string_view key) {
@@ -108,9 +118,13 @@ ColumnChoice column_choice(const TomlValue& table, const std::string& path, Colu
   if (reader.find("unit")) choice.unit = reader.text("unit");
   const auto length = [&](const char* key, double otherwise) {
     const TomlValue* value = reader.find(key);
-    if (value && value->kind == Kind::text && value->text.ends_with("px") && pixel_size > 0)
-      return std::atof(value->text.c_str()) * pixel_size;
-    return reader.number(key, "mm", otherwise);
+    if (!value || value->kind != Kind::text || !value->text.ends_with("px") || !(pixel_size > 0))
+      return reader.number(key, "mm", otherwise);
+    const std::string_view digits(value->text.data(), value->text.size() - 2);
+    if (const std::optional<double> pixels = cell_number(trimmed(digits), false)) return *pixels * pixel_size;
+    reader.report(*value, key, "'" + value->text + "' is not a number of pixels",
+                  "write it with a decimal point, e.g. \"1920.5 px\"");
+    return otherwise;
   };
   choice.uncertainty = length("uncertainty", choice.uncertainty);
   if (choice.uncertainty < 0)
@@ -131,7 +145,11 @@ RunColumns read_column_tables(const TomlValue* table, const std::string& path, R
   if (!table) return columns;
   for (const TomlEntry& entry : table->entries) {
     const std::string below = path + entry.key + ".";
-    if (entry.key == "time")
+    if (entry.value.kind != Kind::table)
+      violations.push_back({entry.place, path + entry.key,
+                            "is " + std::string(describe(entry.value.kind)) + " where a table is due",
+                            "write [column." + entry.key + "] with from = \"header of the column\""});
+    else if (entry.key == "time")
       columns.time =
           column_choice(entry.value, below, columns.time.value_or(ColumnChoice{}), pixel_size, violations);
     else if (entry.key == "box_position")
@@ -227,6 +245,21 @@ void take_length_and_grains(Reader& reader, const std::filesystem::path& folder,
         grains->place);
 }
 
+/// box.length, as the setup writes it, means the same as box_length.
+void take_length_of_setup(const TomlValue& table, MeasuredRun& run, Violations& violations) {
+  const TomlValue* box = table.find("box");
+  const TomlValue* length = box && box->kind == Kind::table ? box->find("length") : nullptr;
+  if (!length) return;
+  if (std::isfinite(run.box_length)) {
+    violations.push_back(
+        {length->place, "run.box.length", "is said twice (box_length says it too)", "keep one of the two"});
+    return;
+  }
+  const ValueOrProblem<double> value = number_in(*length, "mm");
+  if (const double* metres = std::get_if<double>(&value))
+    run.box_length = *metres;  // else the setup complains
+}
+
 double typical_rate(const std::vector<double>& time) {
   std::vector<double> intervals;
   for (std::size_t i = 1; i < time.size(); ++i) intervals.push_back(time[i] - time[i - 1]);
@@ -277,8 +310,10 @@ void read_run(const TomlValue& table, const std::filesystem::path& folder, const
   scale.release_time = reader.number("release_time", "s", 0);
   take_length_and_grains(reader, folder, experiment.file, run);
   split_run_keys(table, experiment.file, run, violations);
+  take_length_of_setup(table, run, violations);
   const RunColumns columns =
-      read_column_tables(table.find("column"), "run.column.", defaults.columns, scale.pixel_size, violations);
+      read_column_tables(reader.table("column", "write column.box_position.from = \"...\""), "run.column.",
+                         defaults.columns, scale.pixel_size, violations);
   if (columns.box.from.empty())
     violations.push_back(
         {table.place, "column.box_position.from", "is missing", "name the header of the box's position"});
@@ -310,8 +345,8 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
   experiment.title = reader.text("title");
   Defaults defaults;
   const TomlValue* runs = reader.find("run");
-  const TomlValue* columns = reader.find("column");
-  if (const TomlValue* camera = reader.find("camera")) {
+  const TomlValue* columns = reader.table("column", "write [column.box_position]");
+  if (const TomlValue* camera = reader.table("camera", "write [camera]")) {
     Reader of_camera(*camera, "camera.", violations);
     defaults.scale.frame_rate = of_camera.positive("frame_rate", "Hz", 0);
     defaults.scale.pixel_size = of_camera.positive("pixel_size", "mm", 0);

@@ -58,9 +58,13 @@ std::string unit_in_name(const std::string& name, bool is_time) {
 
 /// The unit, and whether the table says it.
 void guess_unit(const TableColumn& column, bool is_time, GuessedColumn& guess) {
-  guess.unit = !column.unit.empty() && unit_size(column.unit, is_time, {1, 1, 0})
-                   ? column.unit
-                   : unit_in_name(column.name, is_time);
+  if (!column.unit.empty() && !unit_size(column.unit, is_time, {1, 1, 0})) {
+    guess.unit = column.unit;
+    guess.certain = false;
+    guess.reason += "; its unit is none that shakedown knows";
+    return;
+  }
+  guess.unit = !column.unit.empty() ? column.unit : unit_in_name(column.name, is_time);
   if (!guess.unit.empty()) return;
   guess.certain = false;
   if (is_time) {
@@ -81,28 +85,63 @@ void guess_unit(const TableColumn& column, bool is_time, GuessedColumn& guess) {
       std::string("; unit guessed from ") + (is_time ? "the name and the steps" : "the size of the numbers");
 }
 
-const TableColumn* best_column(const Table& table, const std::vector<std::vector<std::string>>& by_rank,
+/// "word": the whole name; "word*": a word in it begins so ("x_box", "posBox", not "index" for "x*").
+bool names(const std::string& name, const std::string& word) {
+  const std::string low = lower(name);
+  if (!word.ends_with("*")) return low == word;
+  const std::string start = word.substr(0, word.size() - 1);
+  for (std::size_t at = low.find(start); at != std::string::npos; at = low.find(start, at + 1)) {
+    const auto letter = [&](std::size_t i) { return static_cast<unsigned char>(name[i]); };
+    if (at == 0 || !std::isalpha(letter(at - 1)) ||
+        (std::isupper(letter(at)) && std::islower(letter(at - 1))))
+      return true;
+  }
+  return false;
+}
+
+bool names_any(const std::string& name, const std::vector<std::string>& words) {
+  return std::any_of(words.begin(), words.end(), [&](const std::string& word) { return names(name, word); });
+}
+
+const TableColumn* best_column(const std::vector<std::vector<std::string>>& by_rank,
+                               const std::vector<const TableColumn*>& candidates,
                                const std::set<std::string>& taken) {
   for (const std::vector<std::string>& words : by_rank)
-    for (const TableColumn& column : table.columns)
-      if (!taken.contains(column.name) && column.not_numbers.size() < column.value.size() / 2 &&
-          std::any_of(words.begin(), words.end(), [&](const std::string& word) {
-            return word.ends_with("*")
-                       ? lower(column.name).find(word.substr(0, word.size() - 1)) != std::string::npos
-                       : lower(column.name) == word;
-          }))
-        return &column;
+    for (const TableColumn* column : candidates)
+      if (!taken.contains(column->name) && column->not_numbers.size() < column->value.size() / 2 &&
+          names_any(column->name, words))
+        return column;
   return nullptr;
+}
+
+/// Without velocities, sizes, and what stands still: a position moves.
+std::vector<const TableColumn*> possible_positions(const Table& table) {
+  static const std::vector<std::string> others{"v",      "v_*",   "vx*",    "vy*",     "vel*",
+                                               "speed*", "acc*",  "width*", "height*", "force*",
+                                               "size*",  "area*", "energy*"};
+  std::vector<const TableColumn*> columns;
+  for (const TableColumn& column : table.columns) {
+    const std::string& name = column.name;
+    const bool velocity = name.find("_v_") != std::string::npos || lower(name).ends_with("_v");
+    const bool still = numbers_of(column).size() > 2 && !(range_of(column) > 0);
+    if (!velocity && !still && !names_any(name, others)) columns.push_back(&column);
+  }
+  return columns;
+}
+
+std::vector<const TableColumn*> every_column(const Table& table) {
+  std::vector<const TableColumn*> columns;
+  for (const TableColumn& column : table.columns) columns.push_back(&column);
+  return columns;
 }
 
 GuessedColumn guess_time(const Table& table) {
   GuessedColumn guess{"time", "", "", "", "by its name"};
   const TableColumn* column =
-      best_column(table,
-                  {{"t", "t_s", "time", "time_s", "position_t", "zeit", "temps", "seconds", "t_ms"},
+      best_column({{"t", "t_s", "time", "time_s", "position_t", "zeit", "temps", "seconds", "t_ms"},
                    {"time*", "zeit*"},
                    {"frame", "slice", "slice n", "frame*", "slice*"}},
-                  {});
+                  every_column(table), {});
   if (!column) {
     for (const TableColumn& candidate : table.columns)
       if (never_falls(candidate)) {
@@ -138,7 +177,8 @@ GuessedColumn guess_position(const Table& table, const std::string& role,
                              const std::vector<std::vector<std::string>>& words,
                              std::set<std::string>& taken) {
   GuessedColumn guess{role, "", "", "", "by its name"};
-  const TableColumn* column = along_the_motion(table, best_column(table, words, taken), taken);
+  const TableColumn* column =
+      along_the_motion(table, best_column(words, possible_positions(table), taken), taken);
   if (!column) return {role, "", "", "", "no column looks like it", false};
   taken.insert(column->name);
   guess.from = column->name;
@@ -149,9 +189,7 @@ GuessedColumn guess_position(const Table& table, const std::string& role,
 /// Tables with one row a track and frame: the first track is the box, the second the grains, until the user
 /// says otherwise.
 void guess_tracks(const Table& table, std::vector<GuessedColumn>& columns) {
-  const TableColumn* tracks = nullptr;
-  for (const char* name : {"TRACK_ID", "particle", "track_id"})
-    if (!tracks) tracks = find_column(table, name);
+  const TableColumn* tracks = find_track_column(table);
   if (!tracks) return;
   std::set<double> numbers;
   for (const double value : tracks->value)
@@ -168,14 +206,25 @@ void guess_tracks(const Table& table, std::vector<GuessedColumn>& columns) {
   columns[2].reason = "the second track";
 }
 
-std::string length_in_name(const std::filesystem::path& file) {
-  static const std::regex millimetres(R"(([0-9]{2,3}) ?mm)", std::regex::icase),
-      letter(R"((?:^|[^A-Za-z])L=?0*([0-9]{2,3})(?:[^0-9]|$))");
-  std::smatch found;
+struct GuessedLength {
+  std::string millimetres;  ///< empty: the name does not say
+  bool certain = true;      ///< no other number of millimetres stands in the name
+};
+
+/// "L040", "L=40.25mm", "65 mm_b": the letter counts for more, for grains have millimetres too.
+GuessedLength length_in_name(const std::filesystem::path& file) {
+  static const std::regex millimetres(R"((?:^|[^0-9.])([0-9]{2,3}(?:\.[0-9]+)?) ?mm)", std::regex::icase),
+      letter(R"((?:^|[^A-Za-z])L[=_]?0*([1-9][0-9]{0,2}(?:\.[0-9]+)?)(?![0-9]))");
   const std::string name = file.stem().string();
-  if (std::regex_search(name, found, millimetres) || std::regex_search(name, found, letter))
-    return std::string(found[1]);
-  return "";
+  std::smatch found;
+  GuessedLength length;
+  if (std::regex_search(name, found, letter)) length.millimetres = found[1];
+  for (std::sregex_iterator it(name.begin(), name.end(), millimetres), end; it != end; ++it) {
+    const std::string other = (*it)[1];
+    if (length.millimetres.empty()) length.millimetres = other;
+    if (std::stod(other) != std::stod(length.millimetres)) length.certain = false;
+  }
+  return length;
 }
 
 std::string number_text(double value) {
@@ -202,8 +251,9 @@ std::string preview_of(const Table& table, const std::vector<GuessedColumn>& col
                      (table.delimiter == '\t'  ? "tabs"
                       : table.delimiter == ' ' ? "blanks"
                                                : std::string("'") + table.delimiter + "'") +
-                     " between cells" + (table.decimal_comma ? ", decimal comma" : "") + ", " +
-                     std::to_string(table.header_lines) + " lines of header\n";
+                     " between cells" + (table.decimal_comma ? ", decimal comma" : "") +
+                     (table.latin ? ", letters of Latin-1" : "") + ", " + std::to_string(table.header_lines) +
+                     " lines of header\n";
   for (const GuessedColumn& guess : columns) {
     const TableColumn* column = guess.from.empty() ? nullptr : find_column(table, guess.from);
     text += "  " + guess.role + ": ";
@@ -246,6 +296,9 @@ ImportedTables import_tables(const std::vector<std::filesystem::path>& files,
   for (const GuessedColumn& guess : result.columns)
     if (guess.unit == "px" || guess.unit == "pixel")
       result.open_questions.push_back("camera.pixel_size: the length that one pixel shows");
+    else if (!guess.unit.empty() && !unit_size(guess.unit, guess.role == "time", {1, 1, 0}))
+      result.open_questions.push_back("column." + guess.role + ".unit: '" + guess.unit +
+                                      "' is not known here");
   const bool needs_rate = result.columns[0].from.empty() || result.columns[0].unit.starts_with("frame");
   if (needs_rate) result.open_questions.push_back("camera.frame_rate: the frames a second");
 
@@ -270,13 +323,17 @@ ImportedTables import_tables(const std::vector<std::filesystem::path>& files,
                               guess.role,
                               "has no column '" + guess.from + "' as " + first.file + " has",
                               "import tables of different layout one by one"});
-    const std::string length = length_in_name(file);
+    const GuessedLength length = length_in_name(file);
     text += "\n[[run]]\nfile = " +
             toml_string(
                 std::filesystem::proximate(file, relative_to.empty() ? "." : relative_to).generic_string()) +
-            "\nbox_length = \"" + (length.empty() ? "?" : length) + " mm\"" +
-            (length.empty() ? "" : "  # from the file's name") + "\n";
-    if (length.empty()) result.open_questions.push_back("run.box_length of " + file.filename().string());
+            "\nbox_length = \"" + (length.millimetres.empty() ? "?" : length.millimetres) + " mm\"" +
+            (length.millimetres.empty() ? ""
+             : length.certain           ? "  # from the file's name"
+                                        : "  # one of the lengths in the file's name; PLEASE CHECK") +
+            "\n";
+    if (length.millimetres.empty())
+      result.open_questions.push_back("run.box_length of " + file.filename().string());
     if (!result.columns[2].from.empty() && !find_column(table, result.columns[2].from))
       text += "column.grain_centre.from = \"\"  # not in this table\n";
   }

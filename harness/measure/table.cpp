@@ -5,6 +5,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -57,6 +58,36 @@ bool has_decimal_comma(const std::vector<std::string_view>& sample, char delimit
   return false;
 }
 
+bool is_utf8(std::string_view text) {
+  std::size_t follow = 0;
+  for (const char letter : text) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (follow > 0) {
+      if ((byte & 0xC0) != 0x80) return false;
+      --follow;
+    } else if (byte >= 0x80) {
+      follow = (byte & 0xE0) == 0xC0 ? 1 : (byte & 0xF0) == 0xE0 ? 2 : (byte & 0xF8) == 0xF0 ? 3 : 0;
+      if (follow == 0) return false;
+    }
+  }
+  return follow == 0;
+}
+
+/// Programs of the nineties write the micro and degree signs of headers ("Slice n\xB0") as one byte.
+std::string utf8_from_latin(std::string_view text) {
+  std::string result;
+  for (const char letter : text) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (byte < 0x80) {
+      result += letter;
+    } else {
+      result += static_cast<char>(0xC0 | (byte >> 6));
+      result += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return result;
+}
+
 std::size_t filled(const Row& row) {
   return static_cast<std::size_t>(
       std::count_if(row.begin(), row.end(), [](const std::string& cell) { return !cell.empty(); }));
@@ -67,6 +98,18 @@ bool is_data(const Row& row, std::size_t width, bool decimal_comma) {
   for (const std::string& cell : row)
     if (!is_blank_cell(cell)) ++(cell_number(cell, decimal_comma) ? numbers : words);
   return numbers >= 1 && numbers >= words && 2 * row.size() >= width;
+}
+
+/// Names over every column and no number among them: what follows with a number in it is data, if bad data.
+bool is_row_of_names(const Row& row, std::size_t width, bool decimal_comma) {
+  return filled(row) == width && std::none_of(row.begin(), row.end(), [&](const std::string& cell) {
+           return cell_number(cell, decimal_comma).has_value();
+         });
+}
+
+bool holds_number(const Row& row, bool decimal_comma) {
+  return std::any_of(row.begin(), row.end(),
+                     [&](const std::string& cell) { return cell_number(cell, decimal_comma).has_value(); });
 }
 
 /// "x [mm]" and "x (mm)" into name and unit.
@@ -169,6 +212,11 @@ void drop_shadow_columns(Table& table) {
 }  // namespace
 
 Table parse_table(std::string_view text, const std::string& name) {
+  if (!is_utf8(text) && !text.starts_with("\xFF\xFE") && !text.starts_with("\xFE\xFF")) {
+    Table table = parse_table(utf8_from_latin(text), name);
+    table.latin = true;
+    return table;
+  }
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     refuse(name, "is UTF-16 text (a spreadsheet's \"Unicode text\")", "save it as CSV UTF-8");
   const std::vector<Line> lines = lines_of(text);
@@ -183,6 +231,7 @@ Table parse_table(std::string_view text, const std::string& name) {
   std::vector<Row> header;
   Row last_comment;
   std::size_t first = 0;
+  bool named = false;
   for (; first < lines.size(); ++first) {
     const std::string_view line = trimmed(lines[first].text);
     if (is_comment(line)) {
@@ -192,6 +241,8 @@ Table parse_table(std::string_view text, const std::string& name) {
     }
     Row cells = split_cells(lines[first].text, table.delimiter);
     if (is_data(cells, width, table.decimal_comma)) break;
+    if (named && cells.size() == width && holds_number(cells, table.decimal_comma)) break;
+    named = named || is_row_of_names(cells, width, table.decimal_comma);
     header.push_back(std::move(cells));
   }
   if (first == lines.size()) refuse(name, "holds no row of numbers", "export the table as text with numbers");
@@ -219,6 +270,15 @@ const TableColumn* find_column(const Table& table, std::string_view name) {
     if (column.name == name || (!column.unit.empty() && (column.name + " [" + column.unit + "]" == name ||
                                                          column.name + " (" + column.unit + ")" == name)))
       return &column;
+  return nullptr;
+}
+
+const TableColumn* find_track_column(const Table& table) {
+  for (const char* name : {"TRACK_ID", "particle", "track_id"})
+    if (const TableColumn* column = find_column(table, name)) return column;
+  static const std::regex numbered(R"(track[ _]?(|n|no|nr|number|id|#|n\xC2\xB0)\.?)", std::regex::icase);
+  for (const TableColumn& column : table.columns)
+    if (std::regex_match(column.name, numbered)) return &column;
   return nullptr;
 }
 

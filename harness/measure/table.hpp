@@ -31,6 +31,7 @@ struct Table {
   int header_lines = 0;  ///< lines before the first row of data
   std::vector<TableColumn> columns;
   std::vector<int> line;              ///< of each row in the file, from 1
+  bool latin = false;                 ///< was not UTF-8; its letters were read as Latin-1
   std::vector<Violation> violations;  ///< rows with too few or too many cells
   std::size_t rows() const { return line.size(); }
 };
@@ -44,6 +45,10 @@ Table parse_table(std::string_view text, const std::string& name);
 
 /// The column of this name; nullptr when there is none.
 const TableColumn* find_column(const Table& table, std::string_view name);
+
+/// The column that tells tracks apart in a table with one row a track and frame, by the headers that trackers
+/// write; nullptr when there is none.
+const TableColumn* find_track_column(const Table& table);
 
 /// The names of all columns.
 std::vector<std::string> column_names(const Table& table);

@@ -125,6 +125,50 @@ TEST_F(ExperimentFile, TracksOfLongTables) {
   EXPECT_TRUE(std::isnan(run.box_length));
 }
 
+TEST_F(ExperimentFile, RowsOfSeveralTracksReadAsOneNameTheColumnThatTellsThemApart) {
+  write("a.csv", "Track n,t_s,x\n1,0,107\n2,0,118\n1,0.002,106\n2,0.002,117\n");
+  const std::string message = message_of(columns_ + "[[run]]\nfile = \"a.csv\"\nbox_length = \"40 mm\"\n");
+  EXPECT_NE(message.find("column 'Track n' tells tracks apart: say which one with track = \"1\""),
+            std::string::npos)
+      << message;
+  EXPECT_EQ(message.find("sort the table"), std::string::npos);
+}
+
+TEST_F(ExperimentFile, AFrameOfTheGrainsThatStandsTwiceIsNamed) {
+  write("a.csv",
+        "track,t_s,x\n1,0,107\n2,0,118\n1,0.002,106\n2,0.002,117\n2,0.002,117\n1,0.004,105\n2,0.004,116\n"
+        "1,0.006,104\n2,0.006,115\n1,0.008,103\n2,0.008,114\n");
+  const std::string message = message_of(
+      "[column.time]\nfrom = \"t_s\"\nunit = \"s\"\n[column.box_position]\nfrom = \"x\"\nunit = "
+      "\"mm\"\ntrack = \"1\"\n[column.grain_centre]\nfrom = \"x\"\nunit = \"mm\"\ntrack = "
+      "\"2\"\n[[run]]\nfile = \"a.csv\"\nbox_length = \"40 mm\"\n");
+  EXPECT_NE(message.find("a.csv:6"), std::string::npos) << message;
+  EXPECT_NE(message.find("stands twice"), std::string::npos) << message;
+}
+
+TEST_F(ExperimentFile, ValuesOfTheWrongKindAreNotPassedOver) {
+  write("a.csv", good_);
+  const std::string run = "[[run]]\nfile = \"a.csv\"\nbox_length = \"40 mm\"\n";
+  const auto complains = [&](const std::string& text, const std::string& about) {
+    const std::string message = message_of(text);
+    EXPECT_NE(message.find(about), std::string::npos) << text << "\n" << message;
+  };
+  complains("camera = 3\n" + columns_ + run, "where a table is due");
+  complains("[column]\ngrain_centre = \"c\"\n" + columns_.substr(columns_.find('\n') + 1) + run,
+            "where a table is due");
+  complains("[camera]\nframe_rate = \"0 Hz\"\n" + columns_ + run,
+            "camera.frame_rate: must be greater than 0");
+  complains("[camera]\npixel_size = \"0.5 mm\"\n" + columns_ + "origin = \"1,920 px\"\n" + run,
+            "is not a number of pixels");
+  complains(columns_ + run + "box.length = \"65 mm\"\n", "is said twice");
+}
+
+TEST_F(ExperimentFile, TheLengthMayBeSaidAsTheSetupSaysIt) {
+  write("a.csv", good_);
+  const Experiment experiment = parse(columns_ + "[[run]]\nfile = \"a.csv\"\nbox.length = \"65 mm\"\n");
+  EXPECT_DOUBLE_EQ(experiment.runs[0].box_length, 0.065);
+}
+
 TEST_F(ExperimentFile, PixelsFramesOriginAndDirection) {
   fs::copy_file(std::string(TEST_DATA) + "/tables/trackpy.csv", folder_ / "trackpy.csv");
   const Experiment experiment = parse(

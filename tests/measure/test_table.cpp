@@ -36,6 +36,22 @@ TEST(Table, WordsAndCutLinesAreReportedWithTheirPlace) {
   EXPECT_EQ(table.violations[0].place.line, 5);
 }
 
+TEST(Table, WordsInTheFirstRowOfDataAreNoHeader) {
+  const Table table = parse_table("t,x,y\n0,off,off\n1,off,off\n2,0.3,1\n3,0.4,1\n4,0.4,1\n", "t.csv");
+  EXPECT_EQ(table.header_lines, 1);
+  ASSERT_EQ(table.rows(), 5u);
+  EXPECT_EQ(table.columns[1].not_numbers.size(), 2u);
+}
+
+TEST(Table, LettersOfOneByte) {
+  const Table table = parse_table("Track n\xB0,Slice n\xB0,X [\xB5m]\n1,1,5\n1,2,6\n1,3,7\n", "t.csv");
+  EXPECT_TRUE(table.latin);
+  EXPECT_EQ(table.columns[1].name, "Slice n\xC2\xB0");
+  EXPECT_EQ(table.columns[2].unit, "\xC2\xB5m");
+  EXPECT_EQ(find_track_column(table), &table.columns[0]);
+  EXPECT_FALSE(parse_table("Track n\xC2\xB0,X\n1,1\n", "t.csv").latin);
+}
+
 TEST(Table, NotATable) {
   EXPECT_THROW(parse_table("", "t.csv"), InputError);
   EXPECT_THROW(parse_table("only words\nand more\n", "t.csv"), InputError);
