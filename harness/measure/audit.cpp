@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <set>
+#include <map>
 
 #include "outliers.hpp"
 #include "robust_statistics.hpp"
@@ -16,6 +16,7 @@ namespace shakedown {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double usual_noise = 1e-3;  // m, of a camera of which nothing is known
 
 double frame_interval_of(const std::vector<double>& time) {
   std::vector<double> intervals;
@@ -26,11 +27,37 @@ double frame_interval_of(const std::vector<double>& time) {
   return (time.back() - time.front()) / frames;
 }
 
+/// The frames of one series, where another of the run may have more: grains tracked in every fourth frame are
+/// neighbours of each other all the same.
+struct OwnFrames {
+  std::vector<double> time, x;
+  std::vector<std::size_t> at;  ///< place in the run
+  double interval = 0;          ///< s
+};
+
+OwnFrames own_frames(const std::vector<double>& time, const std::vector<double>& x, double interval) {
+  constexpr double mostly = 0.6;
+  OwnFrames own{time, x, {}, interval};
+  std::vector<std::size_t> present;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (std::isfinite(x[i])) present.push_back(i);
+  if (present.size() < 5 || static_cast<double>(present.size()) > mostly * static_cast<double>(x.size())) {
+    for (std::size_t i = 0; i < x.size(); ++i) own.at.push_back(i);
+    return own;
+  }
+  own.time.clear(), own.x.clear();
+  for (const std::size_t i : present) own.time.push_back(time[i]), own.x.push_back(x[i]);
+  own.at = std::move(present);
+  own.interval = frame_interval_of(own.time);
+  return own;
+}
+
 /// Whether a frame follows the one before it without a frame lost between.
-std::vector<char> neighbours_of(const std::vector<double>& time, double interval) {
-  std::vector<char> neighbour(time.size(), 0);
-  for (std::size_t i = 1; i < time.size(); ++i) neighbour[i] = time[i] - time[i - 1] < 1.5 * interval;
-  return neighbour;
+NeighbouredSeries neighboured(const OwnFrames& own) {
+  NeighbouredSeries series{&own.x, std::vector<char>(own.time.size(), 0)};
+  for (std::size_t i = 1; i < own.time.size(); ++i)
+    series.neighbour[i] = own.time[i] - own.time[i - 1] < 1.5 * own.interval;
+  return series;
 }
 
 /// Variance that wrong frames too near to be seen add: as many per millimetre as there are among those just
@@ -57,18 +84,25 @@ NoiseFound noise_of(const std::vector<double>& time, std::vector<double>& x, dou
                     double declared) {
   NoiseFound noise;
   noise.declared = declared;
-  const NeighbouredSeries series{&x, neighbours_of(time, interval)};
+  OwnFrames own = own_frames(time, x, interval);
+  const NeighbouredSeries series = neighboured(own);
   const auto present = [&] {
     return std::count_if(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
   };
   const auto before = present();
-  const std::vector<double> raw = x;
-  x = without_outliers(time, x, interval, std::max(white_deviation(series), 1e-9));
+  const std::vector<double> raw = own.x;
+  const double white = white_deviation(series);
+  if (!std::isfinite(white)) {  // without five frames in a row nothing tells noise from motion
+    noise.standard_deviation = std::isfinite(declared) ? declared : usual_noise;
+    return noise;
+  }
+  own.x = without_outliers(own.time, own.x, own.interval, std::max(white, 1e-9));
+  for (std::size_t i = 0; i < own.at.size(); ++i) x[own.at[i]] = own.x[i];
   noise.outliers = static_cast<int>(before - present());
-  noise.correlation = colour_of({series}, interval);
+  noise.correlation = colour_of({series}, own.interval);
   set_deviation(series, noise);
   noise.standard_deviation =
-      std::hypot(noise.standard_deviation, std::sqrt(unseen_outliers(raw, x, noise.standard_deviation)));
+      std::hypot(noise.standard_deviation, std::sqrt(unseen_outliers(raw, own.x, noise.standard_deviation)));
   return noise;
 }
 
@@ -142,21 +176,38 @@ void find_plateau(const MeasuredRun& run, const RunAudit& audit, double& plateau
   error = std::max(noise / std::sqrt(2.0 * half + 1), 1e-4);  // the layer's thickness repeats to about 0.1 mm
 }
 
+/// How thick the layer is depends on the grains: runs with others have a plateau of their own.
+std::string grains_of(const MeasuredRun& run) {
+  std::string text;
+  for (const Override& override : run.overrides)
+    if (override.key.starts_with("grains.")) text += override.key + "=" + override.value + ";";
+  return text;
+}
+
 PlateauSlope plateau_slope(const Experiment& experiment, const std::vector<RunAudit>& runs) {
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  std::set<double> lengths;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (!std::isfinite(runs[i].plateau) || !std::isfinite(experiment.runs[i].box_length)) continue;
-    const Eigen::Vector2d row(1, experiment.runs[i].box_length);
-    const double weight = 1 / (runs[i].plateau_error * runs[i].plateau_error);
-    normal += weight * row * row.transpose();
-    right += weight * row * runs[i].plateau;
-    lengths.insert(experiment.runs[i].box_length);
-  }
-  if (lengths.size() < 2) return {nothing, nothing};
-  const Eigen::Matrix2d inverse = normal.inverse();
-  return {(inverse * right)[1], std::sqrt(inverse(1, 1))};
+  struct Sums {
+    double weight = 0, length = 0, plateau = 0;
+  };
+  std::map<std::string, Sums> means;
+  const auto each = [&](const auto& visit) {
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      if (std::isfinite(runs[i].plateau) && std::isfinite(experiment.runs[i].box_length))
+        visit(means[grains_of(experiment.runs[i])], 1 / (runs[i].plateau_error * runs[i].plateau_error),
+              experiment.runs[i].box_length, runs[i].plateau);
+  };
+  each([](Sums& mean, double weight, double length, double plateau) {
+    mean.weight += weight, mean.length += weight * length, mean.plateau += weight * plateau;
+  });
+  double squares = 0, products = 0, spread = 0;
+  each([&](const Sums& mean, double weight, double length, double plateau) {
+    const double apart = length - mean.length / mean.weight;
+    spread += apart * apart;
+    squares += weight * apart * apart;
+    products += weight * apart * (plateau - mean.plateau / mean.weight);
+  });
+  constexpr double least_apart = 1e-3;  // m, else it is one length
+  if (!(spread > least_apart * least_apart)) return {nothing, nothing};
+  return {products / squares, 1 / std::sqrt(squares)};
 }
 
 std::string millimetres(double metres) {
@@ -190,26 +241,30 @@ void warn_about(const RunAudit& run, const NoiseFound& noise, const char* what,
 /// the momentum balance.
 void pool_noise(const Experiment& experiment, std::vector<RunAudit>& runs, NoiseFound RunAudit::*noise,
                 std::vector<double> RunAudit::*series) {
+  std::vector<OwnFrames> own(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if ((runs[i].*series).empty()) continue;
+    OwnFrames frames = own_frames(experiment.runs[i].time, runs[i].*series, runs[i].frame_interval);
+    if (std::isfinite(white_deviation(neighboured(frames)))) own[i] = std::move(frames);
+  }
   for (std::size_t first = 0; first < runs.size(); ++first) {
     std::vector<std::size_t> members;
     bool is_first = true;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      const bool same = std::abs(runs[i].frame_interval / runs[first].frame_interval - 1) < 0.01 &&
-                        !(runs[i].*series).empty();
+      const bool same = std::abs(own[i].interval / own[first].interval - 1) < 0.01 && !own[i].x.empty();
       if (same && i < first) is_first = false;
       if (same) members.push_back(i);
     }
-    if (!is_first || members.size() < 2 || (runs[first].*series).empty()) continue;
+    if (!is_first || members.size() < 2 || own[first].x.empty()) continue;
     std::vector<NeighbouredSeries> pooled;
-    for (const std::size_t i : members)
-      pooled.push_back({&(runs[i].*series), neighbours_of(experiment.runs[i].time, runs[i].frame_interval)});
-    const auto colour = colour_of(pooled, runs[first].frame_interval);
+    for (const std::size_t i : members) pooled.push_back(neighboured(own[i]));
+    const auto colour = colour_of(pooled, own[first].interval);
     double mean_square = 0, lowest = 1e300, highest = 0;
     for (std::size_t k = 0; k < members.size(); ++k) {
-      NoiseFound& own = runs[members[k]].*noise;
-      own.correlation = colour;
-      set_deviation(pooled[k], own);
-      const double deviation = own.standard_deviation;
+      NoiseFound& found = runs[members[k]].*noise;
+      found.correlation = colour;
+      set_deviation(pooled[k], found);
+      const double deviation = found.standard_deviation;
       mean_square += deviation * deviation / static_cast<double>(members.size());
       lowest = std::min(lowest, deviation), highest = std::max(highest, deviation);
     }

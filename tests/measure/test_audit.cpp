@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -40,6 +41,42 @@ TEST(Audit, FindsWhiteNoise) {
     EXPECT_EQ(audit.box.outliers, 0);
     EXPECT_NEAR(audit.frame_interval, 1 / rate, 1e-12);
   }
+}
+
+TEST(Audit, GrainsTrackedInEveryFourthFrameAreKeptAndTheirNoiseFound) {
+  MeasuredRun run = recorded(500, 2e-4, 0, 7);
+  for (std::size_t i = 0; i < run.x_com.size(); ++i)
+    if (i % 4) run.x_com[i] = std::nan("");
+  const RunAudit audit = audit_run(run);
+  const auto kept =
+      std::count_if(audit.x_com.begin(), audit.x_com.end(), [](double x) { return std::isfinite(x); });
+  EXPECT_GE(kept, 2495);  // of 2500
+  EXPECT_NEAR(audit.com.standard_deviation, 5e-4, 0.15 * 5e-4);
+  EXPECT_NEAR(audit.box.standard_deviation, 2e-4, 0.08 * 2e-4);
+}
+
+TEST(Audit, FewFramesAreNotCalledWrong) {
+  MeasuredRun run = recorded(500, 2e-4, 0, 8);
+  for (std::size_t i = 0; i < run.x_com.size(); ++i)
+    if (i % 5 > 2) run.x_com[i] = std::nan("");
+  run.com_uncertainty = 7e-4;
+  const RunAudit audit = audit_run(run);
+  EXPECT_EQ(audit.com.outliers, 0);
+  EXPECT_DOUBLE_EQ(audit.com.standard_deviation, 7e-4);
+}
+
+TEST(Audit, TheLayerOfOtherGrainsHasItsOwnThickness) {
+  Experiment experiment;
+  for (const double length : {0.04, 0.065, 0.104})
+    experiment.runs.push_back(recorded(500, 2e-4, 0, 9, 0, length));
+  const double alone = audit(experiment).plateau.slope;
+  experiment.runs.push_back(recorded(500, 2e-4, 0, 10, 0, 0.03));  // as thin as with half the grains
+  experiment.runs.back().overrides = {{"grains.count", "18", ""}};
+  experiment.runs.back().box_length = 0.04;
+  experiment.runs.push_back(recorded(500, 2e-4, 0, 11));
+  experiment.runs.back().box_length = std::nan("");
+  EXPECT_DOUBLE_EQ(audit(experiment).plateau.slope, alone);
+  EXPECT_NEAR(alone, 0.5, 0.01);
 }
 
 TEST(Audit, FindsTheColour) {
