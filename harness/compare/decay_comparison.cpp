@@ -60,7 +60,7 @@ std::vector<DecayComparison> compare_decay(const Experiment& experiment, const A
   constexpr double rest = 4e-3, level = 0.05;  // m, s
   std::vector<FeaturePlan> plans;
   for (std::size_t r = 0; r < experiment.runs.size(); ++r)
-    plans.push_back(plan_features(experiment.runs[r], audit.runs[r], rest, level));
+    plans.push_back(plan_features(experiment.runs[r], audit.runs[r], Observed::all, rest, level));
   std::vector<std::vector<Numbers>> simulated(plans.size());
   const int all = static_cast<int>(plans.size()) * runs;
   work_in_parallel_deliver_in_order(

@@ -20,14 +20,22 @@ double Knob::at(double z) const { return std::clamp(centre + width * z, low, hig
 std::vector<MeasuredFeatures> features_of(const Experiment& experiment, const Audit& audit,
                                           const std::vector<Setup>& setups) {
   std::vector<MeasuredFeatures> measured;
+  Eigen::Index features = 0;
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+    const Observed observed = setups[r].grains.count > 0 ? Observed::all : Observed::box_only;
     MeasuredFeatures m{
-        experiment.runs[r].name, setups[r], plan_features(experiment.runs[r], audit.runs[r]), {}};
+        experiment.runs[r].name, setups[r], plan_features(experiment.runs[r], audit.runs[r], observed), {}};
     m.values = measured_features(m.plan, audit.runs[r], experiment.runs[r]);
     m.setup.run.duration = std::max(0.5, m.plan.end + 0.05);
     m.setup.run.sample_rate = 500;
+    features += m.values.size();
     measured.push_back(std::move(m));
   }
+  if (features == 0)
+    throw InputError({{{experiment.file, 0, 0},
+                       "run",
+                       "holds no eight frames in a row of a motion (a clock in another unit, or too short?)",
+                       "check column.time.unit and the frame rate"}});
   return measured;
 }
 

@@ -131,6 +131,7 @@ std::vector<FailureCell> judge_cells(const std::vector<Cell>& cells,
                                      const std::vector<Eigen::VectorXd>& residuals,
                                      const std::vector<Eigen::VectorXd>& spreads,
                                      const Eigen::MatrixXd& pseudo) {
+  if (cells.empty()) return {};  // recordings too short for a cell
   const Eigen::VectorXd sums = cell_sums(cells, residuals, spreads);
   const Eigen::RowVectorXd mean = pseudo.colwise().mean();
   const Eigen::RowVectorXd deviation = ((pseudo.rowwise() - mean).colwise().squaredNorm() /

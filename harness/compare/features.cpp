@@ -69,7 +69,8 @@ void add_features(Observable observable, const std::vector<double>& time, const 
 
 }  // namespace
 
-FeaturePlan plan_features(const MeasuredRun& run, const RunAudit& audit, double rest, double bin) {
+FeaturePlan plan_features(const MeasuredRun& run, const RunAudit& audit, Observed observed, double rest,
+                          double bin) {
   FeaturePlan plan;
   plan.end = end_of_motion(run, audit.x_box, rest);
   const double interval = audit.frame_interval > 0 ? audit.frame_interval : 1 / run.frame_rate;
@@ -77,7 +78,7 @@ FeaturePlan plan_features(const MeasuredRun& run, const RunAudit& audit, double 
   const double width = std::max(bin, 8 * interval);
   const auto frames = static_cast<std::size_t>(width / interval);
   add_features(Observable::box, run.time, audit.x_box, audit.box, plan.end, width, frames, plan);
-  if (run.has_com())
+  if (run.has_com() && observed == Observed::all)
     add_features(Observable::centre, run.time, audit.x_com, audit.com, plan.end, width, frames, plan);
   return plan;
 }

@@ -14,6 +14,9 @@ namespace shakedown {
 
 enum class Observable { box, centre };
 
+/// Grains that the table has and the setup has not cannot be compared.
+enum class Observed { box_only, all };
+
 struct Feature {
   Observable observable;
   double time;   ///< s, middle of the bin
@@ -32,8 +35,8 @@ struct FeaturePlan {
 };
 
 /// Bins from release to the end of what still moves: the last peak above `rest` (m), and one second more.
-FeaturePlan plan_features(const MeasuredRun& run, const RunAudit& audit, double rest = 4e-3,
-                          double bin = 0.1);
+FeaturePlan plan_features(const MeasuredRun& run, const RunAudit& audit, Observed observed = Observed::all,
+                          double rest = 4e-3, double bin = 0.1);
 
 /// The features of the measured run itself.
 Eigen::VectorXd measured_features(const FeaturePlan& plan, const RunAudit& audit, const MeasuredRun& run);

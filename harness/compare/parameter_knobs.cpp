@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "parameter_knobs.hpp"
 
+#include <algorithm>
+
 namespace shakedown {
 
 std::vector<Knob> as_given(const Setup& setup) {
-  const auto knob = [](const char* key, double value, double apart) {
-    return Knob{key, value, 2.5 * apart, value - 2.5 * apart, value + 2.5 * apart, false, value, apart};
+  const auto knob = [](const char* key, double value, double apart, double highest) {
+    const double reach = 2.5 * apart;
+    return Knob{key,   value, reach, std::max(0.0, value - reach), std::min(highest, value + reach),
+                false, value, apart};
   };
-  return {knob("restitution.grain_grain", setup.restitution.grain_grain, code_restitution),
-          knob("restitution.grain_wall", setup.restitution.grain_wall, code_restitution),
-          knob("spring.frequency", setup.spring.frequency, code_frequency * setup.spring.frequency)};
+  const double frequency = setup.spring.frequency;
+  return {knob("restitution.grain_grain", setup.restitution.grain_grain, code_restitution, 1),
+          knob("restitution.grain_wall", setup.restitution.grain_wall, code_restitution, 1),
+          knob("spring.frequency", frequency, code_frequency * frequency, 2 * frequency)};
 }
 
 std::vector<Knob> free_parameters(const Setup& setup, double frequency, double width) {
   const auto restitution = [](const char* key, double value) {
-    return Knob{key, value, 0.15, 0.3, 0.999, true, value, believed_restitution};
+    const double low = std::min(0.3, std::max(0.01, value - 0.2));
+    return Knob{key, value, 0.15, low, std::max(0.999, value), true, value, believed_restitution};
   };
   return {restitution("restitution.grain_grain", setup.restitution.grain_grain),
           restitution("restitution.grain_wall", setup.restitution.grain_wall),

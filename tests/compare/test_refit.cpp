@@ -10,6 +10,7 @@
 
 #include "effects.hpp"
 #include "fit_round.hpp"
+#include "parameter_knobs.hpp"
 #include "random.hpp"
 #include "refit.hpp"
 #include "scratch_folder.hpp"
@@ -80,6 +81,43 @@ shakedown::Setup believed_setup() {
 const std::vector<Knob> theta{{"restitution.grain_grain", 0.75, 0.15, 0.2, 0.999, true},
                               {"restitution.grain_wall", 0.76, 0.15, 0.2, 0.999, true},
                               {"spring.frequency", 1.23, 0.01, 1, 1.5, true}};
+
+TEST(ParameterKnobs, StayWithinWhatTheKeysMayBe) {
+  for (const double restitution : {0.02, 0.2, 0.75, 0.995, 1.0}) {
+    shakedown::Setup setup = believed_setup();
+    setup.restitution.grain_wall = restitution;
+    for (const std::vector<Knob>& knobs : {as_given(setup), free_parameters(setup)})
+      for (const Knob& knob : knobs) {
+        EXPECT_LE(knob.low, knob.centre) << knob.key << ' ' << restitution;
+        EXPECT_GE(knob.high, knob.centre) << knob.key << ' ' << restitution;
+        if (knob.key.starts_with("restitution")) {
+          EXPECT_GE(knob.low, 0);
+          EXPECT_LE(knob.high, 1);
+        }
+      }
+  }
+}
+
+TEST(Refit, RefusesRecordingsThatHoldNoMotion) {
+  Experiment experiment;
+  experiment.runs.emplace_back();
+  MeasuredRun& run = experiment.runs.front();
+  for (int i = 0; i < 8000; ++i) run.time.push_back(i * 2e-6), run.x_box.push_back(0.1);  // s read as ms
+  EXPECT_THROW(features_of(experiment, audit(experiment), {believed_setup()}), InputError);
+}
+
+TEST(Refit, GrainsThatTheSetupHasNotAreNotCompared) {
+  Experiment experiment;
+  experiment.runs.emplace_back();
+  MeasuredRun& run = experiment.runs.front();
+  for (int i = 0; i < 1500; ++i)
+    run.time.push_back(i * 2e-3), run.x_box.push_back(0.1 * std::cos(i * 1.3e-2));
+  run.x_com = run.x_box;
+  shakedown::Setup setup = believed_setup();
+  const std::size_t both = features_of(experiment, audit(experiment), {setup}).front().plan.features.size();
+  setup.grains.count = 0;
+  EXPECT_EQ(features_of(experiment, audit(experiment), {setup}).front().plan.features.size(), both / 2);
+}
 
 TEST(Refit, HoldsForDataOfTheModelItself) {
   const DampedOscillation engine;
