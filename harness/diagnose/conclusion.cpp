@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a diagnosis says in the end: the sentence, the parameters, the formula of an unknown force and the
 // experiment to do next.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +11,7 @@
 #include "next_experiment.hpp"
 #include "pipeline.hpp"
 #include "quantity.hpp"
+#include "setup_keys.hpp"
 
 namespace shakedown {
 
@@ -97,6 +100,35 @@ FittedValue Pipeline::allowing_for_engines(FittedValue value) {
   return value;
 }
 
+/// The fall of the error, of the box or where that shows more (a camera's bias) of the grains' centre.
+std::string Pipeline::what_it_brings() const {
+  const LadderStep& given = result_.ladder.front();
+  const double box = final_.error_box() / given.error_box,
+               centre = final_.error_centre() / given.error_centre;
+  const bool of_centre = box > 0.9 && centre < box;
+  return fmt::format(
+      "With it the rms error of the {} falls from {:.2f} to {:.2f} mm (noise and run-to-run spread: {:.2f} "
+      "mm).",
+      of_centre ? "grains' centre" : "box", 1e3 * (of_centre ? given.error_centre : given.error_box),
+      1e3 * (of_centre ? final_.error_centre() : final_.error_box()),
+      1e3 * (of_centre ? final_.floor_centre() : final_.floor_box()));
+}
+
+std::string Pipeline::what_is_unknown() const {
+  const MomentumAudit& balance = result_.momentum;
+  if (balance.unexplained || balance.unlisted)
+    return "Something that is not in the library acts on the box: no known force brings the momentum balance "
+           "into order.";
+  const std::string nothing = "None of the known effects explains the measurements; ";
+  if (!balance.possible)
+    return nothing + "there is no momentum balance to tell a force from outside from contacts (" +
+           balance.why_not + ").";
+  if (!balance.terms.empty())
+    return nothing + "the momentum balance asks for " + balance.terms.front().effect +
+           ", which does not explain them, is out of its bounds, or was left out.";
+  return nothing + "momentum is in order, so it lies inside the contacts.";
+}
+
 void Pipeline::finish() {
   sort_ranking();
   result_.amended = base_;
@@ -119,29 +151,22 @@ void Pipeline::finish() {
           percent(final_.p_value) + " of the model's own runs fit no better).";
       break;
     case Verdict::refit:
-      result_.sentence = "No effect is missing: other values of the parameters explain the measurements.";
+      result_.sentence =
+          refitted_ ? "No effect is missing: other values of the parameters explain the measurements."
+                    : "No effect is missing: with the grains laid in another packing ('" +
+                          std::string(name_of(base_.release.packing)) + "') the model holds as given (" +
+                          percent(final_.p_value) + " of its own runs fit no better).";
       break;
     case Verdict::missing: {
       std::string names;
       for (const std::string& effect : result_.missing) names += (names.empty() ? "" : " and ") + effect;
-      result_.sentence =
-          "Missing in the model: " + names + ". With it the rms error of the box falls from " +
-          std::to_string(result_.ladder.front().error_box * 1e3).substr(0, 4) + " to " +
-          std::to_string(final_.error_box() * 1e3).substr(0, 4) +
-          " mm (noise and run-to-run spread: " + std::to_string(final_.floor_box() * 1e3).substr(0, 4) +
-          " mm).";
+      result_.sentence = "Missing in the model: " + names + ". " + what_it_brings();
       for (const auto& [named, other] : twins_)
         if (std::find(result_.missing.begin(), result_.missing.end(), named) != result_.missing.end())
           result_.sentence += " These measurements cannot tell " + named + " from " + other + ".";
       break;
     }
-    case Verdict::unknown:
-      result_.sentence = result_.momentum.unexplained || result_.momentum.unlisted
-                             ? "Something that is not in the library acts on the box: no known force brings "
-                               "the momentum balance into order."
-                             : "None of the known effects explains the measurements; momentum is in order, "
-                               "so it lies inside the contacts.";
-      break;
+    case Verdict::unknown: result_.sentence = what_is_unknown(); break;
   }
 }
 

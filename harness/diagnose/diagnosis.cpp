@@ -12,6 +12,7 @@
 #include "parameter_knobs.hpp"
 #include "pipeline.hpp"
 #include "quantity.hpp"
+#include "setup_file.hpp"
 #include "setup_keys.hpp"
 
 namespace shakedown {
@@ -130,11 +131,27 @@ std::vector<Knob> together(const std::vector<Knob>& a, const std::vector<Knob>& 
   return all;
 }
 
+/// The balance finds what is lacking beyond what the setup has of an effect.
+double Pipeline::whole_strength(const FoundTerm& term, const std::string& key) const {
+  if (!find_choice(base_, term.effect)) return term.value;
+  const double already = get_number(base_, key, options_.known);
+  if (term.effect == "camera_com_bias") return 1 - (1 - already) * (1 - term.value);
+  if (term.effect == "camera_arc") return 1 / std::hypot(1 / already, 1 / term.value);
+  return already + term.value;
+}
+
+std::string key_of(const FoundTerm& term) {
+  return term.effect + "." + term.parameter + (term.effect == "constant_acceleration" ? ".x" : "");
+}
+
 bool Pipeline::possible(const FoundTerm& term) const {
   const EffectRecord* record = find_record(options_.known, term.effect);
   const Parameter* parameter = record ? record->find(term.parameter) : nullptr;
-  return parameter == nullptr || term.effect == "oscillating_acceleration" ||
-         (term.value >= parameter->low && term.value <= parameter->high);
+  if (parameter == nullptr) return true;
+  // Two sines are no sine.
+  if (term.effect == "oscillating_acceleration") return !find_choice(base_, term.effect);
+  const double value = whole_strength(term, key_of(term));
+  return value >= parameter->low && value <= parameter->high;
 }
 
 /// A sine is known to its error in all three: over a run of length T a relative error of the amplitude goes
@@ -172,22 +189,29 @@ void Pipeline::add_momentum_terms() {
           return other.effect == term.effect && other.gain > term.gain;
         }))
       continue;
-    result_.missing.push_back(term.effect);
-    const std::string component = term.effect == "constant_acceleration" ? ".x" : "";
+    const std::string key = key_of(term);
+    const bool had_already = find_choice(base_, term.effect) != nullptr;
+    if (had_already)
+      result_.notes.push_back("the momentum balance asks for another " + key + ": it is refitted");
+    else
+      result_.missing.push_back(term.effect);
     if (term.effect == "oscillating_acceleration") {
       add_sine(term);
       continue;
     }
-    const std::string key = term.effect + "." + term.parameter + component;
-    set_number(base_, key, term.value, options_.known);
+    const double value = whole_strength(term, key);
+    set_number(base_, key, value, options_.known);
+    // One spring for all runs, whatever their release.
+    if (term.effect == "spring_cubic" && !had_already && result_.momentum.reference_displacement > 0)
+      set_number(base_, "spring_cubic.reference", result_.momentum.reference_displacement, options_.known);
     const EffectRecord* record = find_record(options_.known, term.effect);
     const Parameter* parameter = record ? record->find(term.parameter) : nullptr;
     if (parameter == nullptr ||
         (parameter->kind != ParameterKind::number && parameter->kind != ParameterKind::vector))
       continue;
     const double error = error_of(term);
-    chosen_.push_back({key, term.value, std::max(4 * error, 0.05 * std::abs(term.value)), parameter->low,
-                       parameter->high, true, term.value, balance_is_believed * error});
+    chosen_.push_back({key, value, std::max(4 * error, 0.05 * std::abs(term.value)), parameter->low,
+                       parameter->high, true, value, balance_is_believed * error});
   }
 }
 

@@ -27,10 +27,11 @@ struct RankedEffect {
   std::string effect;
   double gain = 0;  ///< fall of chi2 when it joins, everything else refitted
   double held_out_gain =
-      0;  ///< fall of the chi2 of box lengths left out of the fit; NaN: linear estimate only
+      0;  ///< fall of the chi2 of box lengths left out of the fit; NaN: not fitted, or one length only
   double standard_error = 0;  ///< of held_out_gain
   double value = 0;           ///< its strength
   std::vector<std::string> look_alikes{};
+  bool fitted = false;  ///< its gain is that of a fit, not of a linear estimate
 };
 
 struct LadderStep {

@@ -30,8 +30,7 @@ Json momentum_json(const MomentumAudit& audit) {
           {"chi2_per_dof_final", number(audit.final_fit.chi2_per_degree())},
           {"p_value_final", number(audit.final_fit.p_value)},
           {"unexplained", audit.unexplained},
-          {"terms", terms},
-          {"notes", audit.notes}};
+          {"terms", terms}};
 }
 
 }  // namespace

@@ -43,9 +43,11 @@ std::string diagnosis_text(const Diagnosis& d) {
       const RankedEffect& r = d.ranking[i];
       std::string alike;
       for (const std::string& name : r.look_alikes) alike += (alike.empty() ? "" : ", ") + name;
-      text += fmt::format(
-          "    {:<34} {:>10.1f} {:>14} {}\n", r.effect, r.gain,
-          std::isfinite(r.held_out_gain) ? fmt::format("{:.1f}", r.held_out_gain) : "(linear)", alike);
+      text += fmt::format("    {:<34} {:>10.1f} {:>14} {}\n", r.effect, r.gain,
+                          std::isfinite(r.held_out_gain) ? fmt::format("{:.1f}", r.held_out_gain)
+                          : r.fitted                     ? "-"
+                                                         : "(linear)",
+                          alike);
     }
   }
   if (!d.where.empty()) {

@@ -72,7 +72,7 @@ std::vector<Candidate> Pipeline::open_candidates() const {
     if (result_.momentum.possible && candidate.seen_by_momentum) return true;
     bool seen = false, promising = false;
     for (const RankedEffect& ranked : result_.ranking)
-      if (ranked.effect == candidate.effect && (!candidate.always || std::isfinite(ranked.held_out_gain)))
+      if (ranked.effect == candidate.effect && (!candidate.always || ranked.fitted))
         seen = true, promising = promising || ranked.gain > least_gain / 3;
     return seen && !promising;
   };
@@ -145,7 +145,14 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   if (rivals.size() > 1 && rivals[0].score() - rivals[1].score() < too_close &&
       rivals[0].score() > least_gain) {
     rivals.resize(2);
-    for (Rival& rival : rivals) rival = decide(rival, best);
+    try {
+      std::vector<Rival> closer = rivals;
+      for (Rival& rival : closer) rival = decide(rival, best);
+      rivals = std::move(closer);
+    } catch (const PhysicsError& error) {
+      result_.notes.push_back(rivals[0].effect + " and " + rivals[1].effect +
+                              " could not be looked at closer: " + error.what());
+    }
     std::stable_sort(rivals.begin(), rivals.end(), better);
   }
   // Physics is not accused of what the camera explains as well: a late clock, before a push at release.

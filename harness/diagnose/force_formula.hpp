@@ -24,7 +24,7 @@ struct FormulaFit {
 /// shape parameters too.
 FormulaFit fit_formulas(SelectionProblem problem, const MomentumOptions& options);
 
-/// For each term of a selection: formulas that would do as well in its place, chi2 at most 4 higher.
+/// For each term of a selection: formulas that would do as well in its place, chi2 at most as_good higher.
 std::vector<std::vector<std::string>> formulas_like_known_terms(const SelectionProblem& problem,
                                                                 const Selection& selection);
 

@@ -19,6 +19,19 @@ Eigen::VectorXd antiderivative(const Eigen::VectorXd& g, double step) {
 
 std::size_t index_of(ShapeOf of) { return static_cast<std::size_t>(of); }
 
+/// 1 where the smoothed motion rests on measured frames alone, else 0: over a gap it makes speeds that
+/// nothing has.
+Eigen::ArrayXd known_motion(const MomentumRun& run) {
+  const Eigen::Index n = run.time.size(), half = smoothing_half_width(run.interval);
+  Eigen::ArrayXd known = Eigen::ArrayXd::Ones(n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (!run.usable[static_cast<std::size_t>(i)]) {
+      const Eigen::Index first = std::max<Eigen::Index>(0, i - half), last = std::min(n - 1, i + half);
+      known.segment(first, last - first + 1) = 0;
+    }
+  return known;
+}
+
 /// Argument of the shape and what multiplies it, frame by frame.
 struct Arguments {
   Eigen::ArrayXd argument, factor;
@@ -43,8 +56,9 @@ ForceMap::ForceMap(const MomentumProblem& problem, const std::vector<MomentumRun
   double earliest = 0;
   for (const MomentumRun& run : runs) {
     if (run.time.size() == 0) continue;
-    scales_.position = std::max(scales_.position, run.x_smooth.abs().maxCoeff());
-    scales_.velocity = std::max(scales_.velocity, run.v_smooth.abs().maxCoeff());
+    const Eigen::ArrayXd known = known_motion(run);
+    scales_.position = std::max(scales_.position, (known * run.x_smooth).abs().maxCoeff());
+    scales_.velocity = std::max(scales_.velocity, (known * run.v_smooth).abs().maxCoeff());
     scales_.velocity_noise = std::max(scales_.velocity_noise, run.v_noise);
     scales_.duration = std::max(scales_.duration, run.time.maxCoeff());
     earliest = std::min(earliest, run.time.minCoeff());

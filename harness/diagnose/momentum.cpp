@@ -38,6 +38,7 @@ RunBalance run_as_given(const MomentumProblem& problem, std::size_t run) {
   RunBalance balance;
   balance.run = problem.run_name(run);
   balance.as_given = balance_of_run(problem, run, problem.impulse(), 0);
+  if (problem.rows(run) == 0) return balance;  // the box of this run hardly moves
   const double weight = problem.form(run).weight();
   const Eigen::VectorXd deviation = problem.raw_deviation(run) / weight;
   const Eigen::VectorXd force = problem.raw_impulse(run) / weight;
@@ -45,25 +46,6 @@ RunBalance run_as_given(const MomentumProblem& problem, std::size_t run) {
   balance.missing_force = std::sqrt(
       std::max(0.0, (force.squaredNorm() - deviation.squaredNorm()) / static_cast<double>(force.size())));
   return balance;
-}
-
-/// Does one strength do for all runs? The fall of chi2 when each run has its own.
-double differs_between_runs(const SelectionProblem& p, const Selection& selection, std::size_t which) {
-  const Eigen::Index runs = static_cast<Eigen::Index>(p.problem.runs());
-  if (runs < 2 || selection.chosen[which].term < 0) return 1;
-  Eigen::MatrixXd columns = columns_of(p, selection.chosen);
-  const Eigen::VectorXd column =
-      p.problem.column(p.terms[static_cast<std::size_t>(selection.chosen[which].term)]);
-  const Eigen::Index first = columns.cols();
-  columns.conservativeResize(Eigen::NoChange, first + runs - 1);
-  columns.rightCols(runs - 1).setZero();
-  for (Eigen::Index run = 1; run < runs; ++run) {
-    const std::size_t r = static_cast<std::size_t>(run);
-    columns.col(first + run - 1).segment(p.problem.begin(r), p.problem.rows(r)) =
-        column.segment(p.problem.begin(r), p.problem.rows(r));
-  }
-  const double fall = selection.fit.chi2 - regress(p.problem.impulse(), columns).chi2;
-  return chi_squared_tail(fall, static_cast<double>(runs - 1));
 }
 
 /// Terms that could stand in for this one.
@@ -111,7 +93,6 @@ FoundTerm term_found(const SelectionProblem& p, const Selection& selection, std:
   found.value = parameter(strength);
   std::tie(found.low, found.high) = std::minmax({parameter(strength - wide), parameter(strength + wide)});
   found.gain = strength * strength / (error * error);
-  found.differs_between_runs = differs_between_runs(p, selection, which);
   found.look_alikes = look_alikes(p, selection, which);
   return found;
 }
@@ -279,9 +260,16 @@ MomentumAudit audit_momentum(const Experiment& experiment, const Audit& audit,
                              const std::vector<Setup>& setups, const MomentumOptions& options) {
   EXPECT(setups.size() == experiment.runs.size() && audit.runs.size() == experiment.runs.size());
   std::vector<MomentumRun> runs;
-  for (std::size_t i = 0; i < setups.size(); ++i)
+  bool one_release = true;
+  for (std::size_t i = 0; i < setups.size(); ++i) {
     runs.push_back(momentum_run(audit.runs[i], experiment.runs[i], setups[i]));
-  return audit_momentum(runs, audit.plateau, setups.empty() ? 1.0 : setups.front().spring.frequency, options);
+    one_release = one_release && runs[i].displacement == runs[0].displacement;
+    runs[i].displacement = runs[0].displacement;  // of one spring
+  }
+  MomentumAudit found =
+      audit_momentum(runs, audit.plateau, setups.empty() ? 1.0 : setups.front().spring.frequency, options);
+  if (!one_release) found.reference_displacement = std::abs(runs[0].displacement);
+  return found;
 }
 
 }  // namespace shakedown

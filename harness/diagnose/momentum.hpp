@@ -27,7 +27,6 @@ struct FoundTerm {
   double value = 0, low = 0, high = 0;     ///< of the parameter, SI, 95 % interval
   double gain = 0;                         ///< what chi2 loses without it
   double frequency = 0, phase = 0;         ///< Hz, rad; oscillating_acceleration only
-  double differs_between_runs = 1;         ///< p-value of one strength for all runs
   std::vector<std::string> look_alikes{};  ///< terms whose columns differ by less than the noise can tell
 };
 
@@ -79,10 +78,10 @@ struct MomentumAudit {
   /// `terms` what else.
   bool unlisted = false;
   std::vector<ForceFormula> formulas;
-  std::vector<ForceCurve> curves;  ///< where something is unlisted or unexplained, best first
-  bool unexplained = false;        ///< no set of known terms brings the balance into order
-  bool only_moving = false;        ///< windows at rest left out, because a dry friction sticks there
-  std::vector<std::string> notes;
+  std::vector<ForceCurve> curves;     ///< where something is unlisted or unexplained, best first
+  bool unexplained = false;           ///< no set of known terms brings the balance into order
+  bool only_moving = false;           ///< windows at rest left out, because a dry friction sticks there
+  double reference_displacement = 0;  ///< m, of spring_cubic, where runs have releases of their own; else 0
 };
 
 struct MomentumOptions {

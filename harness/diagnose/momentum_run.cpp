@@ -147,6 +147,7 @@ MomentumRun momentum_run(const RunAudit& audit, const MeasuredRun& measured, con
   run.grain_mass = setup.grains.count * setup.grains.mass;
   run.stiffness = physics.stiffness;
   run.displacement = setup.release.displacement;
+  for (const EffectChoice& choice : setup.effects) run.effects.emplace_back(choice.record->name);
   run.interval = audit.frame_interval;
   run.box_noise = audit.box;
   run.com_noise = audit.com;
@@ -166,12 +167,13 @@ MomentumRun momentum_run(const RunAudit& audit, const MeasuredRun& measured, con
   run.time = measured.time[0] - physics.camera.time_offset +
              run.interval * Eigen::ArrayXd::LinSpaced(n, 0, static_cast<double>(n - 1));
   run.usable.assign(static_cast<std::size_t>(n), 1);
-  run.filled.assign(static_cast<std::size_t>(n), 0);
+  run.box_filled.assign(static_cast<std::size_t>(n), 0);
+  run.com_filled.assign(static_cast<std::size_t>(n), 0);
   run.x_box.resize(n);
   run.x_com.resize(n);
   const double longest = std::max(longest_filled_gap / run.interval, 2.5);
-  fill(place, x_box, run.x_box, run.usable, run.filled, longest);
-  fill(place, x_com, run.x_com, run.usable, run.filled, longest);
+  fill(place, x_box, run.x_box, run.usable, run.box_filled, longest);
+  fill(place, x_com, run.x_com, run.usable, run.com_filled, longest);
   smooth(run);
   add_model_forces(physics, setup.grains.count, run);
   return run;

@@ -15,13 +15,14 @@ namespace shakedown {
 /// touches it.
 struct MomentumRun {
   std::string name;
-  double box_mass = 0;          ///< kg, M
-  double grain_mass = 0;        ///< kg, N m; 0: empty box
-  double stiffness = 0;         ///< N/m, k
-  double displacement = 0;      ///< m, Delta0 of the setup
-  double interval = 0;          ///< s, between frames
-  Eigen::ArrayXd time;          ///< s
-  Eigen::ArrayXd x_box, x_com;  ///< m; x_com = x_box where the box is empty
+  double box_mass = 0;               ///< kg, M
+  double grain_mass = 0;             ///< kg, N m; 0: empty box
+  double stiffness = 0;              ///< N/m, k
+  double displacement = 0;           ///< m, release at which a cubic spring's coefficient is the change
+  std::vector<std::string> effects;  ///< that the setup has: the balance may find too much of them
+  double interval = 0;               ///< s, between frames
+  Eigen::ArrayXd time;               ///< s
+  Eigen::ArrayXd x_box, x_com;       ///< m; x_com = x_box where the box is empty
   /// Of the box, local cubic, m and m/s; forces take x_box itself, whose noise has no bias.
   Eigen::ArrayXd x_smooth, v_smooth;
   double v_noise = 0;  ///< m/s, standard deviation of v_smooth
@@ -30,7 +31,7 @@ struct MomentumRun {
   bool dry_friction = false;  ///< model_force has one: it is no force -F sgn v while the box sticks
   Eigen::ArrayXd model_force_dx, model_force_dv;  ///< N/m, N s/m, by the box's position and velocity
   std::vector<char> usable;                       ///< frame measured or well interpolated
-  std::vector<char> filled;                       ///< frame interpolated
+  std::vector<char> box_filled, com_filled;       ///< position interpolated
   double com_gain = 1;              ///< true (x_com - x_box) over recorded, by the setup's camera
   NoiseFound box_noise, com_noise;  ///< of the recorded series
 };

@@ -158,7 +158,10 @@ SelectionProblem selection_problem(const std::vector<MomentumRun>& runs, double 
   // Above 1.2/T a window averages a sine away to less than half.
   SelectionProblem p{MomentumProblem(runs, window, window * options.hop), {}, &runs, 1.2 / window};
   for (const MomentumTerm& term : momentum_terms()) {
-    PreparedTerm prepared{term.effect, term.never_negative, {}};
+    const bool there = std::any_of(runs.begin(), runs.end(), [&](const MomentumRun& run) {
+      return std::find(run.effects.begin(), run.effects.end(), term.effect) != run.effects.end();
+    });
+    PreparedTerm prepared{term.effect, term.never_negative && !there, {}};
     for (const MomentumRun& run : runs)
       prepared.samples.push_back(run.time.size() ? term.samples(run, 0) : ForceSamples{});
     p.terms.push_back(std::move(prepared));

@@ -117,7 +117,8 @@ std::vector<Advice> advise(const std::vector<Design>& designs, const FittedModel
                                   imitation = emulate({other}, {}, count, first + 2500, workshop);
       list.push_back({design.words(), distance(model.front(), imitation.front(), m.plan, covariance,
                                                RefitOptions{}.model_error * std::abs(design.release))});
-    } catch (const InputError&) {  // the grains do not fit into the box: no such design
+    } catch (const InputError&) {    // the grains do not fit into the box: no such design
+    } catch (const PhysicsError&) {  // nor one that the engine cannot run
     }
   }
   std::stable_sort(list.begin(), list.end(),

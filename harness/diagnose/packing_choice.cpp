@@ -12,9 +12,33 @@ namespace shakedown {
 namespace {
 
 /// How far from where a packing has the grains' centre (m, standard deviation) grains of that packing may be
-/// laid. Layers are the same in every run, grains laid at random are not.
-double laid_within(Packing packing) {
-  return packing == Packing::random || packing == Packing::spread ? 1.25e-3 : 0.25e-3;
+/// laid, at least: another hand, or another program, lays them otherwise.
+constexpr double layers_within = 0.25e-3, loose_within = 1.25e-3;
+
+bool is_loose(Packing packing) { return packing == Packing::random || packing == Packing::spread; }
+
+/// Where a packing has the grains' centre before release.
+struct LaidCentre {
+  double apart;   ///< m, x_com - x_box
+  double within;  ///< m, standard deviation
+};
+
+/// Layers are the same in every run; of grains laid at random each run is one draw among many.
+LaidCentre laid_centre(const Setup& setup) {
+  const auto apart = [&](int run) {
+    const State state = initial_state(setup, run);
+    return centre_of_mass_x(state) - state.x_box;
+  };
+  if (!is_loose(setup.release.packing)) return {apart(0), layers_within};
+  constexpr int draws = 24;
+  double sum = 0, squares = 0;
+  for (int run = 0; run < draws; ++run) {
+    const double x = apart(run);
+    sum += x;
+    squares += x * x;
+  }
+  const double mean = sum / draws;
+  return {mean, std::max(loose_within, std::sqrt(std::max(0.0, squares / draws - mean * mean)))};
 }
 
 /// A camera's scale or bias (standard deviation), and what another packing must bring in chi2.
@@ -45,29 +69,35 @@ std::vector<ReleasedCentre> released_centres(const Experiment& experiment, const
 }
 
 struct Misfit {
-  double rms;   ///< m
+  double rms;     ///< m
+  double within;  ///< m, what it may be (standard deviation) without the camera's noise
   double chi2;  ///< up to what all packings share; the less certain places of a wide packing count against it
 };
 
 /// Of measured - scale * modelled. The scale is free within a tenth where box lengths tell it.
-Misfit misfit_up_to_scale(const std::vector<ReleasedCentre>& measured, const std::vector<double>& modelled,
-                          double laid) {
+Misfit misfit_up_to_scale(const std::vector<ReleasedCentre>& measured,
+                          const std::vector<LaidCentre>& modelled) {
   double cross = 0, square = 0, low = 1e9, high = 0;
+  const auto variance_of = [&](std::size_t i) {
+    return modelled[i].within * modelled[i].within + std::pow(measured[i].error, 2);
+  };
   for (std::size_t i = 0; i < measured.size(); ++i) {
-    const double weight = 1 / (laid * laid + std::pow(measured[i].error, 2));
-    cross += weight * measured[i].apart * modelled[i];
-    square += weight * modelled[i] * modelled[i];
-    low = std::min(low, modelled[i]), high = std::max(high, modelled[i]);
+    const double weight = 1 / variance_of(i), apart = modelled[i].apart;
+    cross += weight * measured[i].apart * apart;
+    square += weight * apart * apart;
+    low = std::min(low, apart), high = std::max(high, apart);
   }
   const double known = 1 / (usual_scale * usual_scale);
   const double scale = high - low > 0.01 ? std::clamp((cross + known) / (square + known), 0.88, 1.1) : 1.0;
-  Misfit misfit{0, known * std::pow(scale - 1, 2)};
+  Misfit misfit{0, 0, known * std::pow(scale - 1, 2)};
+  const double runs = static_cast<double>(measured.size());
   for (std::size_t i = 0; i < measured.size(); ++i) {
-    const double variance = laid * laid + std::pow(measured[i].error, 2),
-                 squared = std::pow(measured[i].apart - scale * modelled[i], 2);
-    misfit.rms += squared / static_cast<double>(measured.size());
-    misfit.chi2 += squared / variance + std::log(variance);
+    const double squared = std::pow(measured[i].apart - scale * modelled[i].apart, 2);
+    misfit.rms += squared / runs;
+    misfit.within += modelled[i].within * modelled[i].within / runs;
+    misfit.chi2 += squared / variance_of(i) + std::log(variance_of(i));
   }
+  misfit.within = std::sqrt(misfit.within);
   misfit.rms = std::sqrt(misfit.rms);
   return misfit;
 }
@@ -83,26 +113,24 @@ PackingChoice packing_before_release(const Setup& given, const Experiment& exper
   const auto misfit_of = [&](Packing packing) {
     Setup setup = given;
     setup.release.packing = packing;
-    std::vector<double> modelled;
+    std::vector<LaidCentre> modelled;
     const std::vector<Setup> setups = setups_of_runs(setup, experiment, known);
-    for (const ReleasedCentre& centre : measured) {
-      const State state = initial_state(setups[centre.run]);
-      modelled.push_back(centre_of_mass_x(state) - state.x_box);
-    }
-    return misfit_up_to_scale(measured, modelled, laid_within(packing));
+    for (const ReleasedCentre& centre : measured) modelled.push_back(laid_centre(setups[centre.run]));
+    return misfit_up_to_scale(measured, modelled);
   };
-  const auto fits = [](const Misfit& misfit, Packing packing) {
-    return misfit.rms < 2 * laid_within(packing);
-  };
+  const auto fits = [](const Misfit& misfit) { return misfit.rms < 2 * misfit.within; };
   const Misfit of_given = misfit_of(best.packing);
   best.apart = of_given.rms;
-  best.fits = fits(of_given, best.packing);
+  best.fits = fits(of_given);
   double least = of_given.chi2 - better_by;
   for (const Packing packing : {Packing::fcc, Packing::square, Packing::random, Packing::spread}) {
-    const Misfit misfit = misfit_of(packing);
-    if (misfit.chi2 >= least || !fits(misfit, packing)) continue;
-    best = {packing, misfit.rms};
-    least = misfit.chi2;
+    try {
+      const Misfit misfit = misfit_of(packing);
+      if (misfit.chi2 >= least || !fits(misfit)) continue;
+      best = {packing, misfit.rms};
+      least = misfit.chi2;
+    } catch (const InputError&) {  // so many grains do not fit laid like that
+    }
   }
   return best;
 }

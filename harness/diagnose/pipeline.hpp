@@ -74,6 +74,7 @@ class Pipeline {
             const Refit* judged_by = nullptr,
             double look_again_below = std::numeric_limits<double>::infinity());
   void add_momentum_terms();
+  double whole_strength(const FoundTerm& term, const std::string& key) const;
   bool possible(const FoundTerm& term) const;
   void add_sine(const FoundTerm& term);
   void keep(const Refit& refit);
@@ -91,7 +92,8 @@ class Pipeline {
     bool decided;
     bool dear = false;  ///< its runs cost several times a plain one
     double score() const {
-      return gain + 0.5 * (std::isfinite(held_out_gain) ? std::clamp(held_out_gain, -gain, gain) : 0.0) -
+      const double most = std::abs(gain);
+      return gain + 0.5 * (std::isfinite(held_out_gain) ? std::clamp(held_out_gain, -most, most) : 0.0) -
              doubt;
     }
   };
@@ -117,6 +119,8 @@ class Pipeline {
 
   // conclusion.cpp
   FittedValue allowing_for_engines(FittedValue value);
+  std::string what_it_brings() const;
+  std::string what_is_unknown() const;
   void finish();
   void sort_ranking();
   void conclude_unknown();

@@ -113,6 +113,7 @@ void Pipeline::rank(Rival& rival, const Refit& best) {
     RankedEffect& ranked = *entry;
     if (ranked.effect != rival.effect) continue;
     ranked.gain = rival.gain;
+    ranked.fitted = true;
     ranked.held_out_gain = rival.held_out_gain;
     ranked.standard_error = 2 * std::sqrt(std::abs(rival.held_out_gain));
     ranked.value = rival.knobs.empty() ? 0 : rival.fit.values.back().value;

@@ -221,8 +221,8 @@ Eigen::MatrixXd WeakForm::covariance(const ForceSamples& fitted) const {
           if (to >= 0 && to < end - begin)
             box[w].weight[to] -= cubic.slope[j + half] / r.interval * through_v[i];
         }
-    move_to_measured(r.filled, box[w]);
-    move_to_measured(r.filled, com[w]);
+    move_to_measured(r.box_filled, box[w]);
+    move_to_measured(r.com_filled, com[w]);
   }
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(windows(), windows());
   for (std::size_t w = 0; w < first_.size(); ++w) {

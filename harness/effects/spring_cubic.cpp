@@ -6,10 +6,11 @@ namespace shakedown::effect {
 
 namespace {
 void apply(const EffectChoice& choice, int index, Physics& physics) {
-  const double displacement = physics.release_displacement;
+  const double given = choice.number("reference"),
+               displacement = given > 0 ? given : physics.release_displacement;
   if (displacement == 0)
     throw InputError({{choice.place, "spring_cubic", "has no scale (release.displacement is 0)",
-                       "give release.displacement"}});
+                       "give spring_cubic.reference"}});
   physics.spring_cubic = choice.number("coefficient") / (displacement * displacement);
   physics.spring_cubic_effect = index;
 }
@@ -19,7 +20,7 @@ extern const EffectRecord spring_cubic{
     .name = "spring_cubic",
     .acts_on = ActsOn::box,
     .sentence = "Spring force with a cubic term.",
-    .formula = "F = -k x (1 + b (x/Delta0)^2), Delta0 the release displacement",
+    .formula = "F = -k x (1 + b (x/Delta0)^2), Delta0 the reference, or else the release displacement",
     .source =
         "G. Duffing, Erzwungene Schwingungen bei veraenderlicher Eigenfrequenz (Vieweg, 1918); A. H. Nayfeh "
         "and D. T. Mook, Nonlinear Oscillations (Wiley, 1979)",
@@ -31,7 +32,14 @@ extern const EffectRecord spring_cubic{
           .high = 10,
           .neutral = 0,
           .typical = 0.04,
-          .sentence = "Relative change of the stiffness force at the release displacement; of either sign."}},
+          .sentence = "Relative change of the stiffness force at the reference; of either sign."},
+         {.name = "reference",
+          .unit = "m",
+          .default_value = 0.0,
+          .low = 0,
+          .high = 10,
+          .sentence = "Displacement of the coefficient; 0: the release displacement of the run. Runs of one "
+                      "spring with other releases share one."}},
     .claims = "spring force",
     .hard = {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"},
     .soft = {Fidelity::to_stated_error,

@@ -246,7 +246,6 @@ ReportSection momentum_section(const MomentumAudit& momentum) {
     runs.rows.push_back({run.run, for_people(run.as_given.chi2_per_degree()),
                          for_people(run.missing_force * 1e3), for_people(run.missing_force_noise * 1e3)});
   section.tables = {runs};
-  section.list = momentum.notes;
   return section;
 }
 

@@ -106,6 +106,46 @@ TEST(Diagnosis, LayersAreToldFromEachOtherThroughNoise) {
   }
 }
 
+// One draw against another differs by sqrt(2) times what one differs from the mean, and was called no
+// packing.
+TEST(Diagnosis, GrainsLaidAtRandomAreKnownAsThat) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Experiment experiment =
+        measured({{}, {{"release.packing", "random"}}, {}, {0.040, 0.040}, seed, "0.2 s"});
+    const PackingChoice choice =
+        packing_before_release(believed(), experiment, audit(experiment), all_effects());
+    EXPECT_EQ(choice.packing, Packing::random) << seed;
+    EXPECT_TRUE(choice.fits) << seed << ": " << choice.apart;
+  }
+}
+
+TEST(Diagnosis, SoManyGrainsThatAnotherPackingCannotHoldThem) {
+  Experiment experiment = measured({{}, {}, {}, {0.040}, 5, "0.2 s"});
+  shakedown::Setup setup = believed();
+  setup.grains.count = 80;
+  EXPECT_NO_THROW(packing_before_release(setup, experiment, audit(experiment), all_effects()));
+}
+
+TEST(Diagnosis, AStrengthThatTheSetupHasIsRefittedAndNotMissing) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  DiagnoseOptions options;
+  options.known = all_effects();
+  const std::vector<Override> too_much{{"blade_viscous_damping.damping", "\"0.08 N s/m\""}};
+  const shakedown::Setup setup =
+      parse_setup("[run]\nduration = \"5 s\"\n", "believed", all_effects(), too_much);
+  const Diagnosis d =
+      diagnose(setup, measured({{"blade_viscous_damping=damping:0.03 N s/m"}}), *engine, options);
+  EXPECT_EQ(d.verdict, Verdict::refit) << d.sentence;
+  EXPECT_TRUE(d.missing.empty());
+  const auto damping = std::find_if(d.parameters.begin(), d.parameters.end(), [](const auto& parameter) {
+    return parameter.name == "blade_viscous_damping.damping";
+  });
+  ASSERT_NE(damping, d.parameters.end());
+  EXPECT_LT(damping->low, 0.03);
+  EXPECT_GT(damping->high, 0.03);
+  EXPECT_LT(damping->high, 0.05);
+}
+
 TEST(Diagnosis, ABalanceWithDryFrictionInTheSetupHoldsThoughTheBoxSticks) {
   const Experiment experiment = measured({{"clamp_dry_friction=force:20 mN"}});
   shakedown::Setup amended = believed();

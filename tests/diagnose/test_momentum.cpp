@@ -4,7 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "force_map.hpp"
 #include "momentum.hpp"
+#include "momentum_run.hpp"
+#include "momentum_selection.hpp"
 #include "pushed_box.hpp"
 #include "random.hpp"
 
@@ -217,21 +220,63 @@ TEST(Momentum, AWrongFrequencyIsARefitNotAForce) {
   EXPECT_GT(audit.frequency_high, 1.23);
 }
 
-TEST(Momentum, WhatTheSetupHasIsNotMissed) {
-  static const EffectRecord damping = [] {
-    EffectRecord record;
-    record.name = "damping_of_this_test";
-    record.apply = [](const EffectChoice& choice, int, Physics& physics) {
+std::vector<shakedown::Setup> with_damping(const Experiment& experiment, double damping) {
+  static const EffectRecord record = [] {
+    EffectRecord made;
+    made.name = "blade_viscous_damping";
+    made.apply = [](const EffectChoice& choice, int, Physics& physics) {
       physics.box.viscous += choice.number("damping");
     };
-    return record;
+    return made;
   }();
+  std::vector<shakedown::Setup> setups = pushed_setups(experiment);
+  for (shakedown::Setup& setup : setups) setup.effects.push_back({&record, {{"damping", damping}}, {}});
+  return setups;
+}
+
+TEST(Momentum, WhatTheSetupHasTooMuchOfIsTakenOff) {
+  PushedBox what;
+  what.viscous = 0.02;
+  const Experiment experiment = pushed_box(what, 11);
+  expect_found(audited(experiment, with_damping(experiment, 0.05)), "blade_viscous_damping", -0.03);
+}
+
+TEST(Momentum, OneSpringHasOneCoefficientWhateverTheRelease) {
+  PushedBox what;
+  what.cubic = -0.03;  // at 107.5 mm, as all runs were released
+  const Experiment experiment = pushed_box(what, 12);
+  std::vector<shakedown::Setup> setups = pushed_setups(experiment);
+  EXPECT_EQ(audited(experiment, setups).reference_displacement, 0);
+  setups.back().release.displacement *= 0.5;  // so the setup says
+  const MomentumAudit audit = audited(experiment, setups);
+  EXPECT_DOUBLE_EQ(audit.reference_displacement, 0.1075);
+  expect_found(audit, "spring_cubic", -0.03);
+}
+
+double top_speed_of_the_map(const Experiment& experiment) {
+  const std::vector<shakedown::Setup> setups = pushed_setups(experiment);
+  const Audit found = audit(experiment);
+  std::vector<MomentumRun> runs;
+  for (std::size_t i = 0; i < setups.size(); ++i)
+    runs.push_back(momentum_run(found.runs[i], experiment.runs[i], setups[i]));
+  return ForceMap(selection_problem(runs, 1.23, {}).problem, runs).scales().velocity;
+}
+
+TEST(Momentum, SpeedsOverAGapAreNotTheBoxs) {
+  Experiment experiment = pushed_box({}, 13);
+  const double whole = top_speed_of_the_map(experiment);
+  for (MeasuredRun& run : experiment.runs) {
+    run.x_box[0] = NAN;
+    for (std::size_t i = 1000; i < 1020; ++i) run.x_box[i] = NAN;
+  }
+  EXPECT_DOUBLE_EQ(top_speed_of_the_map(experiment), whole);
+}
+
+TEST(Momentum, WhatTheSetupHasIsNotMissed) {
   PushedBox what;
   what.viscous = 0.05;
   const Experiment experiment = pushed_box(what, 10);
-  std::vector<shakedown::Setup> setups = pushed_setups(experiment);
-  for (shakedown::Setup& setup : setups) setup.effects.push_back({&damping, {{"damping", 0.05}}, {}});
-  const MomentumAudit audit = audited(experiment, setups);
+  const MomentumAudit audit = audited(experiment, with_damping(experiment, 0.05));
   EXPECT_EQ(names(audit), "");
   EXPECT_GT(audit.as_given.p_value, 1e-3) << audit.as_given.chi2_per_degree();
 }

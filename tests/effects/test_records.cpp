@@ -277,3 +277,15 @@ TEST(RecordList, CubicSpringNeedsADisplacement) {
                                         {"release.displacement", "0 mm"}};
   EXPECT_THROW(physics_of(parse_setup("", "s", all_effects(), overrides)), InputError);
 }
+
+TEST(RecordList, ACubicSpringMayHaveAReferenceOfItsOwn) {
+  const auto cubic = [](const char* displacement, const char* reference) {
+    const std::vector<Override> overrides{{"spring_cubic.coefficient", "0.04"},
+                                          {"spring_cubic.reference", toml_string(reference)},
+                                          {"release.displacement", toml_string(displacement)}};
+    return physics_of(parse_setup("", "s", all_effects(), overrides)).spring_cubic;
+  };
+  EXPECT_DOUBLE_EQ(cubic("50 mm", "0 mm"), 0.04 / (0.05 * 0.05));
+  EXPECT_DOUBLE_EQ(cubic("50 mm", "100 mm"), 0.04 / (0.1 * 0.1));
+  EXPECT_DOUBLE_EQ(cubic("0 mm", "100 mm"), 0.04 / (0.1 * 0.1));
+}
