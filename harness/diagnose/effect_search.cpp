@@ -101,6 +101,7 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   std::stable_partition(screened.begin(), screened.end(), always);
   const auto others = std::find_if_not(screened.begin(), screened.end(), always);
   const double most_promised = others == screened.end() ? 0 : promise(*others);
+  const std::size_t most_promising = most_promised > 2 * least_gain ? others->candidate : candidates.size();
   // What promises to explain a good part of the misfit goes first, with what contends with it: closer looks
   // at the others may be needless.
   const double share =
@@ -114,7 +115,9 @@ std::vector<Pipeline::Rival> Pipeline::rivals_among(const std::vector<Candidate>
   double best_score = 0, lowest = best.judged_chi2;
   bool mended = false, explained = false;
   for (const ScreenedEffect& effect : screened) {
-    if (rivals.size() >= most_tried || result_.runs_simulated > budget_) break;
+    if (rivals.size() >= most_tried) break;
+    // What is tried in any case may have used the budget up: the one that promises most has its turn.
+    if (result_.runs_simulated > budget_ && effect.candidate != most_promising) continue;
     const bool silent = accepted && promise(effect) < speaks_up && !(always(effect) && strayed);
     // nothing that acts otherwise takes up so much and leaves noise alone
     if (silent || (always(effect) && explained)) {
