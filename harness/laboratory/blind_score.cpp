@@ -10,6 +10,7 @@
 
 #include "blind_suite.hpp"
 #include "force_likeness.hpp"
+#include "known_effects.hpp"
 #include "opened_case.hpp"
 #include "random.hpp"
 #include "toml_document.hpp"
@@ -193,7 +194,7 @@ bool form_is_offered(const OpenedCase& one, const TrialTools& tools) {
   Setup truth = parse_setup(one.setup, one.name, tools.known);
   truth.run.duration = 8;
   const Trajectory motion = tools.model->run(truth);
-  const EffectChoice& hidden = truth.effects.front();
+  const EffectChoice& hidden = *find_choice(truth, "user_force");  // beside what is believed
   const std::vector<double> force = force_along(hidden.text("force"), hidden.constants("constants"), motion);
   for (const OfferedForce& offered : one.forces)
     for (const std::string& form : offered.forms) {

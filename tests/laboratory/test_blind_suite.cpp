@@ -173,7 +173,8 @@ namespace {
 
 /// A suite of `counts` whose plan and seals exist, each answer written by `answer`.
 void answered(const fs::path& folder, const BlindCounts& counts,
-              const std::function<std::string(const nlohmann::json& truth)>& answer) {
+              const std::function<std::string(const nlohmann::json& truth)>& answer,
+              const shakedown::Setup& believed = {}) {
   const auto hard = engine_named("hard");
   std::atomic<bool> stop = true;  // sealed, then stopped before the first case is measured
   const TrialTools tools{hard.get(), hard.get(), all_effects(), 100, 1, &stop};
@@ -187,7 +188,7 @@ void answered(const fs::path& folder, const BlindCounts& counts,
       table["signals"][std::string(hideable.id)] = {
           {"strength", 1}, {"signal", 20}, {"power", 1}, {"by", "ensembles"}};
   write(folder / "strengths.json", table.dump());
-  EXPECT_THROW(run_blind_suite(folder, {}, tools, options), Interrupted);
+  EXPECT_THROW(run_blind_suite(folder, believed, tools, options), Interrupted);
   for (const fs::directory_entry& file : fs::directory_iterator(folder / "sealed"))
     write(folder / "answers" / file.path().filename(),
           answer(nlohmann::json::parse(read_text_file(file.path()))));
@@ -308,6 +309,23 @@ TEST(BlindScores, AFolderHoldsOneSuite) {
   EXPECT_NO_THROW(run_blind_suite(folder.path(), {}, tools, options));
   options.seed = 2;
   EXPECT_THROW(run_blind_suite(folder.path(), {}, tools, options), InputError);
+}
+
+TEST(BlindScores, AForceInNoListIsFoundBesideWhatIsBelieved) {
+  const ScratchFolder folder;
+  const shakedown::Setup believed =
+      changed({}, overrides_of_effect("grain_friction=grain_grain:0.1"), all_effects());
+  answered(
+      folder.path(), {0, 0, 0, 0, 0, 1, 0},
+      [](const nlohmann::json& truth) {
+        auto answer = nlohmann::json::parse(answer_of("unknown", {}));
+        answer["formulas"].push_back({{"formula", truth["strengths"]["user_force.force"]},
+                                      {"constants", {{"c", 1.0}, {"x0", 0.045}, {"w", 0.012}}},
+                                      {"look_alikes", nlohmann::json::array()}});
+        return answer.dump();
+      },
+      believed);
+  EXPECT_EQ(figure(scored(folder.path()), "its form among those offered").found.substr(0, 6), "1 of 1");
 }
 
 // ---- the whole way, with real diagnoses ----
