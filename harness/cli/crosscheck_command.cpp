@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "comma_list.hpp"
 #include "command.hpp"
 #include "crosscheck_file.hpp"
 #include "crosscheck_report.hpp"
@@ -44,11 +45,8 @@ std::vector<std::string> values_of(const std::string& variation) {
   if (equals == std::string::npos || equals + 1 == variation.size())
     throw InputError({{{"--vary"}, variation, "this names no values", "write e.g. box.length=40mm,65mm"}});
   std::vector<std::string> values;
-  for (std::size_t begin = equals + 1; begin <= variation.size();) {
-    const std::size_t end = std::min(variation.find(',', begin), variation.size());
-    values.push_back(variation.substr(0, equals + 1) + variation.substr(begin, end - begin));
-    begin = end + 1;
-  }
+  for (const std::string& value : split_at_commas(variation.substr(equals + 1)))
+    values.push_back(variation.substr(0, equals + 1) + value);
   return values;
 }
 

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <memory>
 
+#include "comma_list.hpp"
 #include "command.hpp"
 #include "diagnose_report.hpp"
 #include "effects.hpp"
@@ -43,24 +44,14 @@ struct DiagnoseArguments {
   bool resume = false;
 };
 
-std::vector<std::string> split_at_commas(const std::string& text) {
-  std::vector<std::string> names;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(',', at), text.size());
-    names.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return names;
-}
-
 void check_names(const DiagnoseArguments& arguments) {
   std::vector<Violation> found;
-  for (const std::string& name : split_at_commas(arguments.effects))
+  for (const std::string& name : names_in(arguments.effects))
     if (find_effect(name) == nullptr)
       found.push_back({{"--effects", 0, 0}, name, "is not an effect", "`shakedown effects` lists them"});
   std::vector<std::string> fitted;
   for (const Knob& knob : free_parameters(Setup{})) fitted.push_back(knob.key);
-  for (const std::string& name : split_at_commas(arguments.fixed))
+  for (const std::string& name : names_in(arguments.fixed))
     if (std::find(fitted.begin(), fitted.end(), name) == fitted.end())
       found.push_back({{"--fixed", 0, 0},
                        name,
@@ -147,13 +138,9 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   Diagnosis diagnosis;
   try {
     ProgressDisplay display(fmt::format("{}: diagnosing, at most {} simulations", arguments.data, budget));
-    DiagnoseOptions options{split_at_commas(arguments.effects),
-                            budget,
-                            arguments.threads,
-                            all_effects(),
-                            catch_interruption(),
-                            {}};
-    options.fixed = split_at_commas(arguments.fixed);
+    DiagnoseOptions options{names_in(arguments.effects), budget, arguments.threads, all_effects(),
+                            catch_interruption(),        {}};
+    options.fixed = names_in(arguments.fixed);
     options.strength_uncertainty = &strength_uncertainty;
     options.progress = [&](const std::string& stage, double fraction) {
       display.rename(stage);

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <sstream>
 
+#include "comma_list.hpp"
 #include "command.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
@@ -44,8 +44,7 @@ int fit(const FitArguments& arguments) {
   std::unique_ptr<OutputFolder> folder;
   if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
   FitOptions options;
-  std::stringstream names(arguments.on);
-  for (std::string name; std::getline(names, name, ',');) options.on.push_back(name);
+  options.on = names_in(arguments.on);
   options.count = arguments.count;
   options.threads = arguments.threads;
   options.known = all_effects();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "comma_list.hpp"
 #include "command.hpp"
 #include "effects.hpp"
 #include "engine_differences.hpp"
@@ -67,17 +68,16 @@ HiddenCase hidden_case(const HideArguments& arguments) {
 std::vector<PlannedRun> planned_runs(const HideArguments& arguments) {
   std::vector<double> lengths;
   std::vector<Violation> found;
-  if (!arguments.lengths.empty())
-    for (const std::string& text : split_at_commas(arguments.lengths)) {
-      TomlValue value;
-      value.kind = TomlValue::Kind::text;
-      value.text = text;
-      const ValueOrProblem<double> length = number_in(value, "mm");
-      if (const Problem* wrong = std::get_if<Problem>(&length))
-        found.push_back({{"--lengths", 0, 0}, "", wrong->problem, wrong->remedy});
-      else
-        lengths.push_back(std::get<double>(length));
-    }
+  for (const std::string& text : names_in(arguments.lengths)) {
+    TomlValue value;
+    value.kind = TomlValue::Kind::text;
+    value.text = text;
+    const ValueOrProblem<double> length = number_in(value, "mm");
+    if (const Problem* wrong = std::get_if<Problem>(&length))
+      found.push_back({{"--lengths", 0, 0}, "", wrong->problem, wrong->remedy});
+    else
+      lengths.push_back(std::get<double>(length));
+  }
   std::vector<PlannedRun> runs = runs_of_lengths(lengths);
   int number = 0;
   read_each(arguments.runs, found, [&](const std::string& text) {
@@ -160,11 +160,6 @@ nlohmann::ordered_json json_of(const Share& share) {
           {"share", share.value},
           {"low", share.low},
           {"high", share.high}};
-}
-
-std::string in_words(const Share& share) {
-  return fmt::format("{} of {} ({:.0f} %, 95 %: {:.0f} to {:.0f} %)", share.hits, share.trials,
-                     100 * share.value, 100 * share.low, 100 * share.high);
 }
 
 /// Would a diagnosis see it? Nothing is written.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "comma_list.hpp"
 #include "quantity.hpp"
 #include "random.hpp"
 #include "setup_keys.hpp"

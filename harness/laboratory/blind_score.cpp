@@ -30,11 +30,6 @@ struct Count {
   void add(bool hit) { hits += hit, ++trials; }
 };
 
-std::string in_words(const Share& share) {
-  return fmt::format("{} of {} ({:.0f} %, 95 %: {:.0f} to {:.0f} %)", share.hits, share.trials,
-                     100 * share.value, 100 * share.low, 100 * share.high);
-}
-
 class Table {
  public:
   void at_most(const std::string& what, const Count& count, double limit) { add(what, count, limit, 1e9); }

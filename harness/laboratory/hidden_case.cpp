@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "comma_list.hpp"
 #include "effects.hpp"
 #include "known_effects.hpp"
 #include "quantity.hpp"
@@ -16,12 +17,6 @@
 namespace shakedown {
 
 namespace {
-
-std::string trimmed(std::string_view text) {
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
-  return std::string(text);
-}
 
 const EffectRecord& effect_named(const std::string& name, const std::string& origin) {
   if (const EffectRecord* record = find_effect(name)) return *record;
@@ -161,27 +156,9 @@ void take_recording(const std::string& part, const std::string& origin, Recordin
 
 }  // namespace
 
-std::vector<std::string> split_at_commas(std::string_view text) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  int depth = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '"') quoted = !quoted;
-    if (quoted) continue;
-    depth += text[i] == '(' || text[i] == '[' || text[i] == '{';
-    depth -= text[i] == ')' || text[i] == ']' || text[i] == '}';
-    if (text[i] != ',' || depth > 0) continue;
-    parts.push_back(trimmed(text.substr(begin, i - begin)));
-    begin = i + 1;
-  }
-  parts.push_back(trimmed(text.substr(begin)));
-  return parts;
-}
-
 std::vector<Override> overrides_of_effect(std::string_view text, const std::string& origin) {
   const std::size_t equals = std::min(text.find('='), text.size());
-  const EffectRecord& record = effect_named(trimmed(text.substr(0, equals)), origin);
+  const EffectRecord& record = effect_named(stripped(text.substr(0, equals)), origin);
   if (equals == text.size()) return typical(record, origin);
   std::vector<Override> overrides;
   std::vector<Violation> found;
@@ -195,8 +172,8 @@ std::vector<Override> overrides_of_effect(std::string_view text, const std::stri
                            std::string(record.parameters.front().name) + ":..."});
       continue;
     }
-    overrides.push_back({std::string(record.name) + "." + trimmed(part.substr(0, colon)),
-                         trimmed(part.substr(colon + 1)), origin});
+    overrides.push_back({std::string(record.name) + "." + stripped(part.substr(0, colon)),
+                         stripped(part.substr(colon + 1)), origin});
   }
   if (!found.empty()) throw InputError(std::move(found));
   return overrides;

@@ -11,9 +11,6 @@
 
 namespace shakedown {
 
-/// "a,b=c" parts at commas that stand outside quotes and brackets, trimmed.
-std::vector<std::string> split_at_commas(std::string_view text);
-
 /// `NAME` (at its typical strength) or `NAME=parameter:value,...` as overrides that put the effect into a
 /// setup, e.g. "grain_friction=grain_grain:0.1,grain_wall:0.2", "constant_acceleration=acceleration.z:0.2
 /// m/s^2". Throws InputError with the place `origin` for a name that is no effect, a part that sets nothing,

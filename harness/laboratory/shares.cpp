@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shares.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +15,11 @@ Share share_of(int hits, int trials) {
   const double middle = (p + z * z / (2 * n)) / wide,
                half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n)) / wide;
   return {hits, trials, p, hits == 0 ? 0 : middle - half, hits == trials ? 1 : middle + half};
+}
+
+std::string in_words(const Share& share) {
+  return fmt::format("{} of {} ({:.0f} %, 95 %: {:.0f} to {:.0f} %)", share.hits, share.trials,
+                     100 * share.value, 100 * share.low, 100 * share.high);
 }
 
 double uniformity_p_value(std::vector<double> values) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Counted fractions and p-values, with what their number allows to say.
 #pragma once
+#include <string>
 #include <vector>
 
 namespace shakedown {
@@ -12,6 +13,9 @@ struct Share {
   double value = 0, low = 0, high = 1;
 };
 Share share_of(int hits, int trials);
+
+/// "9 of 10 (90 %, 95 %: 60 to 98 %)"
+std::string in_words(const Share& share);
 
 /// P(D >= observed) of Kolmogorov's distance between these values and the uniform distribution on (0, 1);
 /// Stephens' correction for small numbers (J. R. Stat. Soc. B 32, 115 (1970)). 1 without values.

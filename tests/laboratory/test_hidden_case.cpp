@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "comma_list.hpp"
 #include "effects.hpp"
 
 using namespace shakedown;
@@ -98,4 +99,11 @@ TEST(HiddenCase, TheCamerasPropertiesAreReadWithUnits) {
   EXPECT_DOUBLE_EQ(recording.missing, 0.02);
   EXPECT_DOUBLE_EQ(recording.outliers, 0.05);
   EXPECT_FALSE(recording.centre);
+}
+
+TEST(CommaList, IsTrimmedAndHeedsQuotesAndBrackets) {
+  EXPECT_EQ(split_at_commas(" a ,b=\"c, d\", f(x,y)"),
+            (std::vector<std::string>{"a", "b=\"c, d\"", "f(x,y)"}));
+  EXPECT_EQ(names_in("a, b"), (std::vector<std::string>{"a", "b"}));
+  EXPECT_TRUE(names_in("").empty());
 }

@@ -21,6 +21,10 @@ TEST(Shares, WilsonsIntervalHasItsClosedFormAndStaysWithinBounds) {
   EXPECT_EQ(share_of(0, 0).high, 1);
 }
 
+TEST(Shares, AreToldWithTheirInterval) {
+  EXPECT_EQ(in_words(share_of(5, 10)), "5 of 10 (50 %, 95 %: 24 to 76 %)");
+}
+
 TEST(Shares, WilsonsIntervalCoversTheTruthAsOftenAsItSays) {
   int covered = 0;
   constexpr int experiments = 4000;
