@@ -35,7 +35,17 @@ MethodFault fault_named(const std::string& name) {
                                   method_fault_names.begin());
 }
 
+/// Before the folder is made: a name mistyped must not leave one behind.
+void expect_suite(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / "plan.json"))
+    throw InputError({{{folder.string(), 0, 0},
+                       "--score",
+                       "finds no suite there (no plan.json)",
+                       "name the --out folder of a suite, or leave --score out to begin one"}});
+}
+
 int blind_suite(const BlindSuiteArguments& arguments) {
+  if (arguments.score_only) expect_suite(arguments.out);
   const Setup believed = arguments.setup.empty() ? Setup{} : read_setup(arguments.setup, all_effects());
   const OutputFolder folder(arguments.out);
   arguments.json.check();

@@ -10,10 +10,10 @@
 
 #include "blind_suite.hpp"
 #include "force_likeness.hpp"
+#include "json_file.hpp"
 #include "known_effects.hpp"
 #include "opened_case.hpp"
 #include "random.hpp"
-#include "toml_document.hpp"
 
 namespace shakedown {
 
@@ -151,15 +151,15 @@ void widths(const std::vector<OpenedCase>& cases, Table& table) {
   Count fallen;
   for (const OpenedCase& one : cases)
     if (one.kind == BlindKind::single || one.kind == BlindKind::pair || one.kind == BlindKind::camera)
-      if (one.error_over_floor) fallen.add(*one.error_over_floor <= 1.2);
+      if (one.lost || one.error_over_floor) fallen.add(!one.lost && *one.error_over_floor <= 1.2);
   table.at_least("final error of the box within 1.2 of its floor", fallen, 0.90);
 }
 
 void inventions(const std::vector<OpenedCase>& cases, Table& table) {
-  table.at_most(
-      "camera artefacts called physics",
-      count(cases, of_kind(BlindKind::camera), [](const OpenedCase& one) { return one.names_physics(); }),
-      0.05);
+  table.at_most("camera artefacts called physics",
+                count(cases, of_kind(BlindKind::camera),
+                      [](const OpenedCase& one) { return one.lost || one.names_physics(); }),
+                0.05);
   table.beside("camera artefacts named exactly",
                count(cases, of_kind(BlindKind::camera), [](const OpenedCase& one) { return one.exact(); }));
   table.at_most("effects invented (named, not hidden)",
@@ -168,7 +168,7 @@ void inventions(const std::vector<OpenedCase>& cases, Table& table) {
                     [](const OpenedCase& one) {
                       return one.kind != BlindKind::twins && one.kind != BlindKind::unlisted;
                     },
-                    [](const OpenedCase& one) { return one.judgement.invented; }),
+                    [](const OpenedCase& one) { return one.lost || one.judgement.invented; }),
                 0.05);
   table.at_least(
       "both of a pair named",
@@ -256,13 +256,13 @@ void baselines(const std::vector<OpenedCase>& cases, Table& table) {
   for (const auto& [key, what] : naive) {
     Count exact, alarms;
     for (const OpenedCase& one : cases) {
-      const auto naive_answer = one.naive.find(key);
-      if (naive_answer == one.naive.end()) continue;
-      const std::string& named = naive_answer->second;
+      if (!one.naive) continue;
+      const auto named = one.naive->find(key);
+      const bool lost = named == one.naive->end();
       if (one.kind == BlindKind::single)
-        exact.add(named == one.hidden.front());
+        exact.add(!lost && named->second == one.hidden.front());
       else
-        alarms.add(!named.empty());
+        alarms.add(lost || !named->second.empty());
     }
     table.beside(fmt::format("baseline: {}, exact", what), exact);
     table.beside(fmt::format("baseline: {}, false alarms", what), alarms);
@@ -298,15 +298,20 @@ void seconds(const std::vector<OpenedCase>& cases, Table& table) {
 }  // namespace
 
 BlindScore score_blind_suite(const fs::path& folder, const TrialTools& tools) {
-  const Json plan = Json::parse(read_text_file(folder / "plan.json"));
+  std::map<std::string, std::string> seals;
+  read_json_file(folder / "plan.json", "the plan of a suite",
+                 "put back the one that was there when the suite began",
+                 [&](const std::string& text) { Json::parse(text).at("sealed").get_to(seals); });
   BlindScore score;
   std::vector<OpenedCase> cases;
-  for (const auto& [name, seal] : plan["sealed"].items()) {
-    ++score.planned;
-    if (fs::exists(folder / "answers" / (name + ".json")))
-      cases.push_back(open_case(folder, name, seal.get<std::string>()));
-  }
+  for (const auto& [name, seal] : seals)
+    if (fs::exists(folder / "answers" / (name + ".json"))) cases.push_back(open_case(folder, name, seal));
+  score.planned = static_cast<int>(seals.size());
   score.answered = static_cast<int>(cases.size());
+  for (const OpenedCase& one : cases) {
+    score.lost += one.lost;
+    for (const std::string& program : one.programs) ++score.programs[program];
+  }
   Table table;
   nulls(cases, table);
   singles(cases, table);
@@ -323,6 +328,8 @@ BlindScore score_blind_suite(const fs::path& folder, const TrialTools& tools) {
 
 std::string blind_score_text(const BlindScore& score) {
   std::string text = fmt::format("{} of {} cases answered\n", score.answered, score.planned);
+  for (const auto& [program, answers] : score.programs) text += fmt::format("  {} by {}\n", answers, program);
+  if (score.lost > 0) text += fmt::format("  {} broke down, and count as wrong in every line\n", score.lost);
   for (const BlindFigure& figure : score.figures)
     text += fmt::format("  {:<72} {:<13} {:<42} {}\n", figure.what, figure.aim, figure.found,
                         figure.verdict == Kept::met      ? "met"
@@ -339,10 +346,8 @@ std::string blind_score_json(const BlindScore& score) {
          {"aim", figure.aim},
          {"found", figure.found},
          {"met", figure.verdict == Kept::not_measured ? Json(nullptr) : Json(figure.verdict == Kept::met)}});
-  return Json{{"schema_version", 1},
-              {"planned", score.planned},
-              {"answered", score.answered},
-              {"figures", figures},
+  return Json{{"schema_version", 1}, {"planned", score.planned},   {"answered", score.answered},
+              {"lost", score.lost},  {"programs", score.programs}, {"figures", figures},
               {"cases", score.cases}}
              .dump(2) +
          "\n";

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "blind_suite.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "fnv.hpp"
+#include "json_file.hpp"
 #include "naive_answers.hpp"
+#include "opened_case.hpp"
 #include "output_file.hpp"
 #include "provenance.hpp"
-#include "toml_document.hpp"
 
 namespace shakedown {
 
@@ -16,6 +20,28 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
+using Seals = std::map<std::string, std::string>;  ///< digest of each case's sealed answer
+
+/// Options in which two plans differ: "--seed (8000 there, 1 here), --budget (14000 there, 100 here)".
+std::string differences(const Json& there, const Json& here) {
+  constexpr std::array<std::pair<const char*, const char*>, 10> options{
+      {{"schema_version", "version of the plan"},
+       {"seed", "--seed"},
+       {"small", "--small"},
+       {"variant", "--variant"},
+       {"counts", "--cases"},
+       {"signals", "--signals"},
+       {"believed", "digest of SETUP"},
+       {"laboratory", "--engine"},
+       {"budget", "--budget"},
+       {"fault", "--mutation"}}};
+  std::string differ;
+  for (const auto& [key, option] : options)
+    if (const Json& was = there.at(key); was != here.at(key))
+      differ += fmt::format("{}{} ({} there, {} here)", differ.empty() ? "" : ", ", option, was.dump(),
+                            here.at(key).dump());
+  return differ;
+}
 
 class Suite {
  public:
@@ -30,10 +56,10 @@ class Suite {
   }
 
   void run() {
-    open();
+    const Seals sealed_before = open();
     const std::vector<BlindCase> cases =
         draw_cases(believed_, options_.counts, design_, laws(), options_.seed, tools_.known);
-    seal(cases);
+    seal(cases, sealed_before);
     int done = 0;
     for (const BlindCase& one : cases) {
       answer(one, one.name, one.trial);
@@ -67,23 +93,29 @@ class Suite {
             {"fault", method_fault_names[static_cast<std::size_t>(tools_.fault)]}};
   }
 
-  /// A folder holds one suite.
-  void open() const {
+  /// A folder holds one suite. Its seals, or none of a suite that is to begin.
+  Seals open() const {
     const fs::path file = folder_ / "plan.json";
-    if (!fs::exists(file)) return;
+    if (!fs::exists(file)) return {};
     if (!options_.resume)
       throw InputError({{{file.string(), 0, 0},
                          "",
                          "a suite stands there already",
                          "go on with --resume, or name another folder"}});
-    Json there = Json::parse(read_text_file(file));
-    there.erase("sealed");
-    there.erase("program");
-    if (there != plan())
+    Seals seals;
+    std::string others;
+    read_json_file(file, "the plan of a suite", "put back the one that was there, or name another folder",
+                   [&](const std::string& text) {
+                     const Json there = Json::parse(text);
+                     others = differences(there, plan());
+                     there.at("sealed").get_to(seals);
+                   });
+    if (!others.empty())
       throw InputError({{{file.string(), 0, 0},
                          "",
-                         "is the plan of another suite (other setup, seed or numbers of cases)",
+                         "is the plan of another suite (" + others + ")",
                          "go on with the same ones, or name another folder"}});
+    return seals;
   }
 
   SignalLaws laws() const {
@@ -111,20 +143,15 @@ class Suite {
 
   static SignalLaws read_laws(const fs::path& file) {
     SignalLaws table;
-    const std::string text = read_text_file(file);
-    try {
-      const Json document = Json::parse(text);
-      for (const auto& [id, law] : document.at("signals").items())
-        table[id] = {law.at("strength").get<double>(), law.at("signal").get<double>(),
-                     law.at("power").get<double>(), law.at("by") == "balance"};
-    } catch (const nlohmann::json::exception& problem) {
-      throw InputError(
-          {{{file.string()},
-            "",
-            std::string("not a table of signals that this version writes (") + problem.what() + ")",
-            "leave it out, and the table is measured anew; an earlier suite's folder has one as "
-            "strengths.json"}});
-    }
+    read_json_file(file, "a table of signals that this version writes",
+                   "leave it out, and the table is measured anew; an earlier suite's folder has one as "
+                   "strengths.json",
+                   [&](const std::string& text) {
+                     const Json document = Json::parse(text);
+                     for (const auto& [id, law] : document.at("signals").items())
+                       table[id] = {law.at("strength").get<double>(), law.at("signal").get<double>(),
+                                    law.at("power").get<double>(), law.at("by") == "balance"};
+                   });
     return table;
   }
 
@@ -149,30 +176,50 @@ class Suite {
     return ids;
   }
 
-  void seal(const std::vector<BlindCase>& cases) const {
-    Json digests = Json::object();
+  /// An answer that was sealed is never sealed anew: what is diagnosed must be what it tells of.
+  void seal(const std::vector<BlindCase>& cases, const Seals& sealed_before) const {
+    const bool begins = sealed_before.empty();
+    Seals seals;
+    std::vector<std::string> drawn_otherwise;
     for (const BlindCase& one : cases) {
-      Json sealed = Json::parse(truth_json(one.trial.hidden, one.trial.recording,
-                                           std::string(tools_.laboratory->name()), one.trial.seed));
-      sealed["kind"] = blind_kind_names[static_cast<std::size_t>(one.kind)];
-      sealed["ids"] = one.ids;
-      sealed["signal_to_noise"] = one.signal_to_noise;
-      sealed["twin"] = one.twin;
-      const std::string text = sealed.dump(2) + "\n";
-      digests[one.name] = hexadecimal(fnv1a(text));
-      const fs::path file = folder_ / "sealed" / (one.name + ".json");
-      if (!fs::exists(file)) write_file(file, text);
+      const std::string text = sealed_answer(one);
+      const std::string& seal = seals[one.name] = hexadecimal(fnv1a(text));
+      const auto before = sealed_before.find(one.name);
+      if (!begins && (before == sealed_before.end() || before->second != seal))
+        drawn_otherwise.push_back(one.name);
+      else if (const fs::path file = folder_ / "sealed" / (one.name + ".json"); begins || !fs::exists(file))
+        write_file(file, text);
     }
+    if (!drawn_otherwise.empty())
+      throw InputError({{{(folder_ / "plan.json").string(), 0, 0},
+                         "sealed",
+                         fmt::format("{} of {} cases are no longer drawn as they were sealed, the first: {} "
+                                     "(another program, or another strengths.json)",
+                                     drawn_otherwise.size(), cases.size(), drawn_otherwise.front()),
+                         "go on with the program and the strengths.json that it began with, or name another "
+                         "folder"}});
+    if (!begins) return;
     Json document = plan();
     document["program"] = version_line();
-    document["sealed"] = digests;
-    if (!fs::exists(folder_ / "plan.json")) write_file(folder_ / "plan.json", document.dump(2) + "\n");
+    document["sealed"] = seals;
+    write_file(folder_ / "plan.json", document.dump(2) + "\n");
+  }
+
+  std::string sealed_answer(const BlindCase& one) const {
+    Json sealed = Json::parse(truth_json(one.trial.hidden, one.trial.recording,
+                                         std::string(tools_.laboratory->name()), one.trial.seed));
+    sealed["kind"] = blind_kind_names[static_cast<std::size_t>(one.kind)];
+    sealed["ids"] = one.ids;
+    sealed["signal_to_noise"] = one.signal_to_noise;
+    sealed["twin"] = one.twin;
+    return sealed.dump(2) + "\n";
   }
 
   void answer(const BlindCase& one, const std::string& name, const Trial& trial) const {
     const fs::path file = folder_ / "answers" / (name + ".json");
     const bool answered = fs::exists(file);
-    Json document = answered ? Json::parse(read_text_file(file)) : Json{{"case", one.name}};
+    Json document{{"case", one.name}, {"program", version_line()}};
+    if (answered) read_answer_file(file, [&](const std::string& text) { document = Json::parse(text); });
     // also of a suite that was answered without them
     const bool ask_simpler_methods = options_.baselines && !document.contains("naive") &&
                                      (one.kind == BlindKind::null || one.kind == BlindKind::single);

@@ -5,10 +5,13 @@
 //   plan.json            what was asked for, and a digest of every sealed answer
 //   strengths.json       signal to noise against strength of everything that can be hidden
 //   sealed/case_0001.json  what is hidden
-//   answers/case_0001.json what the diagnosis says; of twins case_0001_more.json with the runs that decide
+//   answers/case_0001.json what the diagnosis says, and which program's it is; of twins case_0001_more.json
+//   with
+//                          the runs that decide
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -29,7 +32,8 @@ struct BlindSuiteOptions {
 };
 
 /// Draws, seals and diagnoses what has no answer yet. Throws InputError for a folder that holds another suite
-/// (or one without `resume`), FileError, Interrupted (what is done is kept).
+/// (or one without `resume`, or one whose cases are no longer drawn as they were sealed), FileError,
+/// Interrupted (what is done is kept).
 void run_blind_suite(const std::filesystem::path& folder, const Setup& believed, const TrialTools& tools,
                      const BlindSuiteOptions& options);
 
@@ -45,10 +49,12 @@ struct BlindScore {
   std::vector<BlindFigure> figures;
   std::vector<std::string> cases;  ///< a line a case: what was hidden, what was answered, right or wrong
   int answered = 0, planned = 0;
+  int lost = 0;                         ///< of the answered ones: no diagnosis, wrong in every figure
+  std::map<std::string, int> programs;  ///< that answered, and how many cases each
 };
 
 /// Opens the answers. Throws FileError; InputError when a sealed answer is not what it was when the suite
-/// began.
+/// began, or a file of the suite is damaged.
 BlindScore score_blind_suite(const std::filesystem::path& folder, const TrialTools& tools);
 
 std::string blind_score_text(const BlindScore& score);

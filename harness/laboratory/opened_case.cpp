@@ -7,6 +7,7 @@
 
 #include "effects.hpp"
 #include "fnv.hpp"
+#include "json_file.hpp"
 #include "toml_document.hpp"
 
 namespace shakedown {
@@ -34,18 +35,18 @@ BlindKind kind_of(const std::string& name) {
 }
 
 void read_truth(const Json& truth, OpenedCase& one) {
-  one.kind = kind_of(truth["kind"]);
-  one.signal = truth["signal_to_noise"];
-  one.hidden = truth["hidden"].get<Names>();
-  one.twin = truth["twin"];
-  one.setup = truth["setup"];
-  one.laboratory = truth["laboratory"].get<std::map<std::string, double>>();
-  for (const auto& [key, strength] : truth["strengths"].items()) {
+  one.kind = kind_of(truth.at("kind"));
+  one.signal = truth.at("signal_to_noise");
+  one.hidden = truth.at("hidden").get<Names>();
+  one.twin = truth.at("twin");
+  one.setup = truth.at("setup");
+  one.laboratory = truth.at("laboratory").get<std::map<std::string, double>>();
+  for (const auto& [key, strength] : truth.at("strengths").items()) {
     if (strength.is_number()) one.strengths[key] = strength;
     if (!strength.is_array()) continue;
-    one.strengths[key + ".x"] = strength[0];
+    one.strengths[key + ".x"] = strength.at(0);
     one.strengths[key + ".y"] = one.strengths[key + ".z"] =
-        std::hypot(strength[1].get<double>(), strength[2].get<double>());
+        std::hypot(strength.at(1).get<double>(), strength.at(2).get<double>());
   }
 }
 
@@ -54,31 +55,31 @@ std::set<std::string> with_look_alikes(const Json& diagnosis, const Names& missi
   const auto add = [&](const Json& list) {
     for (const Json& item : list)
       if (std::find(missing.begin(), missing.end(), item.value("effect", "")) != missing.end())
-        for (const Json& alike : item["look_alikes"]) names.insert(alike.get<std::string>());
+        for (const Json& alike : item.at("look_alikes")) names.insert(alike.get<std::string>());
   };
-  add(diagnosis["ranking"]);
-  add(diagnosis["momentum"]["terms"]);
+  add(diagnosis.at("ranking"));
+  add(diagnosis.at("momentum").at("terms"));
   return names;
 }
 
 Judgement judgement_of(const Json& diagnosis, const OpenedCase& one) {
-  return judge(one.hidden, !one.laboratory.empty(), verdict_of(diagnosis["verdict"]),
-               diagnosis["missing"].get<Names>());
+  return judge(one.hidden, !one.laboratory.empty(), verdict_of(diagnosis.at("verdict")),
+               diagnosis.at("missing").get<Names>());
 }
 
 void read_diagnosis(const Json& diagnosis, OpenedCase& one) {
-  one.verdict = diagnosis["verdict"];
-  one.missing = diagnosis["missing"].get<Names>();
+  one.verdict = diagnosis.at("verdict");
+  one.missing = diagnosis.at("missing").get<Names>();
   one.look_alikes = with_look_alikes(diagnosis, one.missing);
-  for (const auto& [key, parameter] : diagnosis["parameters"].items()) {
+  for (const auto& [key, parameter] : diagnosis.at("parameters").items()) {
     const auto low = number_at(parameter, "low"), high = number_at(parameter, "high");
     if (low && high) one.found[key] = {*low, *high};
   }
-  one.p_of_balance = number_at(diagnosis["momentum"], "p_value");
-  if (const Json& ladder = diagnosis["ladder"]; !ladder.empty()) {
+  one.p_of_balance = number_at(diagnosis.at("momentum"), "p_value");
+  if (const Json& ladder = diagnosis.at("ladder"); !ladder.empty()) {
     one.p_as_given = number_at(ladder.front(), "p_value");
     const auto error = number_at(ladder.back(), "error_box_mm"),
-               floor = number_at(diagnosis["noise_floor"], "box_mm");
+               floor = number_at(diagnosis.at("noise_floor"), "box_mm");
     if (error && floor && *floor > 0) one.error_over_floor = *error / *floor;
   }
   one.seconds = diagnosis.value("seconds", 0.0);
@@ -88,10 +89,30 @@ void read_diagnosis(const Json& diagnosis, OpenedCase& one) {
 void read_forces(const Json& formulas, OpenedCase& one) {
   for (const Json& formula : formulas) {
     OfferedForce& force = one.forces.emplace_back();
-    force.constants = formula["constants"].get<std::map<std::string, double>>();
-    force.forms = formula["look_alikes"].get<Names>();
-    force.forms.push_back(formula["formula"]);
+    force.constants = formula.at("constants").get<std::map<std::string, double>>();
+    force.forms = formula.at("look_alikes").get<Names>();
+    force.forms.push_back(formula.at("formula"));
   }
+}
+
+void read_answer(const Json& answer, OpenedCase& one) {
+  one.lost = !answer.contains("diagnosis");
+  if (!one.lost) read_diagnosis(answer.at("diagnosis"), one);
+  if (answer.contains("formulas")) read_forces(answer.at("formulas"), one);
+  if (answer.contains("naive")) one.naive = answer.at("naive").get<std::map<std::string, std::string>>();
+}
+
+/// A diagnosis that broke down is a wrong answer.
+void read_answer_with_more_runs(const Json& answer, OpenedCase& one) {
+  one.after_more = answer.contains("diagnosis") ? judgement_of(answer.at("diagnosis"), one) : Judgement{};
+}
+
+void open_answer(const fs::path& file, OpenedCase& one, void (*read)(const Json& answer, OpenedCase& one)) {
+  read_answer_file(file, [&](const std::string& text) {
+    const Json answer = Json::parse(text);
+    read(answer, one);
+    one.programs.insert(answer.value("program", "a program that did not say which"));
+  });
 }
 
 }  // namespace
@@ -109,6 +130,10 @@ bool OpenedCase::names_physics() const {
   });
 }
 
+void read_answer_file(const fs::path& file, const std::function<void(const std::string& text)>& read) {
+  read_json_file(file, "an answer of this suite", "remove it; --resume diagnoses the case again", read);
+}
+
 OpenedCase open_case(const fs::path& folder, const std::string& name, const std::string& seal) {
   const fs::path file = folder / "sealed" / (name + ".json");
   const std::string sealed = read_text_file(file);
@@ -119,15 +144,11 @@ OpenedCase open_case(const fs::path& folder, const std::string& name, const std:
                        "run the suite again in another folder"}});
   OpenedCase one;
   one.name = name;
-  read_truth(Json::parse(sealed), one);
-  const Json answer = Json::parse(read_text_file(folder / "answers" / (name + ".json")));
-  one.lost = !answer.contains("diagnosis");
-  if (!one.lost) read_diagnosis(answer["diagnosis"], one);
-  if (answer.contains("formulas")) read_forces(answer["formulas"], one);
-  if (answer.contains("naive")) one.naive = answer["naive"].get<std::map<std::string, std::string>>();
+  read_json_file(file, "an answer that this version seals", "score it with the program that sealed it",
+                 [&](const std::string& text) { read_truth(Json::parse(text), one); });
+  open_answer(folder / "answers" / (name + ".json"), one, read_answer);
   if (const fs::path more = folder / "answers" / (name + "_more.json"); fs::exists(more))
-    if (const Json second = Json::parse(read_text_file(more)); second.contains("diagnosis"))
-      one.after_more = judgement_of(second["diagnosis"], one);
+    open_answer(more, one, read_answer_with_more_runs);
   return one;
 }
 

@@ -2,6 +2,7 @@
 // One case of a blind suite: what is hidden, opened beside what the diagnosis says.
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -47,10 +48,12 @@ struct OpenedCase {
   std::optional<double> error_over_floor;  ///< of the box, at the last step of the ladder
   double seconds = 0;
   std::vector<OfferedForce> forces;
-  std::map<std::string, std::string> naive;  ///< what simpler methods answer, if they were asked
+  std::optional<std::map<std::string, std::string>>
+      naive;  ///< what simpler methods answer, if they were asked; empty: they broke down
+  std::set<std::string> programs;  ///< that answered
 
   Judgement judgement;
-  std::optional<Judgement> after_more;  ///< of a twin with the runs that decide
+  std::optional<Judgement> after_more;  ///< of a twin with the runs that decide, when it was asked with them
 
   bool exact() const { return judgement.named; }
   bool first_suspects_family_is_right() const;
@@ -59,7 +62,11 @@ struct OpenedCase {
 };
 
 /// Case `name` of the suite in `folder`, sealed with digest `seal` (FNV-1a). Throws FileError; InputError
-/// when the sealed answer is not the one that was sealed.
+/// when the sealed answer is not the one that was sealed, or a file is damaged.
 OpenedCase open_case(const std::filesystem::path& folder, const std::string& name, const std::string& seal);
+
+/// Hands the text of one of the suite's answers to `read`. Throws FileError; InputError when it is damaged.
+void read_answer_file(const std::filesystem::path& file,
+                      const std::function<void(const std::string& text)>& read);
 
 }  // namespace shakedown

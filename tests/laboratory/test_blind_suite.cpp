@@ -187,6 +187,8 @@ void answered(const fs::path& folder, const BlindCounts& counts,
     for (const Hideable& hideable : *list)
       table["signals"][std::string(hideable.id)] = {
           {"strength", 1}, {"signal", 20}, {"power", 1}, {"by", "ensembles"}};
+  for (const BlindCase& one : draw_cases(believed, counts, small_design(), {}, options.seed, all_effects()))
+    for (const std::string& id : one.strengths) table["signals"][id] = table["signals"]["grain_friction"];
   write(folder / "strengths.json", table.dump());
   EXPECT_THROW(run_blind_suite(folder, believed, tools, options), Interrupted);
   for (const fs::directory_entry& file : fs::directory_iterator(folder / "sealed"))
@@ -217,6 +219,16 @@ const BlindFigure& figure(const BlindScore& score, const std::string& what) {
   for (const BlindFigure& one : score.figures)
     if (one.what.starts_with(what)) return one;
   throw std::runtime_error("no figure " + what);
+}
+
+/// What an InputError says.
+std::string refusal(const std::function<void()>& does) {
+  try {
+    does();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing is refused";
 }
 
 constexpr BlindCounts some{10, 0, 15, 5, 4, 0, 0};
@@ -308,7 +320,43 @@ TEST(BlindScores, AFolderHoldsOneSuite) {
   // all is answered: nothing is simulated
   EXPECT_NO_THROW(run_blind_suite(folder.path(), {}, tools, options));
   options.seed = 2;
-  EXPECT_THROW(run_blind_suite(folder.path(), {}, tools, options), InputError);
+  EXPECT_NE(
+      refusal([&] { run_blind_suite(folder.path(), {}, tools, options); }).find("--seed (1 there, 2 here)"),
+      std::string::npos);
+}
+
+TEST(BlindScores, WhatIsDrawnOtherwiseThanItWasSealedIsNotDiagnosed) {
+  const ScratchFolder folder;
+  answered(folder.path(), {0, 0, 2, 0, 0, 0, 0},
+           [](const nlohmann::json&) { return answer_of("adequate", {}); });
+  std::string table = read_text_file(folder / "strengths.json");
+  for (std::size_t at = 0; (at = table.find("\"signal\": 20", at)) != table.npos;) table[at + 10] = '3';
+  write(folder / "strengths.json", table);
+  const auto hard = engine_named("hard");
+  const TrialTools tools{hard.get(), hard.get(), all_effects(), 100, 1, nullptr};
+  BlindSuiteOptions options;
+  options.counts = {0, 0, 2, 0, 0, 0, 0};
+  options.small = options.resume = true;
+  const std::string text = refusal([&] { run_blind_suite(folder.path(), {}, tools, options); });
+  for (const char* word : {"plan.json", "2 of 2 cases", "case_0001", "strengths.json"})
+    EXPECT_NE(text.find(word), std::string::npos) << word << " in " << text;
+}
+
+TEST(BlindScores, ADamagedFileIsNamed) {
+  const ScratchFolder folder;
+  answered(folder.path(), {1, 0, 0, 0, 0, 0, 0},
+           [](const nlohmann::json&) { return answer_of("adequate", {}); });
+  const std::vector<std::pair<std::string, std::string>> damages{
+      {"answers/case_0001.json", "{"},
+      {"answers/case_0001.json", R"({"diagnosis": {}})"},
+      {"plan.json", "{"},
+      {"plan.json", "{}"},
+      {"plan.json", R"({"sealed": 3})"}};
+  for (const auto& [name, damage] : damages) {
+    write(folder / name, damage);
+    EXPECT_NE(refusal([&] { scored(folder.path()); }).find((folder / name).string()), std::string::npos)
+        << name << " " << damage;
+  }
 }
 
 TEST(BlindScores, AForceInNoListIsFoundBesideWhatIsBelieved) {
@@ -326,6 +374,34 @@ TEST(BlindScores, AForceInNoListIsFoundBesideWhatIsBelieved) {
       },
       believed);
   EXPECT_EQ(figure(scored(folder.path()), "its form among those offered").found.substr(0, 6), "1 of 1");
+}
+
+TEST(BlindScores, ACaseLostIsWrongInEveryFigure) {
+  const ScratchFolder folder;
+  answered(folder.path(), {2, 0, 2, 2, 2, 0, 2}, [](const nlohmann::json& truth) {
+    nlohmann::json answer{{"error", "grains overlap"}, {"program", "shakedown 9"}};
+    if (truth["kind"] == "nulls" || truth["kind"] == "singles")
+      answer["naive"] = nlohmann::json::object(), answer["naive_error"] = "grains overlap";
+    return answer.dump();
+  });
+  for (const fs::directory_entry& sealed : fs::directory_iterator(folder / "sealed"))
+    if (nlohmann::json::parse(read_text_file(sealed.path()))["kind"] == "twins")
+      write(folder / "answers" / (sealed.path().stem().string() + "_more.json"), R"({"error": "overlap"})");
+  const BlindScore score = scored(folder.path());
+  EXPECT_EQ(score.lost, 10);
+  EXPECT_EQ(score.programs.at("shakedown 9"), 10);
+  const std::vector<std::pair<std::string, std::string>> expected{
+      {"false alarms", "2 of 2"},
+      {"camera artefacts called physics", "2 of 2"},
+      {"effects invented", "8 of 8"},
+      {"final error of the box", "0 of 6"},
+      {"both of a pair", "0 of 2"},
+      {"twins told apart", "0 of 2"},
+      {"baseline: smallest error after refitting, exact", "0 of 2"},
+      {"baseline: smallest error after refitting, false alarms", "2 of 2"}};
+  for (const auto& [what, found] : expected)
+    EXPECT_TRUE(figure(score, what).found.starts_with(found + " "))
+        << what << ": " << figure(score, what).found;
 }
 
 // ---- the whole way, with real diagnoses ----
