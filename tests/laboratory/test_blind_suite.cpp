@@ -404,6 +404,25 @@ TEST(BlindScores, ACaseLostIsWrongInEveryFigure) {
         << what << ": " << figure(score, what).found;
 }
 
+TEST(BlindScores, IntervalsOfParametersAreCountedOfRightAndOfAllAnswers) {
+  const ScratchFolder folder;
+  int answers = 0;
+  answered(folder.path(), {0, 4, 0, 0, 0, 0, 0}, [&](const nlohmann::json& truth) {
+    // the first names an effect that is not there, and its interval misses
+    const bool wrong = answers++ == 0;
+    auto answer =
+        nlohmann::json::parse(wrong ? answer_of("missing", {"grain_friction"}) : answer_of("refit", {}));
+    const double frequency = truth["laboratory"]["spring.frequency"];
+    answer["diagnosis"]["parameters"]["spring.frequency"] = {{"low", wrong ? frequency + 1 : frequency - 1},
+                                                             {"high", frequency + 2}};
+    return answer.dump();
+  });
+  const BlindScore score = scored(folder.path());
+  const std::string what = "intervals of spring.frequency hold the truth ";
+  EXPECT_EQ(figure(score, what + "(named exactly)").found.substr(0, 6), "3 of 3");
+  EXPECT_EQ(figure(score, what + "(all answers)").found.substr(0, 6), "3 of 4");
+}
+
 // ---- the whole way, with real diagnoses ----
 
 TEST(SlowBlindSuite, NullsAndACameraErrorAreToldApart) {
