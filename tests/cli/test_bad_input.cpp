@@ -64,6 +64,11 @@ TEST_F(BadInput, Usage) {
   expect_refused({"jump"}, {"jump"}, 2);
 }
 
+TEST_F(BadInput, ScoringWhereNoSuiteIsMakesNoFolder) {
+  expect_refused({"blind-suite", "--score", "--out", in_folder("typo")}, {"typo", "--score", "plan.json"});
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
 TEST_F(BadInput, MissingFileIsExitFour) {
   for (const char* command : {"run", "theory"}) {
     const Outcome outcome = shakedown_program({command, in_folder("none.toml")});
