@@ -55,7 +55,7 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-std::string readable(const SweepCost& cost, const Share& share, int threads) {
+std::string readable(const SweepCost& cost, const JobShare& share, int threads) {
   std::string text = fmt::format("{} points, {} runs", cost.points, cost.jobs);
   if (share.of > 1)
     text += fmt::format("; share {} of {} (from {}): {} runs", share.index + 1, share.of, share.source,
@@ -89,7 +89,7 @@ void present(const ResultFile& file, const std::string& name, const Presentation
 }
 
 int sweep(const SweepArguments& arguments) {
-  const Share share =
+  const JobShare share =
       arguments.shard.empty() ? share_from_launcher(process_environment()) : parse_share(arguments.shard);
   const Setup setup = arguments.setup.read();
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);

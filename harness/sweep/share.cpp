@@ -23,7 +23,7 @@ std::optional<int> whole_number(std::string_view text) {
   throw InputError({{{std::move(source), 0, 0}, "", std::move(problem), std::move(remedy)}});
 }
 
-Share share_of(std::string source, int index, int of) {
+JobShare share_of(std::string source, int index, int of) {
   if (of < 1 || index < 0 || index >= of)
     refuse(std::move(source), fmt::format("says {} of {} (counted from 0), which is no share", index, of),
            "say which share with --shard i/n");
@@ -48,7 +48,7 @@ class Reader {
 };
 
 /// A process among those that one command started.
-Share among_processes(const Reader& read) {
+JobShare among_processes(const Reader& read) {
   constexpr const char* pairs[][2] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
                                       {"MV2_COMM_WORLD_RANK", "MV2_COMM_WORLD_SIZE"},
                                       {"PMI_RANK", "PMI_SIZE"},
@@ -62,7 +62,7 @@ Share among_processes(const Reader& read) {
 }
 
 /// A member of an array of jobs.
-Share among_array_members(const Reader& read) {
+JobShare among_array_members(const Reader& read) {
   if (const std::optional<int> id = read.number("SLURM_ARRAY_TASK_ID");
       id && read.has("SLURM_ARRAY_TASK_COUNT")) {
     const int first = read.number("SLURM_ARRAY_TASK_MIN").value_or(0),
@@ -79,7 +79,7 @@ Share among_array_members(const Reader& read) {
 
 }  // namespace
 
-Share parse_share(std::string_view text) {
+JobShare parse_share(std::string_view text) {
   const std::size_t slash = text.find('/');
   const std::optional<int> index = whole_number(text.substr(0, slash));
   const std::optional<int> of = slash == text.npos ? std::nullopt : whole_number(text.substr(slash + 1));
@@ -96,10 +96,10 @@ Environment process_environment() {
   };
 }
 
-Share share_from_launcher(const Environment& environment) {
+JobShare share_from_launcher(const Environment& environment) {
   const Reader read(environment);
-  const Share process = among_processes(read), member = among_array_members(read);
-  Share share{member.index * process.of + process.index, member.of * process.of, ""};
+  const JobShare process = among_processes(read), member = among_array_members(read);
+  JobShare share{member.index * process.of + process.index, member.of * process.of, ""};
   for (const std::string& source : {member.source, process.source})
     if (!source.empty()) share.source += (share.source.empty() ? "" : " and ") + source;
   return share;

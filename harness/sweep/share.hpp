@@ -8,7 +8,7 @@
 
 namespace shakedown {
 
-struct Share {
+struct JobShare {
   int index = 0;  ///< 0 ... of - 1
   int of = 1;
   std::string source{};  ///< what said so, for people; empty: nobody, everything is done here
@@ -19,7 +19,7 @@ struct Share {
 };
 
 /// "2/8": the second of eight. Throws InputError.
-Share parse_share(std::string_view text);
+JobShare parse_share(std::string_view text);
 
 /// How a variable of the environment reads.
 using Environment = std::function<std::optional<std::string>(const char* name)>;
@@ -28,6 +28,6 @@ Environment process_environment();
 /// The share that a launcher gave: ranks of Open MPI, MVAPICH, or any with PMI; tasks of srun; Slurm job
 /// arrays and Grid Engine arrays, and tasks within array members. A Slurm batch script itself is no task of
 /// srun: without a step it does everything. Throws InputError when rank and size contradict each other.
-Share share_from_launcher(const Environment& environment);
+JobShare share_from_launcher(const Environment& environment);
 
 }  // namespace shakedown

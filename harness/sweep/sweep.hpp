@@ -24,7 +24,7 @@ struct SweepCost {
 
 struct SweepOptions {
   int threads = 0;  ///< 0: one for each core
-  Share share{};
+  JobShare share{};
   /// Told once before the bulk begins; returns whether to go on. May be empty.
   std::function<bool(const SweepCost& cost)> announce{};
   /// Fraction done of what was left; one call at a time, from any thread. May be empty.

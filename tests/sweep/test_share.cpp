@@ -9,14 +9,14 @@
 using namespace shakedown;
 
 namespace {
-Share with(const std::map<std::string, std::string>& variables) {
+JobShare with(const std::map<std::string, std::string>& variables) {
   return share_from_launcher([&](const char* name) -> std::optional<std::string> {
     const auto found = variables.find(name);
     return found == variables.end() ? std::nullopt : std::optional(found->second);
   });
 }
 void expect_share(const std::map<std::string, std::string>& variables, int index, int of) {
-  const Share share = with(variables);
+  const JobShare share = with(variables);
   EXPECT_EQ(share.index, index) << share.source;
   EXPECT_EQ(share.of, of) << share.source;
 }
@@ -72,7 +72,7 @@ TEST(Share, ContradictionsAreRefused) {
 TEST(Share, SharesCoverEveryJobOnce) {
   for (std::size_t job = 0; job < 100; ++job) {
     int owners = 0;
-    for (int i = 0; i < 7; ++i) owners += Share{i, 7, ""}.has(job);
+    for (int i = 0; i < 7; ++i) owners += JobShare{i, 7, ""}.has(job);
     EXPECT_EQ(owners, 1);
   }
 }
