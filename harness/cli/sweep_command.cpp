@@ -55,6 +55,12 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
+/// Threads of this process: a launcher starts one process a core; a sweep alone takes all cores.
+int threads_of(const SweepArguments& arguments, const JobShare& share) {
+  if (arguments.threads > 0) return arguments.threads;
+  return share.of > 1 && share.source != "--shard" ? 1 : threads_or_all(0);
+}
+
 std::string readable(const SweepCost& cost, const JobShare& share, int threads) {
   std::string text = fmt::format("{} points, {} runs", cost.points, cost.jobs);
   if (share.of > 1)
@@ -88,6 +94,44 @@ void present(const ResultFile& file, const std::string& name, const Presentation
   how.json.write(json_of(rows, file.identity(), complete).dump(2) + "\n");
 }
 
+/// Processes that share a file must not refuse what the others have begun.
+ResultFile::Opening opening_of(const SweepArguments& arguments, const JobShare& share) {
+  return arguments.resume || share.of > 1 ? ResultFile::Opening::resume : ResultFile::Opening::fresh;
+}
+
+/// Its pilot runs go into a file in memory beside what the real one holds: nothing is left behind.
+int estimate(const SweepArguments& arguments, const SweepPlan& plan, const Engine& engine,
+             const JobShare& share) {
+  const SweepIdentity identity = identity_of(plan, engine);
+  ResultFile file(":memory:", identity, ResultFile::Opening::fresh);
+  if (std::filesystem::exists(arguments.out))
+    file.add(ResultFile(arguments.out, identity, opening_of(arguments, share)).rows());
+  SweepOptions options;
+  options.threads = threads_of(arguments, share);
+  options.share = share;
+  options.stop = catch_interruption();
+  options.announce = [](const SweepCost&) { return false; };
+  const SweepOutcome outcome = run_sweep(engine, plan, file, options);
+  if (*options.stop) throw Interrupted("nothing was to be kept");
+  SweepCost cost = outcome.cost;
+  cost.seconds = cost.seconds_a_run * static_cast<double>(cost.here - cost.done) / options.threads;
+  fmt::print(arguments.results.json.for_people(), "{}\n", readable(cost, share, options.threads));
+  if (outcome.failed > 0)
+    fmt::print(stderr, "{} of {} runs that were tried failed; the first: {}\n", outcome.failed, outcome.added,
+               outcome.first_failure);
+  arguments.results.json.write(nlohmann::ordered_json{{"schema_version", 1},
+                                                      {"points", cost.points},
+                                                      {"runs", cost.jobs},
+                                                      {"runs_of_this_share", cost.here},
+                                                      {"done_before", cost.done},
+                                                      {"seconds_a_run", cost.seconds_a_run},
+                                                      {"threads", options.threads},
+                                                      {"seconds", cost.seconds}}
+                                   .dump(2) +
+                               "\n");
+  return outcome.failed > 0 ? exit_promise_broken : exit_done;
+}
+
 int sweep(const SweepArguments& arguments) {
   const JobShare share =
       arguments.shard.empty() ? share_from_launcher(process_environment()) : parse_share(arguments.shard);
@@ -96,29 +140,24 @@ int sweep(const SweepArguments& arguments) {
   const SweepPlan plan =
       plan_sweep(setup, parse_axes(arguments.vary, all_effects()), arguments.runs, *engine, all_effects());
   arguments.results.check();
+  for (const std::string& note : plan.notes) fmt::print(stderr, "note: {}\n", note);
+  if (arguments.estimate) return estimate(arguments, plan, *engine, share);
   expect_writable(arguments.out);
-  // Processes that share a file must not refuse what the others have begun.
-  const auto opening =
-      arguments.resume || share.of > 1 ? ResultFile::Opening::resume : ResultFile::Opening::fresh;
-  ResultFile file(arguments.out, identity_of(plan, *engine), opening);
+  ResultFile file(arguments.out, identity_of(plan, *engine), opening_of(arguments, share));
   for (const std::string& other : file.begin_session(version_line()))
     fmt::print(stderr,
                "note: some results in {} are of another build ({}): means agree, single runs need not\n",
                arguments.out, other);
-  for (const std::string& note : plan.notes) fmt::print(stderr, "note: {}\n", note);
 
   SweepOptions options;
-  // A launcher starts one process a core; a sweep alone takes all cores.
-  options.threads = arguments.threads > 0                       ? arguments.threads
-                    : share.of > 1 && share.source != "--shard" ? 1
-                                                                : threads_or_all(0);
+  options.threads = threads_of(arguments, share);
   options.share = share;
   options.stop = catch_interruption();
   std::unique_ptr<ProgressDisplay> display;
   options.announce = [&](const SweepCost& cost) {
     fmt::print(stderr, "{}\n", readable(cost, share, options.threads));
-    if (!arguments.estimate) display = std::make_unique<ProgressDisplay>("sweeping");
-    return !arguments.estimate;
+    display = std::make_unique<ProgressDisplay>("sweeping");
+    return true;
   };
   options.progress = [&](double fraction) {
     if (display) display->show(fraction);
@@ -130,7 +169,7 @@ int sweep(const SweepArguments& arguments) {
   if (outcome.failed > 0)
     fmt::print(stderr, "{} runs failed and are kept as such; the first: {}\n", outcome.failed,
                outcome.first_failure);
-  if (outcome.interrupted && !arguments.estimate) {
+  if (outcome.interrupted) {
     fmt::print(stderr, "interrupted; --resume goes on\n");
     return exit_interrupted;
   }
@@ -183,7 +222,8 @@ Command add_sweep_command(CLI::App& program) {
       ->type_name("FILE")
       ->capture_default_str();
   command.add_flag("--resume", arguments->resume, "go on with the file: what it holds is not done again");
-  command.add_flag("--estimate", arguments->estimate, "say what the sweep would cost, and stop");
+  command.add_flag("--estimate", arguments->estimate,
+                   "say what the sweep would cost, and stop; nothing is kept");
   command
       .add_option("--shard", arguments->shard,
                   "do the i-th of n shares only; without it the launcher's environment says (mpirun, srun, "
@@ -192,6 +232,8 @@ Command add_sweep_command(CLI::App& program) {
   add_threads_option(command, arguments->threads,
                      "0: one for each core, one under a launcher; the numbers do not depend on it");
   add_presentation(command, arguments->results);
+  for (const char* option : {"--table", "--report"})  // nothing is there to be shown
+    command.get_option("--estimate")->excludes(command.get_option(option));
   return {&command, [arguments] { return sweep(*arguments); }};
 }
 

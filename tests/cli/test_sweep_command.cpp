@@ -41,12 +41,28 @@ TEST_F(SweepCommand, ShardsMergedEqualSerialAndTheTableHoldsThePoints) {
 }
 
 TEST_F(SweepCommand, ResultsAreNeverOverwrittenUnasked) {
-  EXPECT_EQ(shakedown_program(sweep("a.sqlite", {"--estimate"})).code, 0);
+  EXPECT_EQ(shakedown_program(sweep("a.sqlite")).code, 0);
   const Outcome again = shakedown_program(sweep("a.sqlite"));
   EXPECT_EQ(again.code, 2);
   EXPECT_NE(again.err.find("--resume"), std::string::npos) << again.err;
   EXPECT_EQ(shakedown_program(sweep("a.sqlite", {"--resume"})).code, 0);
   EXPECT_EQ(shakedown_program({"merge", in_folder("b.sqlite"), in_folder("none.sqlite")}).code, 4);
+}
+
+TEST_F(SweepCommand, AnEstimateLeavesNothingBehind) {
+  const Outcome estimate = shakedown_program(sweep("a.sqlite", {"--estimate", "--json"}));
+  ASSERT_EQ(estimate.code, 0) << estimate.err;
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+  const auto cost = nlohmann::json::parse(estimate.out);
+  EXPECT_EQ(cost["runs"], 9);
+  EXPECT_EQ(cost["done_before"], 0);
+  EXPECT_NEAR(cost["seconds"].get<double>(),
+              9 * cost["seconds_a_run"].get<double>() / cost["threads"].get<int>(), 1e-9);
+  EXPECT_EQ(shakedown_program(sweep("a.sqlite", {"--estimate", "--table", in_folder("t.csv")})).code, 2);
+  ASSERT_EQ(shakedown_program(sweep("a.sqlite", {"--shard", "1/3"})).code, 0);
+  const Outcome rest = shakedown_program(sweep("a.sqlite", {"--estimate", "--resume"}));
+  EXPECT_NE(rest.out.find("3 of them done before"), std::string::npos) << rest.out;
+  EXPECT_EQ(shakedown_program(sweep("a.sqlite", {"--estimate"})).code, 2);  // as the sweep itself would
 }
 
 TEST_F(SweepCommand, BadInput) {
