@@ -2,6 +2,7 @@
 // shakedown report: one page from the folders that other commands left.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <memory>
 
@@ -23,8 +24,20 @@ bool is_result_file(const std::filesystem::path& file) {
          stream.read(beginning.data(), static_cast<std::streamsize>(magic.size())) && beginning == magic;
 }
 
-NamedReport stored_report(const std::filesystem::path& place) {
-  const std::string name = (place / "").parent_path().filename().string();
+/// By the last part of their paths; those that share it by the whole path.
+std::vector<std::string> names_of(const std::vector<std::string>& places) {
+  std::vector<std::string> paths, names;
+  for (const std::string& place : places)
+    paths.push_back((std::filesystem::path(place) / "").parent_path().string());
+  const auto last = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+  for (const std::string& path : paths) {
+    const auto shares = [&](const std::string& other) { return last(other) == last(path); };
+    names.push_back(std::ranges::count_if(paths, shares) > 1 ? path : last(path));
+  }
+  return names;
+}
+
+NamedReport stored_report(const std::filesystem::path& place, const std::string& name) {
   return {name, is_result_file(place) ? report_of(ResultFile(place), name) : read_report(place)};
 }
 
@@ -43,7 +56,9 @@ Command add_report_command(CLI::App& program) {
   command.add_option("--out", output->file, "the page")->type_name("FILE.html")->capture_default_str();
   return {&command, [folders, output] {
             std::vector<NamedReport> reports;
-            for (const std::string& folder : *folders) reports.push_back(stored_report(folder));
+            const std::vector<std::string> names = names_of(*folders);
+            for (std::size_t i = 0; i < names.size(); ++i)
+              reports.push_back(stored_report((*folders)[i], names[i]));
             fmt::print("{}", output->write(joined(std::move(reports)), ""));
             return static_cast<int>(exit_done);
           }};

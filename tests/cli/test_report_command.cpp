@@ -40,6 +40,20 @@ TEST_F(ReportCommand, TheLogIsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(contents(in_folder("1/collisions.log")), contents(in_folder("1/collisions/run_0000.log")));
 }
 
+TEST_F(ReportCommand, ResultsOfOneNameAreToldApartByTheirPaths) {
+  for (const std::string place : {"a/r1", "b/r1", "other"})
+    ASSERT_EQ(shakedown_program(
+                  {"run", example("L040.toml"), "--set", "run.duration=0.1s", "--out", in_folder(place)})
+                  .code,
+              0);
+  const Outcome all = shakedown_program(
+      {"report", in_folder("a/r1"), in_folder("b/r1/"), in_folder("other"), "--out", in_folder("all.html")});
+  ASSERT_EQ(all.code, 0) << all.err;
+  EXPECT_NE(contents(in_folder("all.html"))
+                .find("<title>" + in_folder("a/r1") + ", " + in_folder("b/r1") + ", other"),
+            std::string::npos);
+}
+
 TEST_F(ReportCommand, WhatCannotBeLoggedIsNamed) {
   const Outcome nowhere = shakedown_program({"run", example("L040.toml"), "--log"});
   EXPECT_EQ(nowhere.code, 2);
