@@ -62,16 +62,18 @@ Ensemble ensemble_of(const RunArguments& arguments, const Engine& engine, const 
   return run_ensemble(engine, setup, options);
 }
 
-void refuse_log_where_there_is_none(const RunArguments& arguments, const Setup& setup) {
+void refuse_what_cannot_be_written(const RunArguments& arguments, const Setup& setup) {
   std::vector<Violation> found;
-  if (!arguments.log) return;
-  if (arguments.folder.empty()) found.push_back({{}, "--log", "has nowhere to be written", "add --out DIR"});
-  if (arguments.engine != "hard")
+  for (const auto& [option, wanted] :
+       {std::pair{"--every-series", arguments.every_series}, std::pair{"--log", arguments.log}})
+    if (wanted && arguments.folder.empty())
+      found.push_back({{}, option, "has nowhere to be written", "add --out DIR"});
+  if (arguments.log && arguments.engine != "hard")
     found.push_back({{},
                      "--log",
                      "the engine " + arguments.engine + " has contacts that last, not collisions",
                      "take --engine hard"});
-  if (setup.domain == Domain::periodic)
+  if (arguments.log && setup.domain == Domain::periodic)
     found.push_back(
         {{}, "--log", "a periodic cell has no log", "take domain.kind = \"damper\" or \"closed\""});
   if (!found.empty()) throw InputError(std::move(found));
@@ -81,7 +83,7 @@ int run(const RunArguments& arguments) {
   const Setup setup = arguments.setup.read();
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
   refuse_what_is_not_modelled(*engine, setup);
-  refuse_log_where_there_is_none(arguments, setup);
+  refuse_what_cannot_be_written(arguments, setup);
   arguments.json.check();
   arguments.report.check();
   std::optional<RunResults> results;

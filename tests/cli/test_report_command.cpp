@@ -62,6 +62,9 @@ TEST_F(ReportCommand, WhatCannotBeLoggedIsNamed) {
       {"run", example("L040.toml"), "--log", "--engine", "soft", "--out", in_folder("soft")});
   EXPECT_EQ(soft.code, 2);
   EXPECT_NE(soft.err.find("--engine hard"), std::string::npos) << soft.err;
+  const Outcome series = shakedown_program({"run", example("L040.toml"), "--runs", "2", "--every-series"});
+  EXPECT_EQ(series.code, 2);
+  EXPECT_NE(series.err.find("--every-series: has nowhere to be written"), std::string::npos) << series.err;
 }
 
 TEST_F(ReportCommand, MistakesOfExportAreNamed) {
