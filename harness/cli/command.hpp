@@ -13,8 +13,8 @@ enum ExitCode : int {
   exit_bad_input = 2,       ///< usage or setup
   exit_promise_broken = 3,  ///< an engine could not keep its promise
   exit_bad_file = 4,        ///< a file cannot be read or written
-  exit_bug = 70,
-  exit_interrupted = 130  ///< Ctrl-C; what was done is kept
+  exit_bug = 70,            ///< an error that the program did not foresee
+  exit_interrupted = 130    ///< Ctrl-C; what was done is kept
 };
 
 /// A subcommand: what parses its arguments, and what it then does (returns the exit code).

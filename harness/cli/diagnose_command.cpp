@@ -202,6 +202,10 @@ Command add_diagnose_command(CLI::App& program) {
   add_threads_option(command, arguments->threads);
   add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
+  command.footer(
+      "Exit code 0: the verdict is adequate, the data accept the setup as given. 1: any other verdict: "
+      "refit,\n"
+      "missing, unknown.");
   return {&command, [arguments] { return diagnose_data(*arguments); }};
 }
 

@@ -6,7 +6,7 @@
 
 namespace shakedown {
 
-/// The option --json [FILE] that every command has; no name or "-" stands for standard output.
+/// The option --json [FILE] of commands that have results to tell; no name or "-": to standard output.
 struct JsonOutput {
   std::string file;
   bool wanted = false;

@@ -52,7 +52,7 @@ int run_program(int count, char** words) {
   program.footer(
       "Exit codes: 0 done, 1 the data reject the model, 2 usage or setup, 3 an engine broke its promise, 4 "
       "file,\n"
-      "130 interrupted with results kept.");
+      "70 a bug of the program, 130 interrupted with results kept.");
   const std::vector<Command> commands = add_commands(program);
   try {
     program.parse(reversed_arguments(count, words));

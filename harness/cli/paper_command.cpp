@@ -69,7 +69,7 @@ Command add_paper_command(CLI::App& program) {
                   "folder for figures (CSV and SVG) and statements (Markdown, JSON, CSV)")
       ->required()
       ->type_name("DIR");
-  command.add_flag("--quick", arguments->quick, "few runs: minutes instead of a quarter of an hour");
+  command.add_flag("--quick", arguments->quick, "few runs: two minutes of processor time instead of five");
   add_threads_option(command, arguments->threads);
   add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);

@@ -114,7 +114,14 @@ TEST_F(SlowReportCommand, ComparisonsLaddersFitsAndSweepsAreShownAlone) {
 }
 
 TEST_F(ReportCommand, DiagnoseKeepsWhatIsKnownOtherwise) {
+  ASSERT_EQ(shakedown_program({"hide", example("L040.toml"), "--engine", "hard", "--lengths", "40mm",
+                               "--duration", "1 s", "--camera", "fps=100", "--out", in_folder("case")})
+                .code,
+            0);
   const Outcome wrong = shakedown_program(
-      {"diagnose", example("L040.toml"), "--data", example("L040.toml"), "--fixed", "box.mass"});
+      {"diagnose", in_folder("case/setup.toml"), "--data", in_folder("case/experiment.toml"), "--effects",
+       "grain_friction, friction", "--fixed", "spring.frequency, box.mass"});
   EXPECT_EQ(wrong.code, 2);
+  EXPECT_TRUE(wrong.err.starts_with("--effects: friction: is not an effect")) << wrong.err;
+  EXPECT_NE(wrong.err.find("\n--fixed: box.mass: "), std::string::npos) << wrong.err;
 }
