@@ -2,30 +2,15 @@
 #include "bullet_engine.hpp"
 
 #include <chrono>
-#include <cstdio>
 
 #include "box_flow.hpp"
 #include "bullet_world.hpp"
-#include "grain_flow.hpp"
-#include "kick.hpp"
+#include "printed_text.hpp"
 #include "run_record.hpp"
 
 namespace shakedown {
 
 namespace {
-
-constexpr int implicit_passes = 3;
-
-std::string text_of(const char* format, auto... values) {
-  std::array<char, 400> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
-
-bool has_fields(const GrainForces& forces) {
-  return !forces.constant.isZero(0) || !forces.harmonics.empty() || forces.linear_drag != 0 ||
-         forces.quadratic_drag != 0 || !forces.free.empty() || forces.arc_length > 0;
-}
 
 bool has_forces_beside_spring(const Physics& physics) {
   const BoxForces& box = physics.box;
@@ -34,30 +19,19 @@ bool has_forces_beside_spring(const Physics& physics) {
 }
 
 void check(const Setup& setup, const Physics& physics) {
-  const auto place = [&](const char* key) {
-    const auto found = setup.places.find(key);
-    return found == setup.places.end() ? SourcePlace{} : found->second;
-  };
   std::vector<Violation> found;
   if (setup.domain == Domain::periodic)
-    found.push_back({place("domain"), "domain",
+    found.push_back({place_of(setup, "domain.kind"), "domain.kind",
                      "periodic is not modelled by engine 'bullet' (Bullet has no periodic space)",
-                     "use engine 'hard' for periodic cells, or domain = \"closed\""});
+                     "use engine 'hard' for periodic cells, or domain.kind = \"closed\""});
   if (!(setup.bullet.time_step > 0))
-    found.push_back({place("bullet.time_step"), "bullet.time_step", "must be above zero",
+    found.push_back({place_of(setup, "bullet.time_step"), "bullet.time_step", "must be above zero",
                      "0.1 ms suits the paper's damper"});
-  if (physics.contact.has_attraction() || physics.contact.push)
-    found.push_back(
-        {{},
-         "effect",
-         "attraction and forces by overlap are not modelled by engine 'bullet' (its contacts are impulses)",
-         "use engine 'soft'"});
   const ContactLaw& law = physics.contact;
   const bool special_contacts =
       law.restitution_at || law.has_friction() || law.restitution[1] != law.restitution[2];
-  if (setup.bullet.defaults &&
-      (special_contacts || has_fields(physics.grains) || has_forces_beside_spring(physics)))
-    found.push_back({place("bullet.defaults"), "bullet.defaults",
+  if (setup.bullet.defaults && (special_contacts || has_forces_beside_spring(physics)))
+    found.push_back({place_of(setup, "bullet.defaults"), "bullet.defaults",
                      "does not go with effects (it shows Bullet untouched)", "set it to false"});
   if (!found.empty()) throw InputError(std::move(found));
 }
@@ -70,13 +44,10 @@ class BulletRun {
         physics_(physics),
         held_(setup.domain != Domain::damper),
         untouched_(setup.bullet.defaults),
-        fields_(has_fields(physics.grains)),
-        model_{physics.contact, setup.soft.contact_time, held_ ? 0.0 : physics.box_mass, setup.box.length,
-               setup.box.width},
-        bodies_(bodies_of(initial_state(setup, options.run), model_.box_mass)),
+        bodies_(bodies_of(initial_state(setup, options.run), box_mass())),
         box_(physics),
-        world_(setup, physics, model_.box_mass, bodies_),
-        record_(setup, "bullet", model_.box_mass, [this](double x) { return box_.spring_energy(x); }) {
+        world_(setup, physics, box_mass(), bodies_),
+        record_(setup, "bullet", box_mass(), [this](double x) { return box_.spring_energy(x); }) {
     accounts_.effect_work.resize(setup.effects.size());
     record_.begin(setup, bodies_, {});
   }
@@ -99,6 +70,8 @@ class BulletRun {
   }
 
  private:
+  double box_mass() const { return held_ ? 0.0 : physics_.box_mass; }
+
   bool march(double interval, double until) {
     const std::int64_t steps = steps_that_fill(interval, setup_.bullet.time_step);
     const double step = interval / static_cast<double>(steps), from = until - interval;
@@ -125,13 +98,12 @@ class BulletRun {
   /// Bullet resolves the contacts at the places of the beginning of the step; the flight to its end is ours,
   /// and exact for the box.
   void advance(double step) {
-    const double x = bodies_.x_box(), momentum_of_place = x * bodies_.v_box();
+    const double x = bodies_.x_box();
     world_.step(step, 0, accounts_);
     world_.read(bodies_);
-    if (!held_) fly_box(x, step);
-    if (fields_) accelerate(step, momentum_of_place);
-    if (!held_) world_.write_box(bodies_);
-    if (fields_) world_.write_grains(bodies_);
+    if (held_) return;
+    fly_box(x, step);
+    world_.write_box(bodies_);
   }
 
   void fly_box(double from, double step) {
@@ -144,13 +116,6 @@ class BulletRun {
     const double work = box_.spring_energy(x + pushed) - box_.spring_energy(x);
     accounts_.contact_work[static_cast<std::size_t>(ContactClass::end_wall)] += work;
     correction_work_ += std::abs(work);
-  }
-
-  void accelerate(double step, double momentum_of_place) {
-    accelerate_grains(physics_.grains, time_, step, bodies_, accounts_);
-    half_kick(model_, physics_.grains, time_, step, implicit_passes, bodies_, no_contacts_, space_,
-              accounts_);
-    if (physics_.grains.arc_length > 0) follow_arc(physics_.grains, momentum_of_place, bodies_, accounts_);
   }
 
   [[noreturn]] void fail() const {
@@ -187,15 +152,12 @@ class BulletRun {
   const Setup& setup_;
   const RunOptions& options_;
   const Physics& physics_;
-  bool held_, untouched_, fields_;
-  ContactModel model_;
+  bool held_, untouched_;
   Bodies bodies_;
   BoxFlow box_;
   BulletWorld world_;
   RunRecord record_;
   Accounts accounts_;
-  KickSpace space_;
-  std::vector<Contact> no_contacts_;
   CompensatedSum correction_work_;
   double time_ = 0, asleep_since_ = -1;
 };

@@ -22,10 +22,10 @@ class BulletWorld {
 
   void read(Bodies& bodies) const;  ///< places, velocities and spins out of Bullet
   void write_box(const Bodies& bodies);
-  void write_grains(const Bodies& bodies);
   bool box_sleeps() const;
 
  private:
+  void write_grains(const Bodies& bodies);
   struct Inside;
   std::unique_ptr<Inside> inside_;
 };

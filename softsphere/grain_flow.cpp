@@ -43,15 +43,7 @@ void add_velocity(const std::vector<Change>& changes, Bodies& bodies, Accounts& 
   accounts.outer_impulse += mass * total.x();
 }
 
-}  // namespace
-
-void advance_grains(const GrainForces& forces, double time, double step, Bodies& bodies, Accounts& accounts) {
-  const Eigen::Index n = bodies.grains;
-  for (int axis = 0; axis < 3; ++axis)
-    bodies.position.col(axis).head(n) += step * bodies.velocity.col(axis).head(n);
-  accelerate_grains(forces, time, step, bodies, accounts);
-}
-
+/// The accelerations' share alone, of grains that have already gone v step.
 void accelerate_grains(const GrainForces& forces, double time, double step, Bodies& bodies,
                        Accounts& accounts) {
   const Eigen::Index n = bodies.grains;
@@ -64,6 +56,15 @@ void accelerate_grains(const GrainForces& forces, double time, double step, Bodi
   for (const Change& change : changes)
     for (int axis = 0; axis < 3; ++axis) bodies.position.col(axis).head(n) += change.position(axis);
   add_velocity(changes, bodies, accounts);
+}
+
+}  // namespace
+
+void advance_grains(const GrainForces& forces, double time, double step, Bodies& bodies, Accounts& accounts) {
+  const Eigen::Index n = bodies.grains;
+  for (int axis = 0; axis < 3; ++axis)
+    bodies.position.col(axis).head(n) += step * bodies.velocity.col(axis).head(n);
+  accelerate_grains(forces, time, step, bodies, accounts);
 }
 
 void follow_arc(const GrainForces& forces, double before, Bodies& bodies, Accounts& accounts) {

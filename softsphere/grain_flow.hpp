@@ -9,10 +9,6 @@ namespace shakedown {
 /// Moves the grains from `time` by `step` under constant and harmonic accelerations, in closed form.
 void advance_grains(const GrainForces& forces, double time, double step, Bodies& bodies, Accounts& accounts);
 
-/// The accelerations' share alone, of grains that have already gone v step.
-void accelerate_grains(const GrainForces& forces, double time, double step, Bodies& bodies,
-                       Accounts& accounts);
-
 /// A box that follows an arc goes across as 3/5 x^2 / l, so grains seen from it pick up -6/5 (x v) / l of
 /// transverse velocity. Enters the change of x v of the box since `before`.
 void follow_arc(const GrainForces& forces, double before, Bodies& bodies, Accounts& accounts);

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 
 #include "box_flow.hpp"
 #include "grain_flow.hpp"
 #include "kick.hpp"
+#include "printed_text.hpp"
 #include "run_record.hpp"
 
 namespace shakedown {
@@ -24,23 +24,12 @@ constexpr double fewest_steps_per_contact = 5;
 /// Above this the bounce is visibly not what the setup says.
 constexpr double largest_quiet_restitution_error = 5e-3;
 
-std::string text_of(const char* format, auto... values) {
-  std::array<char, 400> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
-
-SourcePlace place_of(const Setup& setup, const std::string& key) {
-  const auto found = setup.places.find(key);
-  return found == setup.places.end() ? SourcePlace{} : found->second;
-}
-
 void check(const Setup& setup) {
   std::vector<Violation> found;
   if (setup.domain == Domain::periodic)
-    found.push_back({place_of(setup, "domain"), "domain",
+    found.push_back({place_of(setup, "domain.kind"), "domain.kind",
                      "periodic is not modelled by engine 'soft' (its walls are real ones)",
-                     "use engine 'hard' for periodic cells, or domain = \"closed\""});
+                     "use engine 'hard' for periodic cells, or domain.kind = \"closed\""});
   if (!(setup.soft.contact_time > 0))
     found.push_back({place_of(setup, "soft.contact_time"), "soft.contact_time",
                      "must be above zero (it sets the stiffness)", "0.3 ms suits the paper's damper"});

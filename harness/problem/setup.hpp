@@ -94,4 +94,10 @@ struct Setup {
   std::map<std::string, SourcePlace> places;
 };
 
+/// Where a key was given; no place when it was not.
+inline SourcePlace place_of(const Setup& setup, const std::string& key) {
+  const auto found = setup.places.find(key);
+  return found == setup.places.end() ? SourcePlace{} : found->second;
+}
+
 }  // namespace shakedown

@@ -14,11 +14,6 @@ namespace shakedown {
 
 namespace {
 
-SourcePlace place_of(const Setup& setup, const std::string& key) {
-  const auto found = setup.places.find(key);
-  return found == setup.places.end() ? SourcePlace{} : found->second;
-}
-
 std::string text_of(const SourcePlace& place) {
   if (place.file.empty()) return "";
   return " at " + place.file + (place.line > 0 ? ":" + std::to_string(place.line) : "");

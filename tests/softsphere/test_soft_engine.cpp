@@ -73,7 +73,8 @@ TEST(SoftEngine, RefusesWhatItCannotRun) {
     make_soft_engine()->run(setup);
     FAIL() << "was not refused";
   } catch (const InputError& error) {
-    EXPECT_EQ(error.violations.size(), 3u);
+    ASSERT_EQ(error.violations.size(), 3u);
+    EXPECT_EQ(error.violations[0].key, "domain.kind");
   }
 }
 
