@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "quantity.hpp"
 #include "random.hpp"
 #include "setup_keys.hpp"
 
@@ -15,13 +16,24 @@ namespace {
 
 /// `placed`: how many the packing holds, 0 when it cannot tell.
 [[noreturn]] void does_not_fit(const Setup& setup, std::size_t placed, const std::string& packing) {
-  const auto place = setup.places.find("grains.count");
   const std::string why =
       placed > 0 ? "holds " + std::to_string(placed) + " in this box" : "leaves overlaps in this box";
   throw InputError(
-      {{place == setup.places.end() ? SourcePlace{} : place->second, "grains.count",
+      {{place_of(setup, "grains.count"), "grains.count",
         std::to_string(setup.grains.count) + " grains do not fit (packing '" + packing + "' " + why + ")",
         "take fewer or smaller grains, a larger box, or another release.packing"}});
+}
+
+/// The mean diameter may fit where the largest one drawn does not.
+void check_room_of_the_largest(const Setup& setup, const std::vector<double>& radius) {
+  const double largest = 2 * *std::max_element(radius.begin(), radius.end());
+  const double room = std::min({setup.box.length, setup.box.width[0], setup.box.width[1]});
+  if (largest <= room) return;
+  const auto in_mm = [](double metres) { return write_quantity(std::round(metres * 1e9) / 1e9, "mm"); };
+  throw InputError({{place_of(setup, "grains.diameter"), "grains.diameter",
+                     "the largest grain has " + in_mm(largest) + " and does not fit into the box (" +
+                         in_mm(room) + " at its narrowest)",
+                     "make the box larger, or the grains smaller or less unequal"}});
 }
 
 /// Cubic-close layers from the outer (+x) wall inwards: alternate sites of a square grid of spacing a/2, a
@@ -48,7 +60,7 @@ std::vector<Vec3> fcc_layers(const Setup& setup) {
 }
 
 /// Square layers in turn, n x n and (n-1) x (n-1), 1.1 diameters apart within a layer, layers 0.65 diameters
-/// apart.
+/// apart. Where only one grain fits across, every other layer is empty: it has no place between the others.
 std::vector<Vec3> square_layers(const Setup& setup) {
   const double diameter = setup.grains.diameter, spacing = 1.1 * diameter;
   const double front = (setup.box.length - diameter) / 2;
@@ -62,7 +74,7 @@ std::vector<Vec3> square_layers(const Setup& setup) {
     const double x = front - 0.01 * diameter - layer * 0.65 * diameter;
     if (x < -front) does_not_fit(setup, centres.size(), "square");
     const int shrink = layer % 2;
-    const int r = std::max(1, rows - shrink), c = std::max(1, columns - shrink);
+    const int r = rows - shrink, c = columns - shrink;
     for (int i = 0; i < r && centres.size() < count; ++i)
       for (int j = 0; j < c && centres.size() < count; ++j)
         centres.emplace_back(x, spacing * (i - (r - 1) / 2.0), spacing * (j - (c - 1) / 2.0));
@@ -109,6 +121,7 @@ Vec3 room_of_cell(const Setup& setup) {
 std::vector<Vec3> filled_cell(const Setup& setup) {
   const std::size_t count = static_cast<std::size_t>(setup.grains.count);
   const Vec3 room = room_of_cell(setup);
+  if (room.minCoeff() <= 0) does_not_fit(setup, 0, "fcc, stretched to the cell");
   const double per_length = std::cbrt(static_cast<double>(count) / 4 / room.prod());
   Eigen::Vector3i cells;
   for (int axis = 0; axis < 3; ++axis)
@@ -162,7 +175,8 @@ bool relax(const Setup& setup, const std::vector<double>& radius, std::vector<Ve
         centres[i] += shift;
         centres[j] -= shift;
       }
-      const Vec3 room = half.array() - radius[i] - 1e-6;
+      // a box hardly wider than the grain leaves less than this margin
+      const Vec3 room = (half.array() - radius[i] - 1e-6).max(0);
       centres[i] = centres[i].cwiseMin(room).cwiseMax(-room);
     }
     if (!overlapping) return true;
@@ -172,13 +186,38 @@ bool relax(const Setup& setup, const std::vector<double>& radius, std::vector<Ve
 
 bool free_of_overlap(const Setup& setup, const std::vector<double>& radius,
                      const std::vector<Vec3>& centres) {
-  const Vec3 half(setup.box.length / 2, setup.box.width[0] / 2, setup.box.width[1] / 2);
+  const bool periodic = setup.domain == Domain::periodic;
+  const Vec3 cell(setup.box.length, setup.box.width[0], setup.box.width[1]);
   for (std::size_t i = 0; i < centres.size(); ++i) {
-    if (((half - centres[i].cwiseAbs()).array() < radius[i]).any()) return false;
-    for (std::size_t j = i + 1; j < centres.size(); ++j)
-      if ((centres[i] - centres[j]).norm() < radius[i] + radius[j]) return false;
+    if (!periodic && ((cell / 2 - centres[i].cwiseAbs()).array() < radius[i]).any()) return false;
+    for (std::size_t j = i + 1; j < centres.size(); ++j) {
+      Vec3 apart = centres[i] - centres[j];
+      for (int axis = 0; periodic && axis < 3; ++axis) apart[axis] = std::remainder(apart[axis], cell[axis]);
+      if (apart.norm() < radius[i] + radius[j]) return false;
+    }
   }
   return true;
+}
+
+/// Centres as each packing places grains of the mean diameter, before anything is relaxed.
+std::vector<Vec3> placed_centres(const Setup& setup, Packing packing, int run) {
+  if (setup.domain != Domain::damper)
+    return packing == Packing::random ? sparsely_filled_cell(setup, run) : filled_cell(setup);
+  const double diameter = setup.grains.diameter;
+  switch (packing) {
+    case Packing::fcc: return fcc_layers(setup);
+    case Packing::square: return square_layers(setup);
+    case Packing::random: {
+      // A layer of volume fraction 0.31, the loosest that relaxes at once and still lies against the wall.
+      const double area = (setup.box.width[0] - diameter) * (setup.box.width[1] - diameter);
+      const double volume = setup.grains.count * std::pow(diameter, 3) * 0.5236;
+      const double thickness = std::min(setup.box.length - diameter - 20e-6, volume / area / 0.31 * 0.8);
+      return random_centres(setup, thickness, run);
+    }
+    case Packing::spread: return random_centres(setup, setup.box.length - diameter - 20e-6, run);
+  }
+  EXPECT(false && "every packing is listed above");
+  return {};
 }
 
 }  // namespace
@@ -186,28 +225,18 @@ bool free_of_overlap(const Setup& setup, const std::vector<double>& radius,
 std::vector<Vec3> packed_centres(const Setup& setup, Packing packing, const std::vector<double>& radius,
                                  int run) {
   if (setup.grains.count == 0) return {};
-  if (setup.domain != Domain::damper)
-    return packing == Packing::random ? sparsely_filled_cell(setup, run) : filled_cell(setup);
-  const double diameter = setup.grains.diameter;
-  std::vector<Vec3> centres;
-  switch (packing) {
-    case Packing::fcc: centres = fcc_layers(setup); break;
-    case Packing::square: centres = square_layers(setup); break;
-    case Packing::random: {
-      // A layer of volume fraction 0.31, the loosest that relaxes at once and still lies against the wall.
-      const double area = (setup.box.width[0] - diameter) * (setup.box.width[1] - diameter);
-      const double volume = setup.grains.count * std::pow(diameter, 3) * 0.5236;
-      const double thickness = std::min(setup.box.length - diameter - 20e-6, volume / area / 0.31 * 0.8);
-      centres = random_centres(setup, thickness, run);
-      break;
-    }
-    case Packing::spread: centres = random_centres(setup, setup.box.length - diameter - 20e-6, run); break;
-  }
+  check_room_of_the_largest(setup, radius);
+  std::vector<Vec3> centres = placed_centres(setup, packing, run);
   const bool equal = std::all_of(radius.begin(), radius.end(), [&](double r) { return r == radius[0]; });
-  const bool lattice = packing == Packing::fcc || packing == Packing::square;
-  // free of overlap by construction; large dampers skip the check of all pairs
+  const bool damper = setup.domain == Domain::damper;
+  const bool lattice = !damper || packing == Packing::fcc || packing == Packing::square;
+  // Lattices of equal grains are free of overlap by construction: large systems skip the check of all pairs.
   if (lattice && equal) return centres;
-  if (!free_of_overlap(setup, radius, centres) && !relax(setup, radius, centres))
+  // In other domains the hard engine's own check, through neighbours, covers large systems.
+  constexpr std::size_t all_pairs_up_to = 20000;
+  if (!damper && centres.size() > all_pairs_up_to) return centres;
+  const auto is_free = [&] { return free_of_overlap(setup, radius, centres); };
+  if (!is_free() && !(damper && relax(setup, radius, centres) && is_free()))
     does_not_fit(setup, 0, std::string(name_of(packing)));
   return centres;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "effects.hpp"
 #include "initial_state.hpp"
+#include "setup_file.hpp"
 
 using namespace shakedown;
 
@@ -55,4 +57,81 @@ TEST(InitialState, RandomCellsHoldAllGrainsWithoutOverlapAcrossTheirFaces) {
     }
   setup.grains.count = 900;
   EXPECT_THROW(initial_state(setup), InputError);
+}
+
+namespace {
+
+/// Deepest overlap of two grains, or of a grain and a wall, m.
+double deepest_overlap(const shakedown::Setup& setup, const State& state) {
+  const Vec3 half(setup.box.length / 2, setup.box.width[0] / 2, setup.box.width[1] / 2);
+  double deepest = 0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const Vec3 centre = state.position[i] - Vec3(state.x_box, 0, 0);
+    deepest = std::max(deepest, (centre.cwiseAbs().array() + state.radius[i] - half.array()).maxCoeff());
+    for (std::size_t j = 0; j < i; ++j)
+      deepest = std::max(deepest,
+                         state.radius[i] + state.radius[j] - (state.position[i] - state.position[j]).norm());
+  }
+  return deepest;
+}
+
+shakedown::Setup unequal(double deviation) {
+  shakedown::Setup setup;
+  set_number(setup, "grain_polydispersity.relative_deviation", deviation, all_effects());
+  return setup;
+}
+
+}  // namespace
+
+TEST(InitialState, SquareLayersOfOneGrainAcrossLeaveEveryOtherLayerEmpty) {
+  for (const std::array<double, 2> width : {std::array{0.0205, 0.0205}, {0.05, 0.015}, {0.01, 0.03}}) {
+    shakedown::Setup setup;
+    setup.release.packing = Packing::square;
+    setup.box.length = 0.104;
+    setup.box.width = width;
+    setup.grains.count = 6;
+    const State state = initial_state(setup);
+    ASSERT_EQ(state.size(), 6u);
+    EXPECT_LE(deepest_overlap(setup, state), 1e-15);
+    setup.grains.count = 100;
+    EXPECT_THROW(initial_state(setup), InputError);
+  }
+}
+
+TEST(InitialState, UnequalGrainsNeitherOverlapNorStickOut) {
+  for (const Domain domain : {Domain::damper, Domain::closed})
+    for (const double width : {0.0102, 0.011, 0.05}) {
+      shakedown::Setup setup = unequal(0.05);
+      setup.domain = domain;
+      setup.box.length = 0.2;
+      setup.box.width = {width, 0.05};
+      setup.grains.count = 15;
+      for (int run = 0; run < 5; ++run) {
+        try {
+          EXPECT_LE(deepest_overlap(setup, initial_state(setup, run)), 1e-15) << width;
+        } catch (const InputError& error) {
+          EXPECT_LT(width, 0.02) << error.what();
+        }
+      }
+    }
+  shakedown::Setup narrow = unequal(0.05);
+  narrow.grains.count = 15;
+  narrow.box.width = {0.01, 0.05};
+  EXPECT_THROW(initial_state(narrow), InputError);
+  shakedown::Setup dense = unequal(0.1);  // 64 % of a cell
+  dense.domain = Domain::periodic;
+  dense.grains.count = 108;
+  dense.box.length = dense.box.width[0] = dense.box.width[1] = 0.0445;
+  EXPECT_THROW(initial_state(dense), InputError);
+}
+
+TEST(InitialState, ABoxHardlyWiderThanAGrainHoldsIt) {
+  for (const Packing packing : {Packing::random, Packing::spread}) {
+    shakedown::Setup setup;
+    setup.release.packing = packing;
+    setup.box.length = 0.2;
+    setup.box.width = {0.010001, 0.05};
+    setup.grains.count = 20;
+    EXPECT_LE(deepest_overlap(setup, initial_state(setup)), 1e-15);
+  }
 }
