@@ -13,7 +13,7 @@ void apply(const EffectChoice& choice, int index, Physics& physics) {
 
 extern const EffectRecord blade_arc{
     .name = "blade_arc",
-    .acts_on = ActsOn::all,
+    .acts_on = ActsOn::box,
     .sentence = "The box moves on the arc of the blade's tip, which throws the grains across.",
     .formula =
         "z_box = (3/5) x^2/l in the lab; transverse acceleration -(6/5)(v^2 + x a)/l of the grains in the "

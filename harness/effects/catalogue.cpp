@@ -176,7 +176,7 @@ std::string setup_keys_markdown() {
     if (is_numeric(key) && std::isfinite(key.low))
       bounds = (key.low_excluded ? "> " : ">= ") + write_quantity(key.low, key.unit);
     if (is_numeric(key) && std::isfinite(key.high))
-      bounds += (bounds.empty() ? "<= " : ", <= ") + write_number(key.high);
+      bounds += (bounds.empty() ? "<= " : ", <= ") + write_quantity(key.high, key.unit);
     if (const auto choices = choices_of(key); !choices.empty())
       for (const std::string_view word : choices) (bounds += bounds.empty() ? "" : ", ") += word;
     text += "| `" + std::string(key.path) + "` | `" + toml_of(key, Setup{}) + "` | " + bounds + " | " +

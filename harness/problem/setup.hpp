@@ -15,6 +15,10 @@ namespace shakedown {
 /// without walls.
 enum class Domain { damper, closed, periodic };
 
+/// A periodic cell must be wider than this in diameters of its largest grain: the three list cells across it
+/// must each hold a grain, with something to spare for rounding.
+constexpr double least_period_in_diameters = 3 * (1 + 1e-6);
+
 /// Arrangement of the grains at release (README, "Packings").
 enum class Packing { fcc, square, random, spread };
 
@@ -72,8 +76,8 @@ struct Setup {
     double wall_elastic_fraction = 0.02;  ///< end-wall impacts slower than this times the box's current top
                                           ///< speed are elastic (paper, Eq. elasticlimit)
     double pair_elastic_speed = 1e-3;     ///< m/s; grain-grain impacts slower than this are elastic
-    double wall_elastic_speed = 0;  ///< m/s; end- and side-wall impacts slower than this are elastic; raised
-                                    ///< to 1e-3 where an effect needs it
+    double wall_elastic_speed = 0;  ///< m/s; end- and side-wall impacts slower than this are elastic; both
+                                    ///< are raised where layers are pressed on walls (README)
     double kick_interval =
         2e-3;  ///< s; drag and formulas act on grains in impulses so far apart, second order in it
   } hard;

@@ -79,6 +79,38 @@ void check_effect(const EffectChoice& choice, Findings& findings) {
                  std::move(wrong.problem), std::move(wrong.remedy));
 }
 
+/// A force of the user's says itself what it acts on.
+bool acts_on_the_box_alone(const EffectChoice& choice) {
+  const auto on = choice.values.find("on");
+  const auto* what = on == choice.values.end() ? nullptr : std::get_if<std::string>(&on->second);
+  return choice.record->acts_on == ActsOn::box || (what != nullptr && *what == "box");
+}
+
+void check_domain(Findings& findings) {
+  const Setup& setup = findings.setup;
+  if (setup.domain == Domain::damper || !findings.sound({"domain.kind"})) return;
+  for (const EffectChoice& choice : setup.effects)
+    if (acts_on_the_box_alone(choice) && !is_neutral(choice))
+      findings.found.push_back({choice.place, std::string(choice.record->name),
+                                "does nothing in this domain (" + std::string(name_of(setup.domain)) +
+                                    ": there is no box that moves)",
+                                "leave it out, or take domain.kind = \"damper\""});
+  if (setup.domain != Domain::periodic || !findings.sound({"grains.count", "grains.diameter"})) return;
+  if (setup.grains.count == 0)
+    return findings.add("grains.count", "is 0 (a periodic cell without grains holds nothing)",
+                        "take one grain or more");
+  const double least = least_period_in_diameters * setup.grains.diameter;
+  const auto check = [&](std::string_view key, double extent) {
+    if (findings.sound({key}) && !(extent > least))
+      findings.add(key,
+                   "is " + in_mm(extent) + ", a period of three grains (" + in_mm(setup.grains.diameter) +
+                       " each) or less (a grain would meet another and its image at once)",
+                   "make the cell larger or the grains smaller");
+  };
+  check("box.length", setup.box.length);
+  check("box.width", std::min(setup.box.width[0], setup.box.width[1]));
+}
+
 /// Two effects that replace the same part of the model, the same effect twice, an effect and the key that it
 /// stands for.
 void check_claims(Findings& findings) {
@@ -117,14 +149,22 @@ void check_room_of_one_grain(Findings& findings) {
   check("box.width", std::min(setup.box.width[0], setup.box.width[1]));
 }
 
-/// The lattice packings answer at once; those that relax random places answer when a run makes its initial
-/// state.
-bool packing_answers_at_once(const Setup& setup) {
-  if (setup.grains.count > 100000 || !setup.release.initial_grains.empty()) return false;
+/// What effects on the grains make of sizes and packing.
+Physics of_the_grains(const Setup& setup) {
+  Physics physics;
+  physics.packing = setup.release.packing;
   for (const EffectChoice& choice : setup.effects)
-    if (choice.record->acts_on == ActsOn::grains) return false;  // another packing or unequal grains
-  return setup.domain != Domain::damper || setup.release.packing == Packing::fcc ||
-         setup.release.packing == Packing::square;
+    if (choice.record->acts_on == ActsOn::grains) choice.record->apply(choice, 0, physics);
+  return physics;
+}
+
+/// The lattice packings answer at once; those that relax random places, or unequal grains, answer when a run
+/// makes its initial state.
+bool packing_answers_at_once(const Setup& setup, const Physics& grains) {
+  if (setup.grains.count > 100000 || !setup.release.initial_grains.empty()) return false;
+  if (grains.relative_diameter_deviation != 0) return false;
+  return setup.domain != Domain::damper || grains.packing == Packing::fcc ||
+         grains.packing == Packing::square;
 }
 
 void check_room_of_all_grains(Findings& findings) {
@@ -138,10 +178,11 @@ void check_room_of_all_grains(Findings& findings) {
                             write_number(std::round(1000 * fraction) / 10) +
                             " % of the box, the densest packing of spheres fills 74 %)",
                         "take fewer or smaller grains, or a larger box");
-  if (!packing_answers_at_once(setup)) return;
+  const Physics physics = of_the_grains(setup);
+  if (!packing_answers_at_once(setup, physics)) return;
   try {
     const std::vector<double> radius(static_cast<std::size_t>(setup.grains.count), setup.grains.diameter / 2);
-    packed_centres(setup, setup.release.packing, radius, 0);
+    packed_centres(setup, physics.packing, radius, 0);
   } catch (const InputError& error) {
     findings.found.insert(findings.found.end(), error.violations.begin(), error.violations.end());
   }
@@ -178,6 +219,7 @@ std::vector<Violation> violations_of(const Setup& setup,
   check_bounds(findings);
   for (const EffectChoice& choice : setup.effects) check_effect(choice, findings);
   check_claims(findings);
+  check_domain(findings);
   check_room_of_one_grain(findings);
   check_room_of_all_grains(findings);
   check_masses(findings);

@@ -70,15 +70,20 @@ const std::vector<SetupKey>& table() {
       {"hard.wall_elastic_fraction", &field<&S::hard, &S::Hard::wall_elastic_fraction>, "", 0, 1, false,
        "End-wall impacts slower than this times the box's current top speed are elastic."},
       {"hard.pair_elastic_speed", &field<&S::hard, &S::Hard::pair_elastic_speed>, "m/s", 0, infinity, false,
-       "Impacts between grains slower than this are elastic."},
+       "Impacts between grains slower than this are elastic; 10 mm/s at least where something presses layers "
+       "on "
+       "walls or impacts give little back."},
       {"hard.wall_elastic_speed", &field<&S::hard, &S::Hard::wall_elastic_speed>, "m/s", 0, infinity, false,
-       "End- and side-wall impacts slower than this are elastic; raised to 1 mm/s where an effect needs it."},
-      {"hard.kick_interval", &field<&S::hard, &S::Hard::kick_interval>, "ms", 0, infinity, true,
-       "Drag and formulas act on grains in impulses so far apart; the error is of second order in it."},
+       "End- and side-wall impacts slower than this are elastic; 1 mm/s at least where something presses "
+       "layers on walls, grains are unequal or impacts give little back, more the harder layers are "
+       "pressed."},
+      {"hard.kick_interval", &field<&S::hard, &S::Hard::kick_interval>, "ms", 0, 0.1, true,
+       "Drag and formulas act on grains in impulses so far apart; the error is of second order in it, and "
+       "beyond a part of a swing they would come too late."},
       {"soft.contact_time", &field<&S::soft, &S::Soft::contact_time>, "ms", 0, infinity, true,
        "Duration of a soft contact: half a period of the contact oscillator."},
-      {"soft.steps_per_contact", &field<&S::soft, &S::Soft::steps_per_contact>, "", 2, 1e6, false,
-       "Time steps within the contact time; need not be whole."},
+      {"soft.steps_per_contact", &field<&S::soft, &S::Soft::steps_per_contact>, "", 5, 1e6, false,
+       "Time steps within the contact time, enough to resolve it; need not be whole."},
       {"bullet.defaults", &field<&S::bullet, &S::Bullet::defaults>, "", 0, 0, false,
        "Leave Bullet's solver untouched, to show what that does."},
       {"bullet.time_step", &field<&S::bullet, &S::Bullet::time_step>, "ms", 0, infinity, true,

@@ -10,6 +10,7 @@
 namespace shakedown {
 
 inline const EffectRecord drag{.name = "test_drag",
+                               .acts_on = ActsOn::all,
                                .sentence = "A drag for these tests.",
                                .parameters = {{.name = "strength",
                                                .unit = "N s/m",

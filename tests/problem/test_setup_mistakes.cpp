@@ -115,6 +115,28 @@ TEST(SetupMistakes, BoxesTooSmall) {
             "box, or another release.packing");
 }
 
+TEST(SetupMistakes, DomainsWithoutAMovingBox) {
+  EXPECT_EQ(
+      complaint("[domain]\nkind = \"closed\"\n[grains]\ncount = 5\n[[effect]]\nname = \"test_rival\""),
+      "s.toml:6:8: test_rival: does nothing in this domain (closed: there is no box that moves); leave it "
+      "out, or take domain.kind = \"damper\"");
+  const std::string periodic = "[domain]\nkind = \"periodic\"\n[grains]\ncount = ",
+                    cube = "[box]\nlength = \"60 mm\"\nwidth = \"";
+  EXPECT_EQ(
+      complaint(periodic + "0\n"),
+      "s.toml:4:9: grains.count: is 0 (a periodic cell without grains holds nothing); take one grain or "
+      "more");
+  EXPECT_EQ(complaint(periodic + "5\n" + cube + "25 mm\""),
+            "s.toml:7:9: box.width: is 25 mm, a period of three grains (10 mm each) or less (a grain would "
+            "meet another and its image at once); make the cell larger or the grains smaller");
+  EXPECT_EQ(complaint(periodic + "5\n" + cube + "31 mm\""), "");
+}
+
+TEST(SetupMistakes, KicksThatWouldComeTooLate) {
+  EXPECT_NE(complaint("[hard]\nkick_interval = \"50 s\"").find("hard.kick_interval: is 50000 ms (it must "),
+            std::string::npos);
+}
+
 TEST(SetupMistakes, EveryViolationAtOnce) {
   const std::string all = complaint(
       "[box]\nmass = \"-1 g\"\nlength = 40\nwdth = \"1 mm\"\n[run]\nduration = \"0 s\"\n[[effect]]\nname = "
