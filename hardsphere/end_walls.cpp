@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "end_walls.hpp"
 
+#include <cmath>
+
 namespace shakedown {
 
 EndWalls::EndWalls(std::vector<double> room, bool always_watch_all, double range)
@@ -24,11 +26,13 @@ void EndWalls::start_window(const Now& now) {
   if (planned_ == 0)
     planned_ = 1e-5;
   else
-    planned_ = std::clamp(planned_ * (swept_ > all ? 0.8 : 1.25), 1e-9, 1.0);
+    planned_ = std::clamp(planned_ * (swept_ > all ? 0.8 : outgrown_ ? 1.0 : 1.25), 1e-9, 1.0);
   if (budget_ == 0 && range_ == 0) budget_ = 1e-4 * now.top_speed;
   if (now.time > window_start_) jump_rate_ = (jump_rate_ + jumps_ / (now.time - window_start_)) / 2;
   const double tiny = 1e-9 * now.top_speed;
   slack_ = 2 * (jump_rate_ + tiny / planned_) * planned_ * planned_;
+  window_top_ = now.on_spring_alone ? 0 : now.top_acceleration * (1 + 0x1p-4);  // room for pieces to come
+  outgrown_ = false;
   window_start_ = now.time;
   window_end_ = now.time + planned_;
   drift_ = jumps_ = swept_ = 0;
@@ -52,7 +56,7 @@ void EndWalls::sweep(const Now& now) {
 double EndWalls::bound_of(int grain, const Flight& flight, double room, const Now& now) const {
   const double apart = now.point.x - (flight.x + flight.v * (now.time - flight.time)),
                rate = now.point.v - flight.v;
-  const double top = now.top_acceleration;
+  const double top = top_in_window(now);
   if (range_ == 0)
     return now.time + std::min(earliest_possible_root(room + apart, rate - budget_, top),
                                earliest_possible_root(room - apart, -rate - budget_, top));
@@ -81,13 +85,17 @@ void EndWalls::watch(int i, const Flight& flight) {
 
 void EndWalls::bound_all(const Now& now) {
   std::fill(meeting_.begin(), meeting_.begin() + static_cast<std::ptrdiff_t>(count_), Meeting::none);
-  if (now.top_acceleration <= 0 || range_ > 0) {  // walls at rest, or wells at the walls: grain by grain
-    for (std::size_t k = 0; k < count_; ++k)
-      bound_.set(k, bound_of(grain_[k], {x_[k], v_[k], time_[k]}, room_of_slot_[k], now));
+  const double top = top_in_window(now);
+  if (top <= 0 || range_ > 0) {  // walls at rest, or wells at the walls: grain by grain
+    for (std::size_t k = 0; k < count_; ++k) {
+      const Flight flight{x_[k], v_[k], time_[k]};
+      const double apart = now.point.x - (flight.x + flight.v * (now.time - flight.time));
+      smallest_gap_ = std::min(smallest_gap_, room_of_slot_[k] - std::abs(apart));
+      bound_.set(k, bound_of(grain_[k], flight, room_of_slot_[k], now));
+    }
     bound_.rebuild(count_);
     return find_next();
   }
-  const double top = now.top_acceleration;
   const Lanes twice_top(2 * top), inverse_top(1 / top), budget(budget_), zero(0.0);
   Lanes smallest_gap(smallest_gap_), slot = lane_index();
   const auto first_touch = [&](const Lanes& gap, const Lanes& rate) {
@@ -167,7 +175,8 @@ void EndWalls::kicked(const Now& now, double jump) {
   jumps_ += std::abs(jump);
   used_ += std::abs(jump);
   drift_ += std::abs(jump) * std::max(0.0, window_end_ - now.time);
-  if (drift_ > slack_) window_end_ = now.time;  // the sleepers' guarantee ends here
+  outgrown_ = outgrown_ || (!now.on_spring_alone && now.top_acceleration > window_top_);
+  if (drift_ > slack_ || outgrown_) window_end_ = now.time;  // the sleepers' guarantee ends here
   if (jump == 0 || used_ > budget_) return sweep(now);
   for (const std::int32_t slot : due_) {
     const std::size_t k = static_cast<std::size_t>(slot);

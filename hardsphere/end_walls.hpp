@@ -10,6 +10,11 @@
 // when that exceeds the slack, or time runs out, a new window is opened. Windows are as long as makes the
 // sweeps over all grains and over the watched ones cost the same.
 //
+// On its spring alone the box keeps to that: what a kick adds is the jump times the time at most. Where other
+// forces act, each piece of its motion and each kick may bring accelerations of their own. There everything
+// allows for an acceleration a little above the one at the start of the window, and a piece that exceeds it
+// ends the window.
+//
 // Nor are the watched swept at every kick: their bounds allow for kicks that add up to a `budget` of
 // velocity, (gap rate - budget) in place of the gap's rate. A kick within it renews the bounds of those alone
 // whose exact root was known; the budget is as large as makes sweeps cost as much as the refinements that its
@@ -17,6 +22,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "box_motion.hpp"
@@ -47,12 +53,14 @@ class EndWalls {
   struct Now {
     double time;
     BoxMotion::Point point;
-    double top_acceleration;  ///< bound of the walls' acceleration from now on, m/s^2
+    double top_acceleration;  ///< bound of the walls' acceleration on their present piece, m/s^2
     double top_speed;         ///< m/s, a scale
+    bool on_spring_alone;  ///< whatever comes, a kick strays from the arc by its jump times the time at most
   };
   template <class Motion>
   static Now now(const Motion& motion, double time) {
-    return {time, motion.at(time), motion.top_acceleration(), motion.top_speed()};
+    return {time, motion.at(time), motion.top_acceleration(), motion.top_speed(),
+            std::is_same_v<Motion, BoxMotion>};
   }
 
   /// `room` is half the inner length less each grain's radius, m; `range`: how far an attraction of the walls
@@ -104,6 +112,8 @@ class EndWalls {
   void bound_all(const Now& now);
   void sweep(const Now& now);
   double bound_of(int grain, const Flight& flight, double room, const Now& now) const;
+  /// The acceleration that bounds of times allow for.
+  double top_in_window(const Now& now) const { return std::max(window_top_, now.top_acceleration); }
   bool can_sleep(const Flight& flight, double room, const Now& now) const;
   void watch(int i, const Flight& flight);
   /// Takes note of a new flight; false when the grain sleeps on.
@@ -130,6 +140,8 @@ class EndWalls {
   std::vector<Meeting> meeting_;  // none: bound_ is a lower bound
   Next next_;
   double window_start_ = 0, window_end_ = never, slack_ = never;
+  double window_top_ = 0;          // m/s^2, that everything in this window allows for; 0: on the spring alone
+  bool outgrown_ = false;          // by a later piece: that was no fault of the window's length
   double planned_ = 0;             // length of a window, s; adapted
   double drift_ = 0, jumps_ = 0;   // of this window: bound of the box's displacement off its arc, sum of |dV|
   double jump_rate_ = 0;           // sum of |dV| a second, of past windows
@@ -144,7 +156,7 @@ inline bool EndWalls::can_sleep(const Flight& flight, double room, const Now& no
   const double h = window_end_ - now.time;
   const double apart = now.point.x - (flight.x + flight.v * (now.time - flight.time)),
                rate = now.point.v - flight.v;
-  const double curved = now.top_acceleration * h * h / 2, margin = slack_ + range_;
+  const double curved = top_in_window(now) * h * h / 2, margin = slack_ + range_;
   // The bound is concave in time: it is lowest at one of the window's ends.
   const double upper = room + apart, lower = room - apart;
   return std::min(upper, upper + rate * h - curved) > margin &&

@@ -18,7 +18,7 @@ EndWalls::Now EventLoop<Grains, Motion>::end_walls_now() {
   if constexpr (driven)
     return EndWalls::now(walls_across(0), now_);
   else
-    return {now_, box_now(), box_.top_acceleration(), box_.top_speed()};
+    return {now_, box_now(), box_.top_acceleration(), box_.top_speed(), true};
 }
 
 template <class Grains, class Motion>
