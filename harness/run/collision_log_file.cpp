@@ -8,6 +8,7 @@
 
 #include "provenance.hpp"
 #include "setup_file.hpp"
+#include "toml_document.hpp"
 
 namespace shakedown {
 
@@ -105,6 +106,17 @@ State read_state(Reader& from) {
   return state;
 }
 
+/// The grains come from the log itself, so no packing need hold as many of them.
+Setup setup_of_log(const std::string& text, const std::filesystem::path& file,
+                   std::span<const EffectRecord* const> known) {
+  const std::string key = "release.initial_grains";
+  const Override own_state{key, toml_string(file.string()), file.string()};
+  Setup setup = parse_setup(text, file.string(), known, {&own_state, 1});
+  setup.release.initial_grains.clear();
+  setup.places.erase(key);
+  return setup;
+}
+
 }  // namespace
 
 std::string collision_log_bytes(const StoredRun& stored) {
@@ -136,7 +148,7 @@ StoredRun read_collision_log(std::filesystem::path file, std::span<const EffectR
   StoredRun stored;
   stored.program = from.text();
   const std::string setup(from.text());
-  stored.setup = parse_setup(setup, file.string(), known);
+  stored.setup = setup_of_log(setup, file, known);
   stored.run = static_cast<int>(from.number<std::int64_t>());
   stored.log.end_time = from.number<double>();
   stored.log.entries = from.number<std::int64_t>();

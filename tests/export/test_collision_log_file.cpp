@@ -26,6 +26,31 @@ TEST(CollisionLogFile, ReadsBackBitForBit) {
   EXPECT_EQ(collision_log_bytes(back), collision_log_bytes(run));
 }
 
+/// 100 grains in a file fit where no packing holds as many.
+TEST(CollisionLogFile, HoldsGrainsThatNoPackingDoes) {
+  const ScratchFolder folder;
+  std::ofstream grains(folder / "grains.csv");
+  grains << "id,x,y,z,vx,vy,vz\n";
+  for (int i = 0; i < 100; ++i)
+    grains << i << ',' << 0.095 + 0.01001 * (i / 25) - 0.0025 << ',' << 0.01 * (i % 5) - 0.02 << ','
+           << 0.01 * (i / 5 % 5) - 0.02 << ",0,0,0\n";
+  grains.close();
+  shakedown::Setup setup;
+  setup.box.length = 0.0401;
+  setup.grains.count = 100;
+  setup.run.duration = 0.01;
+  EXPECT_THROW(parse_setup(write_setup(setup), "packed", all_effects()), InputError);
+  setup.release.initial_grains = (folder / "grains.csv").string();
+  RunOptions options;
+  options.log_collisions = true;
+  const StoredRun run{"test", setup, 0, *make_hard_engine()->run(setup, options).collision_log};
+  write_file(folder / collision_log_name, collision_log_bytes(run));
+  const StoredRun back = read_collision_log(folder, all_effects());
+  EXPECT_TRUE(back.setup.release.initial_grains.empty());
+  EXPECT_EQ(back.log.initial.position, run.log.initial.position);
+  EXPECT_EQ(collision_log_bytes(back), collision_log_bytes(run));
+}
+
 TEST(CollisionLogFile, NamesADamagedFile) {
   const ScratchFolder folder;
   const std::string bytes = collision_log_bytes(logged_run());
