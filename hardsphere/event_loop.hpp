@@ -18,6 +18,7 @@
 #include "hard_sphere_system.hpp"
 #include "held_bonds.hpp"
 #include "impact.hpp"
+#include "open_book.hpp"
 #include "wall_motion.hpp"
 
 namespace shakedown {
@@ -166,8 +167,9 @@ class EventLoop {
   std::array<double, contact_classes> ledger_rest_{};
   std::array<std::int64_t, contact_classes> collisions_{};
   std::int64_t events_ = 0, refused_ = 0, elastic_walls_ = 0, elastic_pairs_ = 0, wells_ = 0, let_go_ = 0;
-  double initial_energy_ = 0, initial_momentum_ = 0, outer_impulse_ = 0, virial_ = 0, worst_ledger_ = 0,
-         worst_momentum_ = 0;
+  double initial_energy_ = 0, initial_momentum_ = 0, outer_impulse_ = 0, virial_ = 0;
+  double momentum_scale_;  // M Omega Delta0, or the sum of m |v| at release
+  OpenBook energy_book_, momentum_book_;
   double grain_mass_ = 0, accounted_ = 0;
   Vec3 grain_momentum_ = Vec3::Zero();  // in the falling frame
   std::int64_t events_at_check_ = 0;

@@ -31,12 +31,11 @@ Observation EventLoop<Grains, Motion>::observe() {
   if (has_spring_) energy += box_.spring_energy(box.x) + box_.mass() * box.v * box.v / 2;
   const Observation seen{t, box.x, box.v, grains_.size() > 0 ? grains.moment / grains.mass : std::nan(""),
                          energy};
-  if (initial_energy_ > 0)
-    worst_ledger_ =
-        std::max(worst_ledger_, std::abs(energy + total_loss() - initial_energy_) / initial_energy_);
-  if (has_spring_)
-    worst_momentum_ = std::max(worst_momentum_, std::abs(grains.momentum[0] + box_.mass() * box.v -
-                                                         initial_momentum_ - outer_impulse));
+  energy_book_.see(energy + total_loss() - initial_energy_, energy);
+  if (has_spring_) {
+    const double momentum = grains.momentum[0] + box_.mass() * box.v;
+    momentum_book_.see(momentum - initial_momentum_ - outer_impulse, momentum);
+  }
   return seen;
 }
 
@@ -87,8 +86,8 @@ Health EventLoop<Grains, Motion>::health() const {
   health.deepest_overlap = std::max({0.0, grains_.deepest_overlap(), end_walls_.deepest_overlap()});
   for (const EndWalls& walls : side_walls_)
     health.deepest_overlap = std::max(health.deepest_overlap, walls.deepest_overlap());
-  health.ledger_error = worst_ledger_;
-  health.momentum_error = worst_momentum_;
+  health.ledger_error = energy_book_.error(initial_energy_);
+  health.momentum_error = momentum_book_.error(momentum_scale_);
   health.elastic_rescues = elastic_walls_ + elastic_pairs_;
   health.elastic_pair_rescues = elastic_pairs_;
   health.refused_events = refused_;

@@ -3,6 +3,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "event_loop.hpp"
 
@@ -96,7 +97,9 @@ EventLoop<Grains, Motion>::EventLoop(const State& state, const Physics& physics,
       end_walls_(has_walls_ ? rooms(state, setup.box.length) : std::vector<double>{},
                  state.size() <= always_watched, contact_.has_attraction() ? contact_.attraction_range : 0),
       held_(contact_.has_attraction() ? state.size() : 0, contact_.attraction_force,
-            contact_.attraction_range) {
+            contact_.attraction_range),
+      momentum_scale_(setup.box.mass * 2 * std::numbers::pi * setup.spring.frequency *
+                      std::abs(setup.release.displacement)) {
   EXPECT(driven || (!falling_ && !contact_.has_attraction() && forces_.arc_length == 0));
   ledger_.effect_loss.assign(setup.effects.size(), 0.0);
   for (std::size_t e = 0; e < setup.effects.size(); ++e)
@@ -122,6 +125,7 @@ EventLoop<Grains, Motion>::EventLoop(const State& state, const Physics& physics,
         velocity(flight.v[0], flight.v[1], flight.v[2]);
     grain_momentum_ += grains_.mass(i) * velocity;
     grain_mass_ += grains_.mass(i);
+    if (setup.release.displacement == 0) momentum_scale_ += grains_.mass(i) * velocity.norm();
     if (!contact_.has_attraction()) continue;
     for (int axis = 0; axis < 3; ++axis)  // grains that start in the well of a wall
       for (const int side : {1, -1}) {
@@ -136,6 +140,7 @@ EventLoop<Grains, Motion>::EventLoop(const State& state, const Physics& physics,
   if (has_walls_) open_windows();
   initial_momentum_ = grain_momentum_.x() + (has_spring_ ? box_.mass() * box_.v() : 0);
   initial_energy_ = observe().total_energy;
+  energy_book_ = {};  // it was opened without knowing that
 }
 
 }  // namespace shakedown

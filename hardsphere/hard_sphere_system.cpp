@@ -17,7 +17,6 @@ using Loop = std::variant<EventLoop<AllPairs, BoxMotion>, EventLoop<CellLists<fa
 
 struct HardSphereSystem::Inside {
   Loop loop;
-  double momentum_scale;  // M Omega Delta0
   std::unique_ptr<EventWriter> writer;
 };
 
@@ -79,9 +78,7 @@ HardSphereSystem::HardSphereSystem(const Setup& setup, int run)
     : HardSphereSystem(setup, initial_state(setup, run)) {}
 
 HardSphereSystem::HardSphereSystem(const Setup& setup, const State& state) {
-  const double scale =
-      setup.box.mass * 2 * std::numbers::pi * setup.spring.frequency * std::abs(setup.release.displacement);
-  inside_.reset(new Inside{loop_for(setup, physics_of(setup), state), scale, {}});
+  inside_.reset(new Inside{loop_for(setup, physics_of(setup), state), {}});
 }
 
 HardSphereSystem::~HardSphereSystem() = default;
@@ -111,11 +108,7 @@ CollisionLog HardSphereSystem::collision_log() const {
 Observation HardSphereSystem::observe() { return SHAKEDOWN_IN_LOOP(loop.observe()); }
 State HardSphereSystem::state() const { return SHAKEDOWN_IN_LOOP(loop.state(loop.time())); }
 Ledger HardSphereSystem::ledger() const { return SHAKEDOWN_IN_LOOP(loop.ledger()); }
-Health HardSphereSystem::health() const {
-  Health health = SHAKEDOWN_IN_LOOP(loop.health());
-  if (inside_->momentum_scale > 0) health.momentum_error /= inside_->momentum_scale;
-  return health;
-}
+Health HardSphereSystem::health() const { return SHAKEDOWN_IN_LOOP(loop.health()); }
 const std::array<std::int64_t, contact_classes>& HardSphereSystem::collisions() const {
   return SHAKEDOWN_IN_LOOP(loop.collisions());
 }

@@ -14,14 +14,14 @@ double centre_of_mass(const Bodies& bodies) {
   return (bodies.mass * bodies.position.col(0).head(bodies.grains)).sum() / bodies.mass.sum();
 }
 
-/// M Omega Delta0; without a spring the sum of m |v|.
+/// M Omega Delta0; without a spring or its displacement the sum of m |v|.
 double scale_of_momentum(const Setup& setup, const Bodies& bodies, double box_mass) {
   const double rate = 2 * std::numbers::pi * setup.spring.frequency;
   if (box_mass > 0 && setup.release.displacement != 0)
     return setup.box.mass * rate * std::abs(setup.release.displacement);
   double sum = 0;
   for (Eigen::Index i = 0; i < bodies.grains; ++i) sum += bodies.mass(i) * bodies.velocity_of(i).norm();
-  return sum > 0 ? sum : 1;
+  return sum;
 }
 
 }  // namespace
@@ -70,12 +70,14 @@ void RunRecord::begin(const Setup& setup, const Bodies& bodies, const StoredEner
 }
 
 bool RunRecord::check(const Bodies& bodies, const Accounts& accounts, const StoredEnergy& stored) {
-  const double start = trajectory.initial_energy;
-  const double open = std::abs(energy(bodies, stored) + ledger(accounts, stored).total_loss() - start);
-  const double drift = std::abs(momentum(bodies) - momentum_at_start_ - accounts.outer_impulse.value());
+  const double start = trajectory.initial_energy, held = energy(bodies, stored), moved = momentum(bodies);
+  const double open = held + ledger(accounts, stored).total_loss() - start;
+  const double drift = moved - momentum_at_start_ - accounts.outer_impulse.value();
+  energy_book_.see(open, held);
+  momentum_book_.see(drift, moved);
   Health& health = trajectory.health;
-  health.ledger_error = std::max(health.ledger_error, open / (start > 0 ? start : 1));
-  health.momentum_error = std::max(health.momentum_error, drift / momentum_scale_);
+  health.ledger_error = energy_book_.error(start);
+  health.momentum_error = momentum_book_.error(momentum_scale_);
   health.deepest_overlap = std::max(health.deepest_overlap, accounts.deepest_overlap);
   return std::isfinite(open) && std::isfinite(drift);
 }

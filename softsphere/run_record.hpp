@@ -7,6 +7,7 @@
 #include "accounts.hpp"
 #include "bodies.hpp"
 #include "engine.hpp"
+#include "open_book.hpp"
 
 namespace shakedown {
 
@@ -37,6 +38,7 @@ class RunRecord {
   double box_mass_;
   std::function<double(double)> spring_energy_;
   double momentum_scale_ = 0, momentum_at_start_ = 0;
+  OpenBook energy_book_, momentum_book_;
   StoredEnergy stored_at_start_{};
 };
 

@@ -153,6 +153,24 @@ TEST(EmptyBox, HarmonicAccelerationForcesIt) {
       2e-12);
 }
 
+/// Nothing is stored at release: errors are fractions of what the books hold later.
+TEST(EmptyBox, ShakenFromRestAtTheCentreHasItsBooksMeasured) {
+  shakedown::Setup setup;
+  setup.grains.count = 0;
+  setup.release.displacement = 0;
+  setup.run.duration = 2;
+  add_effect(setup, "oscillating_acceleration", {{"amplitude", Vec3(0.5, 0, 0)}, {"frequency", 0.9}});
+  for (const EngineUnderTest& tested : engines_that_model("oscillating_acceleration")) {
+    SCOPED_TRACE(tested.name);
+    const Trajectory result = tested.make()->run(setup);
+    EXPECT_EQ(result.initial_energy, 0);
+    EXPECT_GT(result.health.ledger_error, 0);
+    EXPECT_LE(result.health.ledger_error, 1e-11);
+    EXPECT_GT(result.health.momentum_error, 0);
+    EXPECT_LE(result.health.momentum_error, 1e-11);
+  }
+}
+
 TEST(EmptyBox, HasTheResonanceCurveOfTheDampedOscillator) {
   const double c = 2, a = 0.5, rate = c / mass;
   for (const double f : {0.7, 1.23, 1.9}) {
