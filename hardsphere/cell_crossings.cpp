@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "centre_cells.hpp"
+
 namespace shakedown {
 
 namespace {
@@ -22,7 +24,9 @@ constexpr std::array<std::int32_t, 32> digits(std::int32_t step) {
 constexpr std::array<std::int32_t, 32> of_x = digits(9), of_y = digits(3), of_z = digits(1);
 #endif
 
-int cells_across(double extent, double edge) { return std::min(most_cells, static_cast<int>(extent / edge)); }
+int cells_across(double extent, double edge) {
+  return static_cast<int>(std::min<double>(most_cells, extent / edge));
+}
 
 }  // namespace
 
@@ -30,8 +34,13 @@ bool CellCrossings::can_hold(const State& state, const std::array<double, 3>& ex
   if (state.size() == 0) return false;
   for (std::size_t i = 0; i < state.size(); ++i)
     if (state.radius[i] != state.radius[0]) return false;
-  return std::all_of(extent.begin(), extent.end(),
-                     [&](double e) { return cells_across(e, 2 * state.radius[0] * least_edge) >= 3; });
+  double all = 1;
+  for (const double e : extent) {
+    const int across = cells_across(e, 2 * state.radius[0] * least_edge);
+    if (across < 3) return false;
+    all *= across;
+  }
+  return all <= most_cells_for(state.size());
 }
 
 CellCrossings::CellCrossings(const State& state, const std::array<double, 3>& extent, double edge)
@@ -47,7 +56,6 @@ CellCrossings::CellCrossings(const State& state, const std::array<double, 3>& ex
       offset_[axis].push_back(static_cast<std::uint32_t>((cell + n - 1) % n * all));
     all *= n;
   }
-  EXPECT(all < std::size_t{1} << 31);
   cell_first_.assign(all, -1);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     std::array<double*, 3> x{&lines_[i].x, &lines_[i].y, &lines_[i].z};

@@ -13,7 +13,7 @@ namespace shakedown {
 
 class CellCrossings : public ScheduledGrains {
  public:
-  /// Whether the cell is wide enough, and the grains are equal, as this needs.
+  /// Whether the cell is wide enough, the grains are equal and not too few for it, as this needs.
   static bool can_hold(const State& state, const std::array<double, 3>& extent);
   /// `edge`: the least width of a cell in diameters, 0: the least possible.
   CellCrossings(const State& state, const std::array<double, 3>& extent, double edge = 0);

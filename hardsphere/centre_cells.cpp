@@ -9,19 +9,27 @@
 namespace shakedown {
 
 CentreCells::CentreCells(std::size_t grains, const std::array<double, 3>& extent, double reach, bool periodic)
-    : reach_squared_(static_cast<float>(reach * reach * (1 + 1e-5))), slot_(grains, none) {
-  double all = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double across = extent[axis] / reach;
-    // Open axes get two spare cells, so that the two ends of the grains' room never share one through the
-    // wrap.
-    cells_[axis] = periodic ? std::max(3, static_cast<int>(across))
-                            : std::max(3, static_cast<int>(std::ceil(across)) + 2);
-    edge_[axis] = periodic ? extent[axis] / cells_[axis] : reach;
-    per_edge_[axis] = 1 / edge_[axis];
-    all *= cells_[axis];
+    : slot_(grains, none) {
+  std::array<double, 3> least_edge{reach, reach, reach};
+  double all = 0, widest = reach;
+  while (true) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double across = std::min(extent[axis] / least_edge[axis], 1e9);
+      // Open axes get two spare cells, so that the two ends of the grains' room never share one through the
+      // wrap.
+      cells_[axis] = periodic ? std::max(3, static_cast<int>(across))
+                              : std::max(3, static_cast<int>(std::ceil(across)) + 2);
+      edge_[axis] = periodic ? extent[axis] / cells_[axis] : least_edge[axis];
+      per_edge_[axis] = 1 / edge_[axis];
+      widest = std::max(widest, least_edge[axis]);
+    }
+    all = static_cast<double>(cells_[0]) * cells_[1] * cells_[2];
+    if (all <= most_cells_for(grains)) break;
+    least_edge[static_cast<std::size_t>(std::max_element(cells_.begin(), cells_.end()) - cells_.begin())] *=
+        2;
   }
-  EXPECT(all < 0x1p31);
+  // Single precision from a cell's corner errs by some 1e-7 of its width.
+  reach_squared_ = static_cast<float>(reach * reach * (1 + 1e-5 * (widest / reach)));
   first_.assign(static_cast<std::size_t>(all), none);
 }
 

@@ -5,6 +5,7 @@
 // none is missed; a neighbour too many costs a pair test and changes nothing. Beside lists linked from grain
 // to grain: a third of the time of a renewal.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -12,9 +13,16 @@
 
 namespace shakedown {
 
+/// How many cells a system is cut into at most: of a dilute one most are empty, and memory is all that more
+/// of them would take.
+inline double most_cells_for(std::size_t grains) {
+  return std::clamp(64.0 * static_cast<double>(grains), 0x1p24, 0x1p31 - 1);
+}
+
 class CentreCells {
  public:
-  /// `reach`: m. Places may lie outside of `extent`: cells wrap around.
+  /// `reach`: m. Places may lie outside of `extent`: cells wrap around. Cells are wider than the search
+  /// reaches where there would be too many.
   CentreCells(std::size_t grains, const std::array<double, 3>& extent, double reach, bool periodic);
 
   /// A place as a cell sees it.
@@ -26,8 +34,8 @@ class CentreCells {
 
   void put(std::int32_t grain, const Place& place);
   void take(std::int32_t grain);
-  /// Writes the grains whose centres lie within reach of a place, and perhaps some a hundred thousandth
-  /// beyond, to `near`, which grows as needed; returns how many.
+  /// Writes the grains whose centres lie within reach of a place, and perhaps some a hundred thousandth (in
+  /// wide cells more) beyond, to `near`, which grows as needed; returns how many.
   std::size_t find(const Place& place, std::vector<std::int32_t>& near) const;
 
   std::size_t bytes() const {
@@ -54,7 +62,7 @@ class CentreCells {
 
   std::array<int, 3> cells_{};
   std::array<double, 3> edge_{}, per_edge_{};
-  float reach_squared_;
+  float reach_squared_ = 0;
   std::vector<std::int32_t> first_;  // block of each cell
   AlignedVector<Block> block_;
   std::vector<std::int32_t> next_;  // of each block: the next of its cell, or the next unused one

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "hard_sphere_system.hpp"
 
+#include <algorithm>
+#include <iomanip>
 #include <numbers>
+#include <sstream>
 #include <variant>
 
 #include "all_pairs.hpp"
 #include "cell_crossings.hpp"
 #include "cell_lists.hpp"
+#include "centre_cells.hpp"
 #include "event_loop.hpp"
 
 namespace shakedown {
@@ -35,9 +39,58 @@ double grain_volume(const State& state) {
   return volume;
 }
 
+std::array<double, 3> cell_of(const Setup& setup) {
+  return {setup.box.length, setup.box.width[0], setup.box.width[1]};
+}
+
+/// Periodic cells must hold three list cells along each axis, each as wide as a grain.
+void check_cell(const Setup& setup, const State& state) {
+  if (state.size() == 0)
+    throw InputError({{place_of(setup, "grains.count"), "grains.count",
+                       "is 0 (a periodic cell without grains holds nothing)", "take one grain or more"}});
+  const double largest = 2 * *std::max_element(state.radius.begin(), state.radius.end());
+  for (const double extent : cell_of(setup))
+    if (!(extent > least_period_in_diameters * largest))
+      throw InputError({{place_of(setup, "domain.kind"), "domain.kind",
+                         "a periodic cell narrower than three of its largest grains is not modelled (a grain "
+                         "would meet another and its image at once)",
+                         "make box.length and box.width larger, or the grains smaller or less unequal"}});
+}
+
+/// Whoever made the state. Through cells, so that it costs no more than the first neighbour lists.
+void check_overlap(const Setup& setup, const State& state) {
+  if (state.size() < 2) return;
+  constexpr double allowed = 1e-12;  // m
+  const bool periodic = setup.domain == Domain::periodic;
+  const std::array<double, 3> extent = cell_of(setup);
+  const Period period(extent);
+  const double reach = 2 * *std::max_element(state.radius.begin(), state.radius.end());
+  CentreCells cells(state.size(), extent, reach, periodic);
+  std::vector<std::int32_t> near;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const Vec3& here = state.position[i];
+    const CentreCells::Place place = cells.place({here.x(), here.y(), here.z()});
+    const std::size_t count = cells.find(place, near);
+    for (std::size_t n = 0; n < count; ++n) {
+      const auto j = static_cast<std::size_t>(near[n]);
+      Vec3 apart = state.position[j] - here;
+      for (int axis = 0; periodic && axis < 3; ++axis)
+        apart[axis] = period.nearest(apart[axis], static_cast<std::size_t>(axis));
+      const double overlap = state.radius[i] + state.radius[j] - apart.norm();
+      if (overlap <= allowed) continue;
+      std::ostringstream text;
+      text << "grains " << j + 1 << " and " << i + 1 << " overlap by " << std::setprecision(3)
+           << 1e3 * overlap
+           << " mm at release (hard grains cannot); move them apart, or take another packing";
+      throw PhysicsError(text.str());
+    }
+    cells.put(static_cast<std::int32_t>(i), place);
+  }
+}
+
 Loop loop_for(const Setup& setup, const Physics& physics, const State& state) {
   const std::array<double, 2> half_width{setup.box.width[0] / 2, setup.box.width[1] / 2};
-  const std::array<double, 3> cell{setup.box.length, setup.box.width[0], setup.box.width[1]};
+  const std::array<double, 3> cell = cell_of(setup);
   const double fraction = grain_volume(state) / (cell[0] * cell[1] * cell[2]);
   const bool driven = is_driven(physics);
   if (driven && setup.domain != Domain::damper)
@@ -78,6 +131,8 @@ HardSphereSystem::HardSphereSystem(const Setup& setup, int run)
     : HardSphereSystem(setup, initial_state(setup, run)) {}
 
 HardSphereSystem::HardSphereSystem(const Setup& setup, const State& state) {
+  if (setup.domain == Domain::periodic) check_cell(setup, state);
+  check_overlap(setup, state);
   inside_.reset(new Inside{loop_for(setup, physics_of(setup), state), {}});
 }
 

@@ -73,6 +73,21 @@ TEST(SlowHardDamper, MovesTheSameBelowAndAboveTheSizeWhereWindowsBegin) {
   }
 }
 
+TEST(HardDamper, RefusesGrainsThatOverlapAtRelease) {
+  for (const Domain domain : {Domain::damper, Domain::periodic}) {
+    shakedown::Setup setup;
+    setup.domain = domain;
+    setup.box.length = setup.box.width[0] = setup.box.width[1] = 0.1;
+    State state = initial_state(setup);
+    HardSphereSystem{setup, state};
+    state.position[36] = state.position[0] - Vec3(0.01 - 1e-13, 0, 0);
+    if (domain == Domain::periodic) state.position[36].x() += 0.1;  // its image
+    HardSphereSystem{setup, state};                                 // 1e-13 m are rounding
+    state.position[36].x() += 1e-9;
+    EXPECT_THROW((HardSphereSystem{setup, state}), PhysicsError);
+  }
+}
+
 TEST(HardDamper, KeepsItsEnergyWithoutDissipation) {
   shakedown::Setup setup;
   setup.restitution = {1.0, 1.0};

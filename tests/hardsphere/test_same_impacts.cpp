@@ -122,6 +122,40 @@ TEST(SameImpacts, ThroughCellsOfAnyWidthAndThroughLists) {
                       Vec3(setup.box.length, setup.box.width[0], setup.box.width[1]));
 }
 
+/// Cells one diameter wide would be 1e12 of them.
+TEST(SameImpacts, OfADiluteGasNeedNoCellsForEmptySpace) {
+  shakedown::Setup setup = periodic_fluid(100, 0.1);
+  setup.box.length = setup.box.width[0] = setup.box.width[1] = 1e4;
+  setup.release.packing = Packing::fcc;
+  HardSphereSystem gas(setup);
+  EXPECT_LT(gas.bytes_per_grain(), 1e6);
+  // Neighbours on the lattice are 2400 m apart.
+  EXPECT_TRUE(gas.advance_to(10));
+  EXPECT_EQ(gas.collisions()[0], 0);
+  State near = gas.state();
+  for (std::size_t i = 0; i < near.size(); i += 2) {
+    near.position[i + 1] = near.position[i] + Vec3(1.5, 0, 0);
+    near.velocity[i] = Vec3(1, 0, 0);
+    near.velocity[i + 1] = Vec3(-1, 0, 0);
+  }
+  HardSphereSystem pairs(setup, near);
+  EXPECT_TRUE(pairs.advance_to(1));
+  EXPECT_EQ(pairs.collisions()[0], 50);
+}
+
+TEST(SameImpacts, NeedAPeriodOfThreeGrains) {
+  shakedown::Setup setup = periodic_fluid(20, 0.1);
+  for (const double width : {1.5, 2.9, 3.0}) {
+    setup.box.width[0] = width;
+    setup.box.length = 100;
+    EXPECT_THROW(HardSphereSystem{setup}, InputError) << width;
+  }
+  setup.box.width[0] = 3.1;
+  EXPECT_NO_THROW(HardSphereSystem{setup}.advance_impacts(20));
+  setup.grains.count = 0;
+  EXPECT_THROW(HardSphereSystem{setup}, InputError);
+}
+
 // --- End walls alone: grains that do not meet each other, thrown about now and then, in a box that feels
 // every impact. ----------------
 
