@@ -23,17 +23,19 @@ void EventLoop<Grains, Motion>::kick_grains() {
   account(now_);
   const BoxMotion::Point box = box_now();
   const Vec3 frame_x = frame_.displacement(now_), frame_v = frame_.velocity(now_);
-  double box_impulse = 0;
+  const Vec3 air(box.v, 0, walls_across(2).at(now_).v + frame_v.z());  // goes with the box, also on its arc
+  double box_impulse = 0, across_impulse = 0;
   for (int i = 0; i < grains_.size(); ++i) {
     Flight3 flight = grains_.flight(i);
     flight.advance(now_);
     const double m = grains_.mass(i);
     Vec3 velocity = Vec3(flight.v[0], flight.v[1], flight.v[2]) + frame_v;
-    const Vec3 before = velocity, air(box.v, 0, 0);
+    const Vec3 before = velocity;
     if (forces_.drag_effect >= 0) {
       const Vec3 wind = velocity - air;
       velocity = air + wind * air_speed_left(wind.norm(), m, h);
       box_impulse -= m * (velocity.x() - before.x());
+      across_impulse += m * (velocity.z() - before.z());
       ledger_.effect_loss[static_cast<std::size_t>(forces_.drag_effect)] +=
           m / 2 * (before.squaredNorm() - velocity.squaredNorm());
     }
@@ -54,7 +56,12 @@ void EventLoop<Grains, Motion>::kick_grains() {
   }
   if (forces_.drag_effect >= 0) {
     const double jump = box_impulse / box_.mass();
-    ledger_.effect_loss[static_cast<std::size_t>(forces_.drag_effect)] -= box_impulse * (box.v + jump / 2);
+    double& loss = ledger_.effect_loss[static_cast<std::size_t>(forces_.drag_effect)];
+    loss -= box_impulse * (box.v + jump / 2);
+    if (forces_.arc_effect >= 0) {  // whatever holds the box on its arc drives the air across
+      loss += across_impulse * air.z();
+      ledger_.effect_loss[static_cast<std::size_t>(forces_.arc_effect)] -= across_impulse * air.z();
+    }
     box_.restart(now_, box.x, box.v + jump);
     box_point_.v += jump;
   }

@@ -118,6 +118,12 @@ EventLoop<Grains, Motion>::EventLoop(const State& state, const Physics& physics,
     next_kick_ = kick_every_ / 2;
   }
   if (!side_walls_.empty()) grains_.forget_side_walls();
+  if (const double across = 2 * arc_curvature_ * state.x_box * state.v_box; across != 0)
+    for (int i = 0; i < grains_.size(); ++i) {  // states are as seen from the box, flights are in the lab
+      Flight3 flight = grains_.flight(i);
+      flight.v[2] += across;
+      grains_.move_to(i, flight);
+    }
   grains_.predict_all();
   for (int i = 0; i < grains_.size(); ++i) {
     const Flight3 flight = grains_.flight(i);

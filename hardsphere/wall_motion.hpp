@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How the walls across an axis move as the grains see them, in their falling frame.
 #pragma once
+#include <algorithm>
+
 #include "driven_box.hpp"
 #include "falling_frame.hpp"
 
@@ -28,10 +30,14 @@ struct DrivenWalls {
     const double falling = frame->top(axis);
     if (axis == 0) return box->top_acceleration() + falling;
     if (axis == 1 || arc_curvature == 0) return falling;
-    // |2 c (v^2 + x a)|: speeds and amplitudes of the present swing, doubled for what drives it between
-    // kicks.
+    // |2 c (v^2 + x a)| with bounds of this piece. They lie below those of twice the present swing but where
+    // the box hardly swings by itself.
     const double speed = 2 * box->top_speed(), reach = speed / box->angular_frequency();
-    return 2 * arc_curvature * (speed * speed + reach * box->top_acceleration()) + falling;
+    const DrivenBox::Point top = box->top_reach();
+    return 2 * arc_curvature *
+               std::max(speed * speed + reach * box->top_acceleration(),
+                        top.v * top.v + top.x * box->top_acceleration()) +
+           falling;
   }
   double top_speed() const { return box->top_speed(); }
   double valid_until() const {

@@ -139,12 +139,15 @@ void DrivenBox::begin_closed(double friction_force) {
   const double w = angular_frequency_;
   damped_frequency_ = std::sqrt(w * w - decay_ * decay_);
   centre_ = (forces_.constant + friction_force) / stiffness_;
-  double x = x_ - centre_, v = v_, response_acceleration = 0, response_jerk = 0;
+  double x = x_ - centre_, v = v_, response_reach = 0, response_speed = 0, response_acceleration = 0,
+         response_jerk = 0;
   for (const Response& r : responses_) {
     const double phase = r.frequency * time_ + r.phase, s = std::sin(phase), c = std::cos(phase);
     x -= r.p * s + r.q * c;
     v -= r.frequency * (r.p * c - r.q * s);
-    const double size = std::hypot(r.p, r.q) * r.frequency * r.frequency;
+    const double reach = std::hypot(r.p, r.q), size = reach * r.frequency * r.frequency;
+    response_reach += reach;
+    response_speed += reach * r.frequency;
     response_acceleration += size;
     response_jerk += size * r.frequency;
   }
@@ -153,6 +156,7 @@ void DrivenBox::begin_closed(double friction_force) {
   // Each derivative of exp((-g + i w_d) s) multiplies by a number of modulus w.
   const double amplitude = std::hypot(a_, b_);
   top_acceleration_ = w * w * amplitude + response_acceleration;
+  top_reach_ = {std::abs(centre_) + amplitude + response_reach, w * amplitude + response_speed};
   valid_until_ =
       forces_.dry_friction > 0 ? first_standstill(w * w * w * amplitude + response_jerk) : infinity;
 }
@@ -161,10 +165,11 @@ void DrivenBox::begin_stuck() {
   piece_ = Piece::stuck;
   friction_ = -smooth_force(x_, 0, time_);
   top_acceleration_ = 0;
+  top_reach_ = {std::abs(x_), 0};
   valid_until_ = infinity;
   if (forces_.harmonics.empty() && forces_.free.empty()) return;
-  // The pull changes with time: look again where it may first exceed friction, and at least once a
-  // millisecond.
+  // The pull changes with time: look again where it may first exceed friction, where formulas act every 10
+  // us, and at least once a second.
   double rate = 0;
   for (const Harmonic& h : forces_.harmonics)
     rate += std::abs(h.amplitude) * 2 * std::numbers::pi * h.frequency;
@@ -213,6 +218,8 @@ void DrivenBox::begin_dense(double friction_force) {
     top_acceleration_ += std::abs(acceleration_[k]);
     jerk += static_cast<double>(k) * std::abs(acceleration_[k]) / length;
   }
+  const double gained = top_acceleration_ * length;
+  top_reach_ = {std::abs(x_) + (std::abs(v_) + gained) * length, std::abs(v_) + gained};
   valid_until_ = time_ + length;
   if (forces_.dry_friction > 0) valid_until_ = std::min(valid_until_, first_standstill(jerk));
 }

@@ -30,6 +30,8 @@ class DrivenBox {
   void go_on();
   /// Bound of |x''| until valid_until(), m/s^2.
   double top_acceleration() const { return top_acceleration_; }
+  /// Bounds of |x| and |x'| until valid_until(), m and m/s.
+  Point top_reach() const { return top_reach_; }
   /// Speed that the box would reach on its spring alone, m/s: the scale of the elastic limit at the walls.
   double top_speed() const { return std::hypot(x_ * angular_frequency_, v_); }
   double angular_frequency() const { return angular_frequency_; }
@@ -69,6 +71,7 @@ class DrivenBox {
 
   double time_ = 0, x_ = 0, v_ = 0;  // at the start of the piece
   double valid_until_ = std::numeric_limits<double>::infinity(), top_acceleration_ = 0;
+  Point top_reach_{0, 0};
   Piece piece_ = Piece::closed;
   double friction_ = 0;  // N, force of dry friction in this piece
   // closed: centre + responses + exp(-g s) (a cos w s + b sin w s), s = t - time

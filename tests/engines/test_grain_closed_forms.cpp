@@ -224,3 +224,39 @@ TEST(Ball, MeetsTheSideWallThatTheArcBringsItWhenTheFormulaSays) {
     EXPECT_NEAR(result.end_state.velocity[0].z(), -1.2 / l * x * u, 1e-12);
   });
 }
+
+/// Seen from the box, whatever way it goes.
+TEST(Ball, StartsWithItsVelocityAcrossOnTheArcOfAPushedBox) {
+  const double l = 0.59, push = 0.4, across = 0.03, t = 0.1;
+  shakedown::Setup setup = large_box(t);
+  setup.release.displacement = 0.1;
+  setup.box.mass = 1e6;  // the ball does not slow it
+  add_effect(setup, "blade_arc", {{"blade_length", l}});
+  add_effect(setup, "initial_box_velocity", {{"velocity", push}});
+  in_every_engine(setup, {{0.1, 0, 0}, {0, 0, across}}, 1e-9, [&](const Trajectory& result, bool hard) {
+    const double x = result.end_state.x_box, u = result.end_state.v_box;
+    EXPECT_NEAR(result.end_state.velocity[0].z(), across - 1.2 / l * (x * u - 0.1 * push), 1e-12);
+    EXPECT_NEAR(result.end_state.position[0].z(),
+                (across + 1.2 / l * 0.1 * push) * t - 0.6 / l * (x * x - 0.01), hard ? 1e-14 : 2e-6);
+  });
+}
+
+/// The air goes with the box also across: thick enough, it takes the ball with it.
+TEST(Ball, IsDraggedAlongTheArcOfTheBox) {
+  shakedown::Setup setup = large_box(0.3);
+  setup.release.displacement = 0.1;
+  setup.box.mass = 1e6;
+  setup.hard.kick_interval = 2.5e-4;
+  add_effect(setup, "blade_arc", {{"blade_length", 0.59}});
+  add_effect(setup, "grain_air_drag", {{"linear", 0.4}});  // 10 ms
+  std::vector<double> across;
+  for (const EngineUnderTest& tested : engines_that_model("grain_air_drag")) {
+    const Trajectory result = run_with(*tested.make(), setup, {{{0.1, 0, 0}, {0, 0, 0}}});
+    EXPECT_LE(result.health.ledger_error, 1e-9) << tested.name;
+    EXPECT_GT(result.ledger.effect_loss[1], 0) << tested.name;
+    across.push_back(result.end_state.velocity[0].z());
+    EXPECT_LT(std::abs(across.back()), 0.01) << tested.name;  // 0.07 in the lab
+  }
+  ASSERT_EQ(across.size(), 2u);
+  EXPECT_NEAR(across[0], across[1], 5e-5);
+}
