@@ -60,7 +60,6 @@ class HeldBonds {
   /// The two touched and part with this momentum (reduced mass times opening speed): nothing has pulled at
   /// them yet.
   void touched(std::uint64_t bond, double momentum, double now) { pulls_[bond] = {now, -momentum}; }
-  void ended(std::uint64_t bond) { pulls_.erase(bond); }
 
   /// The two came to the edge of their well with too little energy. True: they were pulled with more than the
   /// attraction.

@@ -47,15 +47,13 @@ std::vector<ParameterProblem> check(const EffectChoice& choice) {
 
 void apply(const EffectChoice& choice, int index, Physics& physics) {
   const Formula formula = formula_of(choice);
-  const bool of_time_only = !formula.uses("x") && !formula.uses("v");
   const auto newton = [formula](double x, double v, double t) {
     const double force = formula(x, v, t);
     if (!std::isfinite(force))
       throw PhysicsError("user_force: the force is not a finite number at " + where(x, v, t));
     return force;
   };
-  (choice.text("on") == "box" ? physics.box.free : physics.grains.free)
-      .push_back({newton, index, of_time_only});
+  (choice.text("on") == "box" ? physics.box.free : physics.grains.free).push_back({newton, index});
 }
 
 /// Between impacts the hard engine knows the grains' motion in closed form; a force that follows a grain

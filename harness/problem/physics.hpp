@@ -53,7 +53,6 @@ struct Harmonic {
 struct FreeForce {
   std::function<double(double x, double v, double t)> newton;
   int effect = -1;
-  bool of_time_only = false;  ///< depends on neither x nor v
 };
 
 /// Forces on the box besides the linear spring and the grains. Each effect's index is its line in the ledger,

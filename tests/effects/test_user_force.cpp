@@ -53,7 +53,6 @@ TEST(UserForce, EvaluatesTheFormulaInSi) {
   EXPECT_EQ(physics.box.free[0].effect, 0);
   EXPECT_DOUBLE_EQ(physics.box.free[0].newton(0.05, 0.7, 3),
                    -0.4 * 0.7 * std::exp(-std::pow(0.005 / 0.012, 2)));
-  EXPECT_FALSE(physics.box.free[0].of_time_only);
 }
 
 TEST(UserForce, ActsOnGrainsWhenAsked) {
@@ -61,7 +60,6 @@ TEST(UserForce, ActsOnGrainsWhenAsked) {
       physics_of(parse_setup(setup_text("0.01*sin(2*_pi*t)", "on = \"grains\"\n"), "s", all_effects()));
   ASSERT_EQ(physics.grains.free.size(), 1u);
   EXPECT_TRUE(physics.box.free.empty());
-  EXPECT_TRUE(physics.grains.free[0].of_time_only);
   EXPECT_NEAR(physics.grains.free[0].newton(0, 0, 0.25), 0.01, 1e-17);
 }
 
