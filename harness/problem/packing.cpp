@@ -177,7 +177,9 @@ bool relax(const Setup& setup, const std::vector<double>& radius, std::vector<Ve
       }
       // a box hardly wider than the grain leaves less than this margin
       const Vec3 room = (half.array() - radius[i] - 1e-6).max(0);
-      centres[i] = centres[i].cwiseMin(room).cwiseMax(-room);
+      const Vec3 inside = centres[i].cwiseMin(room).cwiseMax(-room);
+      overlapping = overlapping || inside != centres[i];  // perhaps into another
+      centres[i] = inside;
     }
     if (!overlapping) return true;
   }

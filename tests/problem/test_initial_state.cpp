@@ -125,6 +125,15 @@ TEST(InitialState, UnequalGrainsNeitherOverlapNorStickOut) {
   EXPECT_THROW(initial_state(dense), InputError);
 }
 
+// Grains pushed back from the wall, and nothing else to relax: they may come to lie in others.
+TEST(InitialState, GrainsSlightlyUnequalDoNotOverlapBehindTheWall) {
+  for (const double deviation : {5e-4, 2e-3, 5e-3})
+    for (int run = 0; run < 100; ++run) {
+      const shakedown::Setup setup = unequal(deviation);
+      EXPECT_LE(deepest_overlap(setup, initial_state(setup, run)), 1e-15) << deviation << ' ' << run;
+    }
+}
+
 TEST(InitialState, ABoxHardlyWiderThanAGrainHoldsIt) {
   for (const Packing packing : {Packing::random, Packing::spread}) {
     shakedown::Setup setup;
