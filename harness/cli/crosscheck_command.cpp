@@ -112,8 +112,8 @@ int run(const CrosscheckArguments& arguments) {
     }
     fmt::print(arguments.json.for_people(), "{}\n", readable_crosscheck(found.back()));
     if (folder) write_folder(*folder, found, arguments.limit);
-    differ = differ || found.back().any(Verdict::differ);
-    cannot_tell = cannot_tell || found.back().any(Verdict::cannot_tell);
+    differ = differ || found.back().any(Agreement::differ);
+    cannot_tell = cannot_tell || found.back().any(Agreement::cannot_tell);
   }
   if (options.engines.size() > 1)
     fmt::print(arguments.json.for_people(), "{}\n",

@@ -49,12 +49,25 @@ void refuse_unknown_runs(const Experiment& experiment, const std::vector<std::st
   if (!found.empty()) throw InputError(std::move(found));
 }
 
+/// A regression on as many simulations as it has terms leaves nothing between them: what is chaos would seem
+/// known. Rounds on the way make half the simulations, 64 at least.
+void refuse_too_few_simulations(const std::vector<Knob>& knobs, int count) {
+  const int terms = static_cast<int>(
+      regression_terms(knobs, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs.size()))).size());
+  if (std::min(count, std::max(64, count / 2)) >= 2 * terms) return;
+  throw InputError({{{"--runs", 0, 0},
+                     fmt::format("{}", count),
+                     fmt::format("is too few for {} keys (a regression of {} terms)", knobs.size(), terms),
+                     fmt::format("give {} or more, or fit fewer keys", terms > 32 ? 4 * terms : 2 * terms)}});
+}
+
 class Fitter {
  public:
   Fitter(const Setup& setup, const Experiment& experiment, std::vector<Knob> knobs, const Engine& engine,
          const FitOptions& options)
       : setup_(setup), knobs_(std::move(knobs)), start_(knobs_), options_(options) {
     refuse_unknown_runs(experiment, options.on);
+    refuse_too_few_simulations(knobs_, options.count);
     const std::vector<MeasuredFeatures> all =
         features_of(experiment, audit(experiment), setups_of_runs(setup, experiment, options.known));
     for (const MeasuredFeatures& run : all) {

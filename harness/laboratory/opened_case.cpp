@@ -62,7 +62,7 @@ std::set<std::string> with_look_alikes(const Json& diagnosis, const Names& missi
   return names;
 }
 
-Judgement judgement_of(const Json& diagnosis, const OpenedCase& one) {
+TrialJudgement judgement_of(const Json& diagnosis, const OpenedCase& one) {
   return judge(one.hidden, !one.laboratory.empty(), verdict_of(diagnosis.at("verdict")),
                diagnosis.at("missing").get<Names>());
 }
@@ -104,7 +104,8 @@ void read_answer(const Json& answer, OpenedCase& one) {
 
 /// A diagnosis that broke down is a wrong answer.
 void read_answer_with_more_runs(const Json& answer, OpenedCase& one) {
-  one.after_more = answer.contains("diagnosis") ? judgement_of(answer.at("diagnosis"), one) : Judgement{};
+  one.after_more =
+      answer.contains("diagnosis") ? judgement_of(answer.at("diagnosis"), one) : TrialJudgement{};
 }
 
 void open_answer(const fs::path& file, OpenedCase& one, void (*read)(const Json& answer, OpenedCase& one)) {

@@ -52,8 +52,9 @@ struct OpenedCase {
       naive;  ///< what simpler methods answer, if they were asked; empty: they broke down
   std::set<std::string> programs;  ///< that answered
 
-  Judgement judgement;
-  std::optional<Judgement> after_more;  ///< of a twin with the runs that decide, when it was asked with them
+  TrialJudgement judgement;
+  std::optional<TrialJudgement>
+      after_more;  ///< of a twin with the runs that decide, when it was asked with them
 
   bool exact() const { return judgement.named; }
   bool first_suspects_family_is_right() const;

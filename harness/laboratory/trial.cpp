@@ -25,12 +25,12 @@ Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools) {
   return diagnose(trial.hidden.believed, measured_in(trial, tools), *tools.model, options);
 }
 
-Judgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict,
-                const std::vector<std::string>& missing) {
+TrialJudgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict,
+                     const std::vector<std::string>& missing) {
   std::set<std::string> found(missing.begin(), missing.end());
   found.erase("initial_packing");  // a nuisance, not physics
   const std::set<std::string> truth(hidden.begin(), hidden.end());
-  Judgement judgement;
+  TrialJudgement judgement;
   judgement.detected = verdict == Verdict::missing || verdict == Verdict::unknown;
   judgement.invented = std::any_of(found.begin(), found.end(),
                                    [&](const std::string& effect) { return !truth.contains(effect); });
@@ -51,7 +51,7 @@ Power power_of(Trial trial, int repeats, const TrialTools& tools,
   int detected = 0, named = 0;
   for (int i = 0; i < repeats; ++i, ++trial.seed) {
     const Diagnosis diagnosis = diagnose_trial(trial, tools);
-    const Judgement judgement =
+    const TrialJudgement judgement =
         judge(hidden, has_other_parameters(trial.hidden), diagnosis.verdict, diagnosis.missing);
     detected += judgement.detected;
     named += judgement.named;

@@ -37,15 +37,15 @@ Experiment measured_in(const Trial& trial, const TrialTools& tools);
 Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools);
 
 /// What somebody who knows the answer says of a diagnosis.
-struct Judgement {
+struct TrialJudgement {
   bool detected = false;  ///< it says that something is missing, known or unknown
   bool named =
       false;  ///< verdict and missing effects are exactly the hidden ones (of a hidden formula: "unknown")
   bool invented = false;  ///< an effect among the missing ones that is not hidden
 };
 /// With nothing hidden "adequate" and "refit" are right, with other parameters "refit" alone.
-Judgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict,
-                const std::vector<std::string>& missing);
+TrialJudgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict,
+                     const std::vector<std::string>& missing);
 
 /// What repeated trials of one hidden case come to.
 struct Power {

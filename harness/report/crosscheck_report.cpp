@@ -73,8 +73,8 @@ Report report_of(const std::vector<Crosscheck>& crosschecks, const Setup& last_s
   int compared = 0;
   for (const Crosscheck& check : crosschecks) {
     report.title += (report.title.empty() ? "" : ", ") + check.name;
-    differ = differ || check.any(Verdict::differ);
-    open = open || check.any(Verdict::cannot_tell);
+    differ = differ || check.any(Agreement::differ);
+    open = open || check.any(Agreement::cannot_tell);
     compared += static_cast<int>(check.comparisons.size());
     ReportSection section;
     section.title = check.name;

@@ -101,7 +101,7 @@ void compare(const EngineResult& first, const EngineResult& second, const Setup&
     const Statistic &one = first.numbers[i], &other = second.numbers[i];
     const double slope = one.n > 0 ? one.mean : other.n > 0 ? other.mean : 0;
     const Equivalence found = equivalence_of(one, other, margin_of(numbers[i], margins, setup, slope));
-    if (found.verdict != Verdict::no_number)
+    if (found.verdict != Agreement::no_number)
       comparisons.push_back({first.engine, second.engine, &numbers[i], found});
   }
 }
@@ -161,7 +161,7 @@ double ContactTimeLimit::Value::deviation() const {
   return (at_zero - hard.mean) / std::hypot(error, hard.sd / std::sqrt(hard.n));
 }
 
-bool Crosscheck::any(Verdict verdict) const {
+bool Crosscheck::any(Agreement verdict) const {
   return std::ranges::any_of(
       comparisons, [&](const Comparison& comparison) { return comparison.found.verdict == verdict; });
 }

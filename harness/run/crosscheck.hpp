@@ -81,7 +81,7 @@ struct Crosscheck {
   std::vector<Comparison> comparisons;  ///< of every pair, numbers that neither has left out
   std::optional<ContactTimeLimit> limit;
 
-  bool any(Verdict verdict) const;
+  bool any(Agreement verdict) const;
 };
 
 /// Throws InputError for what an engine does not model or a name that is none, what engines throw, and

@@ -29,20 +29,20 @@ double welch_degrees_of_freedom(double first, int first_n, double second, int se
   return sum * sum / (first * first / (first_n - 1) + second * second / (second_n - 1));
 }
 
-Verdict verdict_of(const Equivalence& found) {
-  if (found.low >= -found.margin && found.high <= found.margin) return Verdict::equivalent;
-  if (found.low > found.margin || found.high < -found.margin) return Verdict::differ;
-  return Verdict::cannot_tell;
+Agreement verdict_of(const Equivalence& found) {
+  if (found.low >= -found.margin && found.high <= found.margin) return Agreement::equivalent;
+  if (found.low > found.margin || found.high < -found.margin) return Agreement::differ;
+  return Agreement::cannot_tell;
 }
 
 }  // namespace
 
-const char* to_string(Verdict verdict) {
+const char* to_string(Agreement verdict) {
   switch (verdict) {
-    case Verdict::equivalent: return "equivalent";
-    case Verdict::differ: return "differ";
-    case Verdict::cannot_tell: return "cannot tell";
-    case Verdict::no_number: return "no such number";
+    case Agreement::equivalent: return "equivalent";
+    case Agreement::differ: return "differ";
+    case Agreement::cannot_tell: return "cannot tell";
+    case Agreement::no_number: return "no such number";
   }
   EXPECT(!"a verdict");
   return "";
@@ -64,7 +64,7 @@ Equivalence equivalence_of(const Statistic& first, const Statistic& second, doub
   Equivalence found;
   found.margin = margin;
   if (first.n == 0 && second.n == 0) return found;
-  found.verdict = Verdict::cannot_tell;
+  found.verdict = Agreement::cannot_tell;
   found.difference = first.mean - second.mean;
   if (first.n < 2 || second.n < 2) return found;
   const double a = first.sd * first.sd / first.n, b = second.sd * second.sd / second.n;
@@ -77,19 +77,19 @@ Equivalence equivalence_of(const Statistic& first, const Statistic& second, doub
   found.high = found.difference + half;
   found.verdict = verdict_of(found);
   const double room = std::abs(margin - std::abs(found.difference));
-  if (found.verdict == Verdict::cannot_tell && room > 0)
+  if (found.verdict == Agreement::cannot_tell && room > 0)
     found.runs_needed = std::ceil(std::min(first.n, second.n) * std::pow(half / room, 2));
   return found;
 }
 
 std::string in_words(const Equivalence& found) {
   switch (found.verdict) {
-    case Verdict::differ:
+    case Agreement::differ:
       if (found.standard_error > 0)
         return fmt::format("differ by {:.1f} standard errors",
                            std::abs(found.difference) / found.standard_error);
       return "differ (no spread over the runs)";
-    case Verdict::cannot_tell:
+    case Agreement::cannot_tell:
       if (found.runs_needed > 0 && found.runs_needed < 1e5)
         return fmt::format("cannot tell: more runs (about {:.0f})", found.runs_needed);
       return "cannot tell: more runs";

@@ -8,17 +8,17 @@
 
 namespace shakedown {
 
-enum class Verdict {
+enum class Agreement {
   equivalent,   ///< the 95 % interval of the difference lies inside +-margin
   differ,       ///< it lies outside
   cannot_tell,  ///< it reaches over the margin's edge, or a sample has fewer than two values: more runs
   no_number     ///< neither sample has such a number
 };
-const char* to_string(Verdict verdict);
+const char* to_string(Agreement verdict);
 
 /// Difference of the means of two independent samples and its Welch interval; all in the unit of the samples.
 struct Equivalence {
-  Verdict verdict = Verdict::no_number;
+  Agreement verdict = Agreement::no_number;
   double difference = std::numeric_limits<double>::quiet_NaN();      ///< first - second
   double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< NaN when it cannot be told
   double low = std::numeric_limits<double>::quiet_NaN();             ///< ends of the 95 % interval

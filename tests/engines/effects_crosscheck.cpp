@@ -41,8 +41,8 @@ const std::array<Quantity, 5> quantities{{
 }};
 
 const char* in_a_word(const Equivalence& found) {
-  if (found.verdict == Verdict::equivalent) return "equal";
-  return found.verdict == Verdict::differ ? "DIFFER" : "open";
+  if (found.verdict == Agreement::equivalent) return "equal";
+  return found.verdict == Agreement::differ ? "DIFFER" : "open";
 }
 
 /// "none", the name of an effect, or keys with their values, separated by commas.

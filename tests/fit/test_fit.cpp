@@ -111,6 +111,11 @@ TEST(Fit, BadInput) {
       free_parameters("grain_friction.grain_grain&grain_friction.grain_wall", believed(), all_effects());
   ASSERT_EQ(together.size(), 1u);
   EXPECT_EQ(together[0].low, 0);
+  // nine keys: 55 terms, and 80 simulations in a round
+  EXPECT_THROW(fitted("restitution.grain_grain,restitution.grain_wall,spring.frequency,box.mass,grains.mass,"
+                      "blade_viscous_damping.damping,spring_cubic.coefficient,clamp_dry_friction.force,"
+                      "blade_quadratic_drag.drag"),
+               InputError);
 }
 
 TEST(SlowFit, TheSoftEnginesDamperIsFittedByTheHardOne) {

@@ -57,7 +57,7 @@ TEST(Shares, UniformValuesHaveUniformPValuesAndOthersHaveNone) {
   EXPECT_NEAR(uniformity_p_value(shifted), 0.05, 0.004);
 }
 
-TEST(Judgement, IsThatOfSomebodyWhoKnowsTheAnswer) {
+TEST(TrialJudgement, IsThatOfSomebodyWhoKnowsTheAnswer) {
   EXPECT_TRUE(judge({}, false, Verdict::adequate, {}).named);
   EXPECT_TRUE(judge({}, false, Verdict::refit, {}).named);
   EXPECT_FALSE(judge({}, true, Verdict::adequate, {}).named);

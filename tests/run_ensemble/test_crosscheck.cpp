@@ -44,6 +44,6 @@ TEST(Crosscheck, AnEngineIsEquivalentToItself) {
   ASSERT_EQ(found.comparisons.size(), 4u);  // too short for a frequency
   for (const Comparison& comparison : found.comparisons) {
     EXPECT_EQ(comparison.found.difference, 0);
-    EXPECT_EQ(comparison.found.verdict, Verdict::equivalent) << comparison.number->key;
+    EXPECT_EQ(comparison.found.verdict, Agreement::equivalent) << comparison.number->key;
   }
 }
