@@ -190,8 +190,7 @@ int compare(const CompareArguments& arguments) {
     decays = compare_decay(experiment, found, setups, workshop, std::min(32, arguments.runs), 1);
   }
   const MomentumAudit momentum = audit_momentum(experiment, found, setups);
-  const bool holds =
-      fit.p_value > 0.01 && (!momentum.possible || momentum.as_given.p_value > MomentumOptions{}.reject_p);
+  const bool holds = fit.p_value > rejected && momentum.holds();
   const std::string document = json_of(fit, momentum, decays, holds).dump(2) + "\n";
   fmt::print(arguments.json.for_people(), "{}", readable(fit, momentum, decays, holds));
   if (folder) folder->write("compare.json", document);

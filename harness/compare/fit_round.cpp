@@ -101,27 +101,21 @@ void FitRound::hold_out(Refit& result, const std::vector<Rule>& rules) const {
   for (const MeasuredFeatures& m : measured_)
     if (std::find(lengths.begin(), lengths.end(), m.setup.box.length) == lengths.end())
       lengths.push_back(m.setup.box.length);
-  result.held_out_error_box = result.held_out_error_centre = result.held_out_chi2 =
-      result.judged_held_out_chi2 = std::nan("");
+  result.held_out_error_box = result.judged_held_out_chi2 = std::nan("");
   if (lengths.size() < 2) return;
-  double box = 0, centre = 0, chi2 = 0, judged = 0;
+  double box = 0, judged = 0;
   for (const double length : lengths) {
     std::vector<char> used;
     for (const MeasuredFeatures& m : measured_) used.push_back(m.setup.box.length != length);
     const Minimum minimum = minimum_of(objective_of(measured_values(), true, used), reach, 2);
     for (std::size_t r = 0; r < measured_.size(); ++r) {
       if (used[r]) continue;
-      const RunComparison left_out = comparison(r, minimum.z);
-      box += left_out.error_box * left_out.error_box;
-      centre += left_out.error_centre * left_out.error_centre;
-      chi2 += left_out.chi2;
+      box += std::pow(comparison(r, minimum.z).error_box, 2);
       judged += judged_chi2(r, minimum.z, rules[r]);
     }
   }
   const double count = static_cast<double>(measured_.size());
   result.held_out_error_box = std::sqrt(box / count);
-  result.held_out_error_centre = std::sqrt(centre / count);
-  result.held_out_chi2 = chi2;
   result.judged_held_out_chi2 = judged;
 }
 

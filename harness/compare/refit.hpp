@@ -30,6 +30,9 @@ struct RunComparison {
 /// Fills in errors and floors, rms over the features of each observable, from residual and spread.
 void set_errors(RunComparison& run, const FeaturePlan& plan);
 
+/// A model of this p-value or less is rejected.
+constexpr double rejected = 0.01;
+
 struct Refit {
   std::vector<Knob> knobs;
   Eigen::VectorXd least_known;  ///< a standard error along the direction in which the knobs are known least,
@@ -43,13 +46,12 @@ struct Refit {
   double scatter = 1;  ///< chi2 over the median of the pseudo-experiments'
   std::vector<RunComparison> runs;
   std::vector<FailureCell> cells;  ///< worst first
-  /// Each box length predicted from a fit to the others, rms, m; NaN with one length only.
-  double held_out_error_box = 0, held_out_error_centre = 0;
-  double held_out_chi2 = 0;                        ///< sum over the lengths left out
+  /// Each box length predicted from a fit to the others, rms of the box, m; NaN with one length only.
+  double held_out_error_box = 0;
   double promised_scatter = 1, promised_chi2 = 0;  ///< `scatter` and `judged_chi2` by the emulator, where
                                                    ///< simulations at the solution have judged
-  /// chi2 and held_out_chi2 in the covariances of RefitOptions::judged_by, so that rivals are measured with
-  /// one rule.
+  /// chi2, and its sum over the lengths left out, in the covariances of RefitOptions::judged_by, so that
+  /// rivals are measured with one rule.
   double judged_chi2 = 0, judged_held_out_chi2 = 0;
   double error_box() const;
   double error_centre() const;

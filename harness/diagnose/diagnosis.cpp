@@ -233,7 +233,7 @@ void Pipeline::judge() {
   result_.ladder.push_back(step_of("as given", given));
   final_ = given;
   note_failures(given);
-  const bool adequate = given.p_value > holds && momentum_clean();
+  const bool adequate = given.p_value > holds && result_.momentum.holds();
   if (adequate && given.p_value > holds_well) return accept_as_given(given);
   // A force that no list has: the balance names it, and no ensemble can.
   if (result_.momentum.unexplained || result_.momentum.unlisted) return conclude_unknown();

@@ -252,7 +252,7 @@ MomentumAudit audit_momentum(const std::vector<MomentumRun>& runs, const Plateau
       audit.terms[i].look_alikes.insert(audit.terms[i].look_alikes.end(), alike[i + 1].begin(),
                                         alike[i + 1].end());
   }
-  audit.unexplained = audit.final_fit.p_value < options.reject_p;
+  audit.unexplained = audit.final_fit.p_value <= balance_rejected;
   return audit;
 }
 

@@ -64,6 +64,10 @@ struct RunBalance {
   double missing_force_noise = 0;  ///< N, one standard deviation of a window's mean force
 };
 
+/// A balance of this p-value or less is not in order: one experiment in a hundred lies below 0.01 by chance,
+/// and "unknown" is a grave word.
+constexpr double balance_rejected = 1e-3;
+
 struct MomentumAudit {
   bool possible = false;
   std::string why_not;                                          ///< when there is no run with both positions
@@ -82,14 +86,14 @@ struct MomentumAudit {
   bool unexplained = false;           ///< no set of known terms brings the balance into order
   bool only_moving = false;           ///< windows at rest left out, because a dry friction sticks there
   double reference_displacement = 0;  ///< m, of spring_cubic, where runs have releases of their own; else 0
+  /// The setup's own balance is in order, or there is none.
+  bool holds() const { return !possible || as_given.p_value > balance_rejected; }
 };
 
 struct MomentumOptions {
   double window_periods = 0.6;  ///< length of a window in periods of the empty box (0.5 s at 1.23 Hz)
   double hop = 0.25;            ///< of a window
   double accept_p = 0.01;       ///< below: formulas are looked for
-  double reject_p = 1e-3;  ///< below: not explained; one experiment in a hundred lies below 0.01 by chance,
-                           ///< and "unknown" is a grave word
   int most_terms = 6;
   int most_sines = 2;
   bool formulas = true;                                   ///< false: known terms alone

@@ -11,8 +11,6 @@
 
 namespace shakedown {
 
-/// Below this a model is rejected.
-constexpr double rejected = 0.01;
 /// Above this the model as given holds, and above the other nobody looks for what a single effect would take
 /// away.
 constexpr double holds = 0.03, holds_well = 0.3;
@@ -59,10 +57,6 @@ class Pipeline {
 
  private:
   // diagnosis.cpp: the course of it
-  bool momentum_clean() const {
-    return !result_.momentum.possible || result_.momentum.as_given.p_value > MomentumOptions{}.reject_p;
-  }
-
   std::vector<MeasuredFeatures> features() const {
     return features_of(experiment_, audit_, setups_of_runs(base_, experiment_, options_.known));
   }

@@ -68,7 +68,7 @@ std::vector<ReportFact> facts_of(const Fit& fit) {
   }
   facts.push_back({"Fit", "p = " + for_people(fit.p_value),
                    for_people(fit.scatter) + " times the misfit of the model's own runs",
-                   fit.p_value > 0.01 ? Tone::good : Tone::bad});
+                   fit.p_value > rejected ? Tone::good : Tone::bad});
   facts.push_back(
       {"Simulations", fmt::format("{}", fit.runs), fmt::format("in {:.0f} s", fit.seconds), Tone::plain});
   return facts;
@@ -83,8 +83,8 @@ Report report_of(const Fit& fit, const Experiment& experiment,
   report.title = experiment.title.empty() ? experiment.file : experiment.title;
   const auto untold = std::count_if(fit.parameters.begin(), fit.parameters.end(),
                                     [](const FittedParameter& p) { return !p.told; });
-  report.verdict = fit.p_value <= 0.01 ? "No values fit" : untold > 0 ? "Not all is told" : "Fitted";
-  report.tone = fit.p_value <= 0.01 ? Tone::bad : untold > 0 ? Tone::unsure : Tone::good;
+  report.verdict = fit.p_value <= rejected ? "No values fit" : untold > 0 ? "Not all is told" : "Fitted";
+  report.tone = fit.p_value <= rejected ? Tone::bad : untold > 0 ? Tone::unsure : Tone::good;
   report.sentence = headline(fit) + " Values: ";
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
     report.sentence += (i > 0 ? "; " : "") + fit.parameters[i].key + " " +

@@ -12,9 +12,7 @@ struct Rung {
   std::string effects;  ///< "plain", or those it has
   Refit fit;
   MomentumAudit momentum;
-  bool holds() const {
-    return fit.p_value > 0.01 && (!momentum.possible || momentum.as_given.p_value > 0.01);
-  }
+  bool holds() const { return fit.p_value > rejected && momentum.holds(); }
 };
 
 /// The report of a ladder; `last`: the last rung's setup.
