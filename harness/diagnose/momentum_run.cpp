@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "known_effects.hpp"
+
 namespace shakedown {
 
 namespace {
@@ -147,6 +149,8 @@ MomentumRun momentum_run(const RunAudit& audit, const MeasuredRun& measured, con
   run.grain_mass = setup.grains.count * setup.grains.mass;
   run.stiffness = physics.stiffness;
   run.displacement = setup.release.displacement;
+  if (const EffectChoice* cubic = find_choice(setup, "spring_cubic"); cubic && cubic->number("reference") > 0)
+    run.displacement = cubic->number("reference");
   for (const EffectChoice& choice : setup.effects) run.effects.emplace_back(choice.record->name);
   run.interval = audit.frame_interval;
   run.box_noise = audit.box;

@@ -121,10 +121,9 @@ std::vector<const TableColumn*> possible_positions(const Table& table) {
                                                "size*",  "area*", "energy*"};
   std::vector<const TableColumn*> columns;
   for (const TableColumn& column : table.columns) {
-    const std::string& name = column.name;
-    const bool velocity = name.find("_v_") != std::string::npos || lower(name).ends_with("_v");
+    const bool velocity = lower(column.name).ends_with("_v");
     const bool still = numbers_of(column).size() > 2 && !(range_of(column) > 0);
-    if (!velocity && !still && !names_any(name, others)) columns.push_back(&column);
+    if (!velocity && !still && !names_any(column.name, others)) columns.push_back(&column);
   }
   return columns;
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "table.hpp"
 
+#include <iconv.h>
+
 #include <algorithm>
 #include <fstream>
 #include <limits>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -58,33 +61,17 @@ bool has_decimal_comma(const std::vector<std::string_view>& sample, char delimit
   return false;
 }
 
-bool is_utf8(std::string_view text) {
-  std::size_t follow = 0;
-  for (const char letter : text) {
-    const auto byte = static_cast<unsigned char>(letter);
-    if (follow > 0) {
-      if ((byte & 0xC0) != 0x80) return false;
-      --follow;
-    } else if (byte >= 0x80) {
-      follow = (byte & 0xE0) == 0xC0 ? 1 : (byte & 0xF0) == 0xE0 ? 2 : (byte & 0xF8) == 0xF0 ? 3 : 0;
-      if (follow == 0) return false;
-    }
-  }
-  return follow == 0;
-}
-
-/// Programs of the nineties write the micro and degree signs of headers ("Slice n\xB0") as one byte.
-std::string utf8_from_latin(std::string_view text) {
-  std::string result;
-  for (const char letter : text) {
-    const auto byte = static_cast<unsigned char>(letter);
-    if (byte < 0x80) {
-      result += letter;
-    } else {
-      result += static_cast<char>(0xC0 | (byte >> 6));
-      result += static_cast<char>(0x80 | (byte & 0x3F));
-    }
-  }
+/// The text as UTF-8; nothing where it is not of this encoding (a name that iconv knows).
+std::optional<std::string> utf8_from(const char* encoding, std::string_view text) {
+  const iconv_t converter = iconv_open("UTF-8", encoding);
+  EXPECT(converter != reinterpret_cast<iconv_t>(-1));
+  std::string result(2 * text.size() + 4, '\0');
+  char *in = const_cast<char*>(text.data()), *out = result.data();
+  std::size_t in_left = text.size(), out_left = result.size();
+  const bool whole = iconv(converter, &in, &in_left, &out, &out_left) != static_cast<std::size_t>(-1);
+  iconv_close(converter);
+  if (!whole) return std::nullopt;
+  result.resize(result.size() - out_left);
   return result;
 }
 
@@ -212,13 +199,13 @@ void drop_shadow_columns(Table& table) {
 }  // namespace
 
 Table parse_table(std::string_view text, const std::string& name) {
-  if (!is_utf8(text) && !text.starts_with("\xFF\xFE") && !text.starts_with("\xFE\xFF")) {
-    Table table = parse_table(utf8_from_latin(text), name);
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    refuse(name, "is UTF-16 text (a spreadsheet's \"Unicode text\")", "save it as CSV UTF-8");
+  if (!utf8_from("UTF-8", text)) {  // micro and degree signs in one byte, as older programs write them
+    Table table = parse_table(*utf8_from("ISO-8859-1", text), name);
     table.latin = true;
     return table;
   }
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-    refuse(name, "is UTF-16 text (a spreadsheet's \"Unicode text\")", "save it as CSV UTF-8");
   const std::vector<Line> lines = lines_of(text);
   const std::vector<std::string_view> sample = sample_of(lines);
   if (sample.empty()) refuse(name, "holds no data", "give a table with at least one row");

@@ -126,6 +126,21 @@ TEST(Diagnosis, SoManyGrainsThatAnotherPackingCannotHoldThem) {
   EXPECT_NO_THROW(packing_before_release(setup, experiment, audit(experiment), all_effects()));
 }
 
+// The strength that the balance finds is that at the setup's own reference.
+TEST(Diagnosis, ACubicSpringThatTheSetupHasKeepsItsReference) {
+  const std::vector<Override> half_there{{"spring_cubic.coefficient", "0.01"},
+                                         {"spring_cubic.reference", "\"53.75 mm\""}};
+  const shakedown::Setup setup = parse_setup("", "believed", all_effects(), half_there);
+  const Experiment experiment = measured({{"spring_cubic=coefficient:0.08"}});  // 0.02 at 53.75 mm
+  const MomentumAudit found =
+      audit_momentum(experiment, audit(experiment), setups_of_runs(setup, experiment, all_effects()));
+  ASSERT_EQ(found.terms.size(), 1u);
+  EXPECT_EQ(found.terms[0].effect, "spring_cubic");
+  EXPECT_LT(found.terms[0].low, 0.01);
+  EXPECT_GT(found.terms[0].high, 0.01);
+  EXPECT_LT(found.terms[0].high, 0.02);  // 0.04 at the release
+}
+
 TEST(Diagnosis, AStrengthThatTheSetupHasIsRefittedAndNotMissing) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   DiagnoseOptions options;

@@ -165,9 +165,9 @@ TEST(EmptyBox, ShakenFromRestAtTheCentreHasItsBooksMeasured) {
     const Trajectory result = tested.make()->run(setup);
     EXPECT_EQ(result.initial_energy, 0);
     EXPECT_GT(result.health.ledger_error, 0);
-    EXPECT_LE(result.health.ledger_error, 1e-11);
+    EXPECT_LE(result.health.ledger_error, 1e-12);
     EXPECT_GT(result.health.momentum_error, 0);
-    EXPECT_LE(result.health.momentum_error, 1e-11);
+    EXPECT_LE(result.health.momentum_error, 5e-14);
   }
 }
 

@@ -305,7 +305,7 @@ TEST(SameImpacts, AtEndWallsOfADrivenBoxThroughWindows) {
     const auto all = impacts_by_end_walls(crowd, true, count, of_all),
                windows = impacts_by_end_walls(crowd, false, count, of_windows);
     for (std::size_t n = 0; n < count; ++n) {
-      ASSERT_NEAR(windows[n].time, all[n].time, 1e-11) << n;  // second
+      ASSERT_NEAR(windows[n].time, all[n].time, 1e-12) << n;  // second
       ASSERT_EQ(windows[n].grain, all[n].grain) << n;
       ASSERT_EQ(windows[n].side, all[n].side) << n;
     }

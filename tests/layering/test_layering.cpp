@@ -120,7 +120,8 @@ bool is_standard(const std::string& header) {
   static const std::set<std::string> system{
       "unistd.h",     "experimental/simd", "immintrin.h", "sys/wait.h",   "sys/types.h",
       "sys/stat.h",   "sys/mman.h",        "sys/file.h",  "sys/statfs.h", "sys/ioctl.h",
-      "sys/socket.h", "netinet/in.h",      "arpa/inet.h", "poll.h",       "fcntl.h"};
+      "sys/socket.h", "netinet/in.h",      "arpa/inet.h", "poll.h",       "fcntl.h",
+      "iconv.h"};
   return header.find_first_of("./") == std::string::npos || system.contains(header);
 }
 

@@ -51,7 +51,7 @@ TEST(Audit, GrainsTrackedInEveryFourthFrameAreKeptAndTheirNoiseFound) {
   const auto kept =
       std::count_if(audit.x_com.begin(), audit.x_com.end(), [](double x) { return std::isfinite(x); });
   EXPECT_GE(kept, 2495);  // of 2500
-  EXPECT_NEAR(audit.com.standard_deviation, 5e-4, 0.15 * 5e-4);
+  EXPECT_NEAR(audit.com.standard_deviation, 5e-4, 0.1 * 5e-4);
   EXPECT_NEAR(audit.box.standard_deviation, 2e-4, 0.08 * 2e-4);
 }
 
@@ -76,7 +76,7 @@ TEST(Audit, TheLayerOfOtherGrainsHasItsOwnThickness) {
   experiment.runs.push_back(recorded(500, 2e-4, 0, 11));
   experiment.runs.back().box_length = std::nan("");
   EXPECT_DOUBLE_EQ(audit(experiment).plateau.slope, alone);
-  EXPECT_NEAR(alone, 0.5, 0.01);
+  EXPECT_NEAR(alone, 0.5, 5e-4);
 }
 
 TEST(Audit, FindsTheColour) {

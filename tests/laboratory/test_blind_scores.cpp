@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "blind_suite.hpp"
-
+// A blind suite answered and scored: on answers written by hand, and the whole way.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "blind_suite.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
-#include "force_likeness.hpp"
 #include "naive_answers.hpp"
 #include "scratch_folder.hpp"
-#include "signal_law.hpp"
 #include "toml_document.hpp"
 
 using namespace shakedown;
@@ -21,155 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<BlindCase> drawn(std::uint64_t seed = 1, const BlindCounts& counts = full_counts) {
-  SignalLaws unit;
-  for (const std::vector<Hideable>* list : {&hideable_effects(), &hideable_forces()})
-    for (const Hideable& hideable : *list) unit[std::string(hideable.id)] = {1, 20};
-  return draw_cases(shakedown::Setup{}, counts, full_design(), unit, seed, all_effects());
-}
-
 void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
-
-}  // namespace
-
-TEST(Hideable, EveryOneCanBePutIntoASetupAtAnyStrengthUpToItsStrongest) {
-  for (const std::vector<Hideable>* list : {&hideable_effects(), &hideable_forces()})
-    for (const Hideable& hideable : *list)
-      for (const double part : {0.02, 0.3, 1.0}) {
-        const shakedown::Setup setup =
-            changed({}, at_strength(hideable, part * hideable.strongest), all_effects());
-        ASSERT_EQ(setup.effects.size(), 1u) << hideable.id;
-        EXPECT_EQ(setup.effects[0].record->name, hideable.effect);
-      }
-}
-
-TEST(Hideable, FamiliesHoldLookAlikes) {
-  EXPECT_EQ(family_of("blade_viscous_damping"), family_of("clamp_dry_friction"));
-  EXPECT_EQ(family_of("camera_com_bias"), family_of("blade_mass"));
-  EXPECT_NE(family_of("grain_friction"), family_of("blade_viscous_damping"));
-  EXPECT_EQ(family_of("an effect of tomorrow"), "an effect of tomorrow");
-}
-
-TEST(BlindCases, AreAsManyOfEachKindAsAskedForUnderNamesThatTellNothing) {
-  const std::vector<BlindCase> cases = drawn();
-  std::map<BlindKind, int> count;
-  std::set<std::string> names;
-  int nulls_first = 0;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    ++count[cases[i].kind];
-    names.insert(cases[i].name);
-    nulls_first += i < 60 && cases[i].kind == BlindKind::null;
-  }
-  EXPECT_EQ(names.size(), 344u);
-  EXPECT_EQ(count[BlindKind::single], 120);
-  EXPECT_EQ(count[BlindKind::twins], 20);
-  EXPECT_LT(nulls_first, 25);  // 10.5 +- 2.7 expected of a shuffle
-}
-
-TEST(BlindCases, AreTheSameForTheSameSeedAndDifferentForAnother) {
-  const std::vector<BlindCase> one = drawn(1), same = drawn(1), other = drawn(2);
-  int differ = 0;
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    EXPECT_EQ(digest(one[i].trial.hidden.truth), digest(same[i].trial.hidden.truth));
-    EXPECT_EQ(one[i].trial.seed, same[i].trial.seed);
-    differ += digest(one[i].trial.hidden.truth) != digest(other[i].trial.hidden.truth);
-  }
-  EXPECT_GT(differ, 340);
-}
-
-TEST(BlindCases, HideWhatTheirKindSays) {
-  std::set<std::string> singles;
-  for (const BlindCase& one : drawn()) {
-    const std::vector<std::string> hidden = hidden_effects(one.trial.hidden);
-    EXPECT_EQ(has_other_parameters(one.trial.hidden), one.kind != BlindKind::null) << one.name;
-    EXPECT_EQ(hidden.size(), one.ids.size()) << one.name;
-    if (one.kind == BlindKind::single) singles.insert(one.ids.at(0));
-    const bool fits = one.kind == BlindKind::pair       ? hidden.size() == 2
-                      : one.kind == BlindKind::unlisted ? hidden.at(0) == "unknown"
-                      : one.kind == BlindKind::camera   ? hidden.at(0).starts_with("camera")
-                                                        : hidden.size() < 2;
-    EXPECT_TRUE(fits) << one.name;
-    EXPECT_EQ(one.twin.empty(), one.kind != BlindKind::twins);
-  }
-  EXPECT_EQ(singles.size(), 15u);
-}
-
-TEST(BlindCases, FifteenMeetEveryEffectAndSixtyMeetEachAtEverySignal) {
-  const auto met = [](int singles) {
-    std::set<std::string> effects;
-    std::set<std::pair<std::string, double>> at_signals;
-    for (const BlindCase& one : drawn(1, {0, 0, singles, 0, 0, 0, 0})) {
-      effects.insert(one.ids.at(0));
-      at_signals.insert({one.ids.at(0), one.signal_to_noise});
-    }
-    return std::pair(effects.size(), at_signals.size());
-  };
-  EXPECT_EQ(met(15).first, 15u);
-  EXPECT_EQ(met(60).second, 60u);
-}
-
-TEST(BlindCases, AreAtTheSignalsOfTheDesign) {
-  BlindDesign design = full_design();
-  design.signals = {9};
-  const SignalLaws viscous{{"blade_viscous_damping", {1, 20}}};
-  int met = 0;
-  for (const BlindCase& one : draw_cases({}, {0, 0, 30, 0, 0, 0, 0}, design, viscous, 1, all_effects())) {
-    if (one.ids.at(0) != "blade_viscous_damping") continue;
-    ++met;
-    EXPECT_NEAR(one.signal_to_noise, 9, 1e-12);
-  }
-  EXPECT_EQ(met, 2);
-}
-
-TEST(SignalLaw, IsAPowerOfTheStrengthAndOfTheBalanceAloneInverseToTheNoise) {
-  const SignalLaw contact{3, 18, 2, false}, force{0.1, 20, 1, true};
-  EXPECT_NEAR(contact.signal_at(1.5, 2), 4.5, 1e-12);
-  EXPECT_NEAR(contact.strength_for(4.5, 2), 1.5, 1e-12);
-  EXPECT_NEAR(force.signal_at(0.2, 2), 20, 1e-12);
-  EXPECT_NEAR(force.strength_for(20, 2), 0.2, 1e-12);
-}
-
-TEST(SignalLaw, NoiseCountsWithTheMassesThatTheBalanceMultipliesItBy) {
-  const shakedown::Setup setup;
-  RecordingSettings camera;
-  EXPECT_DOUBLE_EQ(relative_noise(camera, setup), 1);
-  camera.box_noise *= 3, camera.centre_noise *= 3;
-  EXPECT_NEAR(relative_noise(camera, setup), 3, 1e-12);
-  camera.centre = false;
-  // 3 M s_b / hypot(M s_b, N m s_c) with M = 434 g, N m = 149.48 g, s_b = .2 mm, s_c = .5 mm
-  EXPECT_NEAR(relative_noise(camera, setup), 3 * 86.8 / std::hypot(86.8, 74.74), 1e-6);
-}
-
-TEST(BlindCases, StrengthsGiveTheSignalOfTheTable) {
-  for (const BlindCase& one : drawn()) {
-    if (one.kind != BlindKind::single || one.ids[0] != "blade_viscous_damping") continue;
-    // Typical strength (0.05 N s/m) has a signal of 20 in this table.
-    EXPECT_NEAR(get_number(one.trial.hidden.truth, "blade_viscous_damping.damping"),
-                0.05 * one.signal_to_noise / 20, 1e-12);
-  }
-}
-
-TEST(BlindCases, AVariantIsTheSameDesignRecordedWorse) {
-  const BlindDesign design = full_design();
-  EXPECT_EQ(varied(design, "one-repeat").runs.size(), 4u);
-  EXPECT_EQ(varied(design, "two-lengths").runs.size(), 2u);
-  EXPECT_EQ(varied(design, "two-lengths").runs.back().name, "L104");
-  EXPECT_EQ(varied(design, "half-duration").runs.front().overrides.back().value, "\"10 s\"");
-  EXPECT_EQ(varied(design, "250fps").recording.frame_rate, 250);
-  EXPECT_FALSE(varied(design, "no-centre").recording.centre);
-  EXPECT_THROW(varied(design, "no-camera"), InputError);
-  for (const std::string_view name : variant_names) EXPECT_NO_THROW(varied(design, name));
-}
-
-TEST(BlindCases, CountsAreReadOrRefusedWithTheReason) {
-  EXPECT_EQ(parse_counts("singles=3, nulls=2"), (BlindCounts{2, 0, 3, 0, 0, 0, 0}));
-  EXPECT_THROW(parse_counts("single=3"), InputError);
-  EXPECT_THROW(parse_counts("singles=many"), InputError);
-}
-
-// ---- scoring, on answers written by hand ----
-
-namespace {
 
 /// A suite of `counts` whose plan and seals exist, each answer written by `answer`.
 void answered(const fs::path& folder, const BlindCounts& counts,
@@ -219,6 +67,12 @@ const BlindFigure& figure(const BlindScore& score, const std::string& what) {
   for (const BlindFigure& one : score.figures)
     if (one.what.starts_with(what)) return one;
   throw std::runtime_error("no figure " + what);
+}
+
+/// Of cases that are all answered: nothing is simulated.
+void run_suite(const fs::path& folder, const BlindSuiteOptions& options) {
+  const auto hard = engine_named("hard");
+  run_blind_suite(folder, {}, {hard.get(), hard.get(), all_effects(), 100, 1, nullptr}, options);
 }
 
 /// What an InputError says.
@@ -291,14 +145,12 @@ TEST(BlindScores, ASealedAnswerThatWasTouchedIsRefused) {
 
 TEST(BlindScores, ATableOfStrengthsThatIsNoneIsNamed) {
   const ScratchFolder folder;
-  const auto hard = engine_named("hard");
-  const TrialTools tools{hard.get(), hard.get(), all_effects(), 100, 1, nullptr};
   BlindSuiteOptions options;
   options.strengths = folder / "old.json";
   for (const std::string text : {R"({"signals": {"camera_scale": 3}})", R"({"strengths": {}})", "no table"}) {
     write(options.strengths, text);
     try {
-      run_blind_suite(folder / "suite", {}, tools, options);
+      run_suite(folder / "suite", options);
       ADD_FAILURE() << text;
     } catch (const InputError& error) {
       EXPECT_EQ(error.violations.front().place.file, options.strengths.string());
@@ -310,19 +162,15 @@ TEST(BlindScores, AFolderHoldsOneSuite) {
   const ScratchFolder folder;
   answered(folder.path(), {1, 0, 0, 0, 0, 0, 0},
            [](const nlohmann::json&) { return answer_of("adequate", {}); });
-  const auto hard = engine_named("hard");
-  const TrialTools tools{hard.get(), hard.get(), all_effects(), 100, 1, nullptr};
   BlindSuiteOptions options;
   options.counts = {1, 0, 0, 0, 0, 0, 0};
   options.small = true;
-  EXPECT_THROW(run_blind_suite(folder.path(), {}, tools, options), InputError);  // without resume
+  EXPECT_THROW(run_suite(folder.path(), options), InputError);  // without resume
   options.resume = true;
-  // all is answered: nothing is simulated
-  EXPECT_NO_THROW(run_blind_suite(folder.path(), {}, tools, options));
+  EXPECT_NO_THROW(run_suite(folder.path(), options));
   options.seed = 2;
-  EXPECT_NE(
-      refusal([&] { run_blind_suite(folder.path(), {}, tools, options); }).find("--seed (1 there, 2 here)"),
-      std::string::npos);
+  EXPECT_NE(refusal([&] { run_suite(folder.path(), options); }).find("--seed (1 there, 2 here)"),
+            std::string::npos);
 }
 
 TEST(BlindScores, WhatIsDrawnOtherwiseThanItWasSealedIsNotDiagnosed) {
@@ -332,12 +180,10 @@ TEST(BlindScores, WhatIsDrawnOtherwiseThanItWasSealedIsNotDiagnosed) {
   std::string table = read_text_file(folder / "strengths.json");
   for (std::size_t at = 0; (at = table.find("\"signal\": 20", at)) != table.npos;) table[at + 10] = '3';
   write(folder / "strengths.json", table);
-  const auto hard = engine_named("hard");
-  const TrialTools tools{hard.get(), hard.get(), all_effects(), 100, 1, nullptr};
   BlindSuiteOptions options;
   options.counts = {0, 0, 2, 0, 0, 0, 0};
   options.small = options.resume = true;
-  const std::string text = refusal([&] { run_blind_suite(folder.path(), {}, tools, options); });
+  const std::string text = refusal([&] { run_suite(folder.path(), options); });
   for (const char* word : {"plan.json", "2 of 2 cases", "case_0001", "strengths.json"})
     EXPECT_NE(text.find(word), std::string::npos) << word << " in " << text;
 }
@@ -404,6 +250,22 @@ TEST(BlindScores, ACaseLostIsWrongInEveryFigure) {
         << what << ": " << figure(score, what).found;
 }
 
+TEST(BlindScores, TwinsMayBeToldApartOrCalledAlike) {
+  const ScratchFolder folder;
+  int answers = 0;
+  // the right one alone, both as look-alikes, the wrong one
+  answered(folder.path(), {0, 0, 0, 0, 0, 0, 3}, [&](const nlohmann::json& truth) {
+    const std::string hidden = truth["hidden"][0], twin = truth["twin"];
+    const std::string named = answers == 0 ? hidden : twin;
+    auto answer = nlohmann::json::parse(answer_of("missing", {named}));
+    if (answers++ == 1) answer["diagnosis"]["ranking"] = {{{"effect", twin}, {"look_alikes", {hidden}}}};
+    return answer.dump();
+  });
+  const BlindScore score = scored(folder.path());
+  EXPECT_EQ(figure(score, "twins: both named as look-alikes").found.substr(0, 6), "1 of 3");
+  EXPECT_EQ(figure(score, "twins: both named, or the hidden one alone").found.substr(0, 6), "2 of 3");
+}
+
 TEST(BlindScores, IntervalsOfParametersAreCountedOfRightAndOfAllAnswers) {
   const ScratchFolder folder;
   int answers = 0;
@@ -455,22 +317,4 @@ TEST(SlowNaiveAnswers, NameAStrongForceAndAccuseWhereNothingIsHidden) {
   trial.hidden.truth = {};
   // chaos from run to run is no white noise
   EXPECT_NE(naive_answers({}, measured_in(trial, tools), workshop).white_noise, "");
-}
-
-TEST(ForceLikeness, IsThatOfTheShapeWithoutItsLinearPart) {
-  Trajectory motion;
-  for (int i = 0; i < 2000; ++i) {
-    const double t = 0.005 * i;
-    motion.time.push_back(t);
-    motion.x_box.push_back(0.1 * std::cos(7 * t));
-    motion.v_box.push_back(-0.7 * std::sin(7 * t));
-  }
-  const auto force = [&](const char* formula) { return force_along(formula, {{"c", 2.0}}, motion); };
-  const std::vector<double> cubic = force("-c*x^3");
-  EXPECT_NEAR(force_likeness(cubic, force("c*x^3+5*x"), motion.x_box), 1, 1e-9);
-  EXPECT_LT(force_likeness(cubic, force("-c*v"), motion.x_box), 0.05);
-  // One is even about a turning point, the other odd.
-  EXPECT_LT(force_likeness(cubic, force("-c*v^3"), motion.x_box), 0.05);
-  // v and v^3 share 3/4 of the fundamental: cos = (3/4) / sqrt(5/8) = 0.9487.
-  EXPECT_NEAR(force_likeness(force("c*v"), force("c*v^3"), motion.x_box), 0.75 / std::sqrt(0.625), 5e-3);
 }
