@@ -27,7 +27,8 @@ struct BlindCase {
   std::vector<std::string> strengths;  ///< their names in the table of signal laws
   double signal_to_noise = 0;    ///< of each hidden thing by the table of signal laws; 0: nothing hidden
   std::string twin;              ///< effect that these measurements cannot tell from the hidden one
-  std::vector<PlannedRun> more;  ///< of twins: runs that tell them apart
+  std::vector<PlannedRun> more;  ///< of twins: runs that decide, all lengths, other numbers of grains, none,
+                                 ///< half the release
 };
 
 struct BlindDesign {
@@ -40,7 +41,15 @@ BlindDesign full_design();
 /// Two short runs and strong signals, for a first look and for tests.
 BlindDesign small_design();
 
-/// Too little to tell twins apart: one length, ten seconds.
+/// What is hidden, and what imitates it so well in twin_runs() that with the truth given the two lie less
+/// than three standard errors apart (distance_of_imitation(), at twin_signal).
+struct TwinPair {
+  std::string_view hidden, twin;
+};
+const std::vector<TwinPair>& twin_pairs();
+constexpr double twin_signal = 8;
+
+/// Too little to tell twins apart: one length, one release, ten seconds.
 std::vector<PlannedRun> twin_runs();
 
 /// How a worse experiment is made of a design.

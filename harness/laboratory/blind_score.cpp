@@ -238,7 +238,7 @@ void twins(const std::vector<OpenedCase>& cases, Table& table) {
   table.beside("twins seen at all", count(cases, of_kind(BlindKind::twins),
                                           [](const OpenedCase& one) { return one.judgement.detected; }));
   table.beside(
-      "twins told apart with all lengths, other numbers of grains and an empty box",
+      "twins told apart with the runs that decide",
       count(
           cases,
           [](const OpenedCase& one) { return one.kind == BlindKind::twins && one.after_more.has_value(); },

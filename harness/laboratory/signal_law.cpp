@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "audit.hpp"
+#include "candidates.hpp"
 #include "experiment_file.hpp"
 #include "momentum.hpp"
 #include "parameter_knobs.hpp"
@@ -16,32 +17,81 @@ namespace {
 
 double kept(double chi2, double degrees) { return std::sqrt(std::max(chi2 - degrees, 0.0)); }
 
+/// The hidden case as a camera of the default noise sees it, and what of it needs no ensembles.
+struct Sight {
+  Experiment experiment;
+  Audit found;
+  std::vector<Setup> setups;
+  MomentumAudit momentum;
+};
+
+Sight sight_of(const HiddenCase& hidden, std::uint64_t seed, const std::vector<PlannedRun>& runs,
+               const TrialTools& tools) {
+  Sight sight;
+  sight.experiment = make_measurements(hidden.truth, runs, {},
+                                       {tools.laboratory, tools.known, seed, tools.threads, tools.stop});
+  sight.found = audit(sight.experiment);
+  sight.setups = setups_of_runs(hidden.believed, sight.experiment, tools.known);
+  MomentumOptions options;
+  options.formulas = false;
+  sight.momentum = audit_momentum(sight.experiment, sight.found, sight.setups, options);
+  return sight;
+}
+
+/// The free parameters, and `effects` beside them.
+Refit refit_of(const Sight& sight, const Setup& believed, const std::vector<Candidate>& effects,
+               const RefitOptions& options, const TrialTools& tools) {
+  const MomentumAudit& momentum = sight.momentum;
+  const bool told = momentum.possible && momentum.refitted.degrees > 0;
+  const double frequency = told ? momentum.frequency : believed.spring.frequency;
+  std::vector<Knob> knobs = free_parameters(believed, frequency, 0.01 * frequency);
+  std::vector<Setup> setups = sight.setups;
+  for (const Candidate& effect : effects) {
+    knobs.insert(knobs.end(), effect.fitted_knobs().begin(), effect.fitted_knobs().end());
+    for (Setup& setup : setups) setup = prepared(setup, effect, tools.known);
+  }
+  const Workshop workshop{tools.model, tools.known, tools.threads, tools.stop, {}, nullptr};
+  return refit(features_of(sight.experiment, sight.found, setups), knobs, workshop, options);
+}
+
 }  // namespace
 
 Signal signal_to_noise(const HiddenCase& hidden, std::uint64_t seed, const SignalSettings& settings,
                        const TrialTools& tools) {
-  const Laboratory laboratory{tools.laboratory, tools.known, seed, tools.threads, tools.stop};
-  const Experiment experiment = make_measurements(hidden.truth, settings.runs, {}, laboratory);
-  const Audit found = audit(experiment);
-  const std::vector<Setup> setups = setups_of_runs(hidden.believed, experiment, tools.known);
+  const Sight sight = sight_of(hidden, seed, settings.runs, tools);
+  const MomentumAudit& momentum = sight.momentum;
   const std::vector<std::string> effects = hidden_effects(hidden);
-  MomentumOptions by_balance;
-  by_balance.formulas = false;
-  const MomentumAudit momentum = audit_momentum(experiment, found, setups, by_balance);
   if (std::find(effects.begin(), effects.end(), "unknown") != effects.end())
     return {momentum.possible ? kept(momentum.final_fit.chi2, momentum.final_fit.degrees) : 0, 0};
   Signal signal;
   if (momentum.possible) signal.by_balance = kept(momentum.refitted.chi2, momentum.refitted.degrees);
   if (signal.by_balance > settings.enough) return signal;
-  const bool told = momentum.possible && momentum.refitted.degrees > 0;
-  const double frequency = told ? momentum.frequency : hidden.believed.spring.frequency;
   RefitOptions options;
   options.count = options.confirming = settings.count;
-  const Workshop workshop{tools.model, tools.known, tools.threads, tools.stop, {}, nullptr};
-  const Refit fit = refit(features_of(experiment, found, setups),
-                          free_parameters(hidden.believed, frequency, 0.01 * frequency), workshop, options);
+  const Refit fit = refit_of(sight, hidden.believed, {}, options, tools);
   signal.by_ensembles = kept(fit.chi2, fit.degrees);
   return signal;
+}
+
+double distance_of_imitation(const HiddenCase& hidden, const std::string& imitation, std::uint64_t seed,
+                             const SignalSettings& settings, const TrialTools& tools) {
+  const std::string truth = hidden_effects(hidden).at(0);
+  const Sight sight = sight_of(hidden, seed, settings.runs, tools);
+  const auto alone = [&](const std::string& effect) -> const SingleTerm* {
+    const auto found = std::find_if(sight.momentum.ranking.begin(), sight.momentum.ranking.end(),
+                                    [&](const SingleTerm& term) { return term.effect == effect; });
+    return found == sight.momentum.ranking.end() ? nullptr : &*found;
+  };
+  if (alone(truth) && alone(imitation)) return kept(alone(truth)->gain, alone(imitation)->gain);
+  RefitOptions options;
+  options.count = options.confirming = settings.count;
+  const auto with = [&](const std::string& effect) {
+    return refit_of(sight, hidden.believed, candidates_for(hidden.believed, {effect}, tools.known), options,
+                    tools);
+  };
+  const Refit as_it_is = with(truth);
+  options.judged_by = &as_it_is;
+  return kept(with(imitation).judged_chi2, as_it_is.judged_chi2);
 }
 
 double SignalLaw::signal_at(double strength_of_it, double noise) const {

@@ -29,6 +29,14 @@ struct Signal {
 Signal signal_to_noise(const HiddenCase& hidden, std::uint64_t seed, const SignalSettings& settings,
                        const TrialTools& tools);
 
+/// How far what is hidden and its best imitation by another effect lie apart in these runs, standard errors:
+/// sqrt of how much more chi2 the imitation leaves, restitutions, frequency and strength refitted, than the
+/// hidden effect itself, so with the truth given. By the balance where it sees both, else by ensembles. The
+/// setup of `hidden` has that one effect; nobody tells two apart that lie less than two or three standard
+/// errors from each other.
+double distance_of_imitation(const HiddenCase& hidden, const std::string& imitation, std::uint64_t seed,
+                             const SignalSettings& settings, const TrialTools& tools);
+
 /// Signal to noise against strength: signal (strength / here)^power, from two measurements. What the balance
 /// sees is proportional to the strength and to the inverse of the camera's noise. Inside the contacts a refit
 /// takes up the first order, so that the power may be two, and chaos from run to run is larger than the
