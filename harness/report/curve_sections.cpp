@@ -16,6 +16,31 @@ namespace shakedown {
 
 namespace {
 
+/// One of the two things that a camera follows, in measured runs and in the model's.
+struct Observable {
+  const char* name;
+  std::vector<double> MeasuredAgainstModel::*measured;
+  double MeasuredAgainstModel::*noise;
+  EnsembleCurve ModelMotion::*model;
+  std::vector<double> MeasuredAgainstModel::*residual;
+  std::vector<double> MeasuredAgainstModel::*given_residual;
+};
+constexpr Observable box{"box",
+                         &MeasuredAgainstModel::box,
+                         &MeasuredAgainstModel::box_noise,
+                         &ModelMotion::box,
+                         &MeasuredAgainstModel::box_residual,
+                         &MeasuredAgainstModel::given_box_residual};
+constexpr Observable centre{"centre of the grains",
+                            &MeasuredAgainstModel::centre,
+                            &MeasuredAgainstModel::centre_noise,
+                            &ModelMotion::centre,
+                            &MeasuredAgainstModel::centre_residual,
+                            &MeasuredAgainstModel::given_centre_residual};
+
+bool has_given(const MeasuredAgainstModel& run) { return run.as_given.runs > 0; }
+const char* final_name(const MeasuredAgainstModel& run) { return has_given(run) ? "final model" : "model"; }
+
 std::vector<double> times(double factor, std::vector<double> values) {
   for (double& value : values) value *= factor;
   return values;
@@ -31,15 +56,14 @@ bool has_numbers(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-ReportPlot position_plot(const MeasuredAgainstModel& run, const char* what,
-                         const std::vector<double>& measured, const EnsembleCurve& model,
-                         const EnsembleCurve* given) {
-  ReportPlot plot = time_plot(what, "position, mm", run.run, run.time);
+ReportPlot position_plot(const MeasuredAgainstModel& run, const Observable& of, const char* title) {
+  const EnsembleCurve& model = run.final_model.*of.model;
+  ReportPlot plot = time_plot(title, "position, mm", run.run, run.time);
   plot.curves = band("two standard deviations of a run", off(model, -2, 1e3), off(model, 2, 1e3));
-  if (given != nullptr) plot.curves.push_back({"as given", CurveRole::as_given, times(1e3, given->mean)});
-  plot.curves.push_back(
-      {given != nullptr ? "final model" : "model", CurveRole::model, times(1e3, model.mean)});
-  plot.curves.push_back({"measured", CurveRole::measured, times(1e3, measured)});
+  if (has_given(run))
+    plot.curves.push_back({"as given", CurveRole::as_given, times(1e3, (run.as_given.*of.model).mean)});
+  plot.curves.push_back({final_name(run), CurveRole::model, times(1e3, model.mean)});
+  plot.curves.push_back({"measured", CurveRole::measured, times(1e3, run.*of.measured)});
   return plot;
 }
 
@@ -56,21 +80,20 @@ ReportPlot residual_plot(const MeasuredAgainstModel& run) {
 }
 
 /// Measured less model: what the eye cannot see beside a swing of 100 mm.
-ReportPlot error_plot(const MeasuredAgainstModel& run) {
-  ReportPlot plot = time_plot("Error of the box", "error, mm", run.run, run.time);
+ReportPlot error_plot(const MeasuredAgainstModel& run, const Observable& of) {
+  ReportPlot plot = time_plot(fmt::format("Error of the {}", of.name), "error, mm", run.run, run.time);
   plot.caption = "Measured less mean of the model.";
   const auto less = [&](const EnsembleCurve& model) {
-    std::vector<double> error(run.box.size());
-    for (std::size_t i = 0; i < error.size(); ++i) error[i] = 1e3 * (run.box[i] - model.mean[i]);
+    std::vector<double> error = run.*of.measured;
+    for (std::size_t i = 0; i < error.size(); ++i) error[i] = 1e3 * (error[i] - model.mean[i]);
     return error;
   };
   std::vector<double> low(run.time.size()), high(run.time.size());
   for (std::size_t i = 0; i < low.size(); ++i)
-    high[i] = 2e3 * std::hypot(run.final_model.box.sd[i], run.box_noise), low[i] = -high[i];
+    high[i] = 2e3 * std::hypot((run.final_model.*of.model).sd[i], run.*of.noise), low[i] = -high[i];
   plot.curves = band("two expected spreads", low, high);
-  if (run.as_given.runs > 0) plot.curves.push_back({"as given", CurveRole::as_given, less(run.as_given.box)});
-  plot.curves.push_back(
-      {run.as_given.runs > 0 ? "final model" : "model", CurveRole::model, less(run.final_model.box)});
+  if (has_given(run)) plot.curves.push_back({"as given", CurveRole::as_given, less(run.as_given.*of.model)});
+  plot.curves.push_back({final_name(run), CurveRole::model, less(run.final_model.*of.model)});
   return plot;
 }
 
@@ -123,11 +146,12 @@ ReportBars residual_by(const std::vector<MeasuredAgainstModel>& runs,
 }
 
 ReportStrip strip_of(const std::vector<MeasuredAgainstModel>& runs,
-                     std::vector<double> MeasuredAgainstModel::*residual, const char* title) {
+                     std::vector<double> MeasuredAgainstModel::*residual, const char* of,
+                     const std::string& title) {
   constexpr double width = 0.5;
   ReportStrip strip;
   strip.title = title;
-  strip.caption = "rms residual of the box in half a second. A click shows that moment.";
+  strip.caption = fmt::format("rms residual of the {} in half a second. A click shows that moment.", of);
   strip.x_label = "time since release, s";
   strip.value_name = "expected spreads";
   double end = 0;
@@ -153,14 +177,12 @@ ReportSection curves_section(const std::vector<MeasuredAgainstModel>& runs, cons
   ReportSection section;
   section.title = title;
   for (const MeasuredAgainstModel& run : runs) {
-    const bool given = run.as_given.runs > 0;
-    section.plots.push_back(
-        position_plot(run, "Box", run.box, run.final_model.box, given ? &run.as_given.box : nullptr));
-    section.plots.push_back(error_plot(run));
+    section.plots.push_back(position_plot(run, box, "Box"));
+    section.plots.push_back(error_plot(run, box));
     section.plots.push_back(residual_plot(run));
-    if (has_numbers(run.centre))
-      section.plots.push_back(position_plot(run, "Centre of the grains", run.centre, run.final_model.centre,
-                                            given ? &run.as_given.centre : nullptr));
+    if (!has_numbers(run.centre)) continue;
+    section.plots.push_back(position_plot(run, centre, "Centre of the grains"));
+    section.plots.push_back(error_plot(run, centre));
   }
   return section;
 }
@@ -168,11 +190,15 @@ ReportSection curves_section(const std::vector<MeasuredAgainstModel>& runs, cons
 ReportSection failure_section(const std::vector<MeasuredAgainstModel>& runs) {
   ReportSection section;
   section.title = "Where it fails";
-  const bool given = !runs.empty() && runs.front().as_given.runs > 0;
-  if (given)
-    section.strips = {strip_of(runs, &MeasuredAgainstModel::given_box_residual, "By time and run: as given")};
-  section.strips.push_back(strip_of(runs, &MeasuredAgainstModel::box_residual,
-                                    given ? "By time and run: final model" : "By time and run"));
+  const bool given = !runs.empty() && has_given(runs.front());
+  for (const Observable* of : {&box, &centre}) {
+    if (std::none_of(runs.begin(), runs.end(),
+                     [&](const MeasuredAgainstModel& run) { return has_numbers(run.*of->measured); }))
+      continue;
+    const std::string title = fmt::format("The {} by time and run", of->name);
+    if (given) section.strips.push_back(strip_of(runs, of->given_residual, of->name, title + ": as given"));
+    section.strips.push_back(strip_of(runs, of->residual, of->name, title + (given ? ": final model" : "")));
+  }
   constexpr double eighth = std::numbers::pi / 4;
   ReportBars phase = residual_by(runs,
                                  {{-3 * eighth, "inner end, turning back"},

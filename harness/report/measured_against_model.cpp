@@ -133,7 +133,7 @@ std::vector<MeasuredAgainstModel> measured_against_model(const Experiment& exper
     if (run.time.empty()) continue;
     MeasuredAgainstModel one{
         run.name, first[r], last[r], {}, {}, {}, found.box.standard_deviation, found.com.standard_deviation,
-        {},       {},       {},      {}, {}};
+        {},       {},       {},      {}, {}, {}};
     const double end = std::min(run.time.back(), 60.0);
     for (std::int64_t k = 0; static_cast<double>(k) / options.rate <= end; ++k)
       one.time.push_back(static_cast<double>(k) / options.rate);
@@ -143,6 +143,8 @@ std::vector<MeasuredAgainstModel> measured_against_model(const Experiment& exper
     if (given != nullptr) {
       one.as_given = motion_of(first[r], one.time, engine, options);
       one.given_box_residual = residual(one.box, one.as_given.box, one.box_noise, one.as_given.runs);
+      one.given_centre_residual =
+          residual(one.centre, one.as_given.centre, one.centre_noise, one.as_given.runs);
     }
     one.box_residual = residual(one.box, one.final_model.box, one.box_noise, one.final_model.runs);
     one.centre_residual =

@@ -38,7 +38,8 @@ struct MeasuredAgainstModel {
   ModelMotion as_given, final_model;       ///< as_given.runs == 0: there is nothing to compare with
   /// Measured less mean over its expected spread (of run to run, of the mean, and of the camera).
   std::vector<double> box_residual, centre_residual;
-  std::vector<double> given_box_residual;  ///< the same of the setup as given; empty without one
+  /// The same of the setup as given; empty without one.
+  std::vector<double> given_box_residual, given_centre_residual;
 };
 
 struct CurveOptions {
