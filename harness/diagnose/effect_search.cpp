@@ -20,6 +20,9 @@ constexpr double goes_first = 0.25, goes_first_when_dear = 0.5;
 /// Gain (chi2) that no emulator's noise makes; strengths along curved valleys may have errors as large as
 /// themselves all the same.
 constexpr double beyond_noise = 100;
+/// Standard errors from zero of what counts as there at all, whatever it gains: a fit with an effect of no
+/// strength found other restitutions. And of what would otherwise be in question.
+constexpr double there_at_all = 0.5, beyond_doubt = 2;
 /// Share of the best one's gain that makes a rival one from which an experiment should tell it.
 constexpr double contends = 0.5;
 /// A rival whose fit leaves more than this p-value has mended the model: what imitates the truth often leaves
@@ -28,13 +31,13 @@ constexpr double mends = 0.1;
 /// Gain (chi2) of an accepted model beside which what is tried in any case need not be.
 constexpr double explains_much = 300;
 
-/// One of the strengths is at least two standard errors from zero; what replaces a parameter, or is on or
-/// off, has no zero and passes.
-bool stands_out(const Refit& fit, const std::vector<Knob>& knobs) {
+/// One of the strengths is that many standard errors from zero at least; what replaces a parameter, or is on
+/// or off, has no zero and passes.
+bool stands_out(const Refit& fit, const std::vector<Knob>& knobs, double errors) {
   return knobs.empty() || std::any_of(knobs.begin(), knobs.end(), [&](const Knob& knob) {
            return knob.low > 0 ||
                   std::any_of(fit.values.begin(), fit.values.end(), [&](const FittedValue& value) {
-                    return value.key == knob.key && std::abs(value.value) > 2 * value.error;
+                    return value.key == knob.key && std::abs(value.value) > errors * value.error;
                   });
          });
 }
@@ -218,8 +221,8 @@ bool Pipeline::acts_on_camera(const std::string& effect) const {
   return record != nullptr && record->acts_on == ActsOn::camera;
 }
 
-/// Adds an effect and fits it with full effort. False, and all as before: it neither explains nor differs
-/// from nothing, so that its gain was the emulators' noise.
+/// Adds an effect and fits it with full effort. False, and all as before: it is not there at all, or neither
+/// explains nor differs from nothing, so that its gain was the emulators' noise.
 bool Pipeline::take(const Rival& winner, Refit& best) {
   const auto before = std::tuple(base_, theta_, chosen_, first_boxes_, final_, result_.missing, dear_);
   base_ = winner.setup;
@@ -235,7 +238,7 @@ bool Pipeline::take(const Rival& winner, Refit& best) {
   const bool one = std::none_of(winner.knobs.begin(), winner.knobs.end(), is_joint);
   const bool in_question =
       winner.gain < beyond_noise && (closer.p_value <= doubtful || best.p_value > doubtful);
-  if (in_question && !stands_out(one ? closer : winner.fit, winner.knobs)) {
+  if (!stands_out(one ? closer : winner.fit, winner.knobs, in_question ? beyond_doubt : there_at_all)) {
     std::tie(base_, theta_, chosen_, first_boxes_, final_, result_.missing, dear_) = before;
     return false;
   }
