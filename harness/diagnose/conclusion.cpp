@@ -64,8 +64,12 @@ void Pipeline::conclude_unknown() {
     result_.notes.push_back("the force could as well be " + alike);
 }
 
-/// What was found first, then by gain.
-void Pipeline::sort_ranking() {
+/// What the momentum balance asks for joins what was simulated; what was found first, then by gain.
+void Pipeline::complete_ranking() {
+  if (!result_.momentum.unlisted)
+    for (const FoundTerm& term : result_.momentum.terms)
+      result_.ranking.push_back(
+          {term.effect, term.gain, std::nan(""), std::nan(""), term.value, term.look_alikes, true, true});
   const auto place = [&](const RankedEffect& ranked) {
     return std::find(result_.missing.begin(), result_.missing.end(), ranked.effect) - result_.missing.begin();
   };
@@ -129,8 +133,27 @@ std::string Pipeline::what_is_unknown() const {
   return nothing + "momentum is in order, so it lies inside the contacts.";
 }
 
+/// Known effects that explain these measurements as well as this one: "a or b"; empty: none.
+std::string Pipeline::told_from_by_nothing(const std::string& effect) const {
+  std::vector<std::string> others;
+  const auto add = [&](const std::string& other) {
+    const bool new_here =
+        std::find(others.begin(), others.end(), other) == others.end() &&
+        std::find(result_.missing.begin(), result_.missing.end(), other) == result_.missing.end();
+    if (new_here && find_record(options_.known, other) != nullptr) others.push_back(other);
+  };
+  for (const auto& [named, other] : twins_)
+    if (named == effect) add(other);
+  for (const FoundTerm& term : result_.momentum.terms)
+    if (term.effect == effect)
+      for (const std::string& other : term.look_alikes) add(other);
+  std::string words;
+  for (const std::string& other : others) words += (words.empty() ? "" : " or ") + other;
+  return words;
+}
+
 void Pipeline::finish() {
-  sort_ranking();
+  complete_ranking();
   result_.amended = base_;
   result_.amended.hard = user_.hard;
   for (const FittedValue& fitted : final_.values) {
@@ -161,9 +184,14 @@ void Pipeline::finish() {
       std::string names;
       for (const std::string& effect : result_.missing) names += (names.empty() ? "" : " and ") + effect;
       result_.sentence = "Missing in the model: " + names + ". " + what_it_brings();
-      for (const auto& [named, other] : twins_)
-        if (std::find(result_.missing.begin(), result_.missing.end(), named) != result_.missing.end())
-          result_.sentence += " These measurements cannot tell " + named + " from " + other + ".";
+      for (const std::string& effect : result_.missing)
+        if (const std::string others = told_from_by_nothing(effect); !others.empty())
+          result_.sentence += " These measurements cannot tell " + effect + " from " + others + ".";
+      if (final_.p_value <= rejected && final_.scatter >= codes_differ)
+        result_.sentence += fmt::format(
+            " The data still reject the model (p = {:.3f}): something else is missing that no known effect "
+            "mends.",
+            final_.p_value);
       break;
     }
     case Verdict::unknown: result_.sentence = what_is_unknown(); break;

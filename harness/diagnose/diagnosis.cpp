@@ -279,9 +279,6 @@ void Pipeline::judge() {
   if (result_.missing.empty()) {
     result_.verdict =
         best.p_value > rejected || best.scatter < codes_differ ? Verdict::refit : Verdict::unknown;
-    if (result_.verdict == Verdict::refit && best.p_value <= rejected)
-      result_.notes.push_back(
-          "a small misfit remains, as between two codes of the same physics; no known effect explains it");
   } else
     result_.verdict = Verdict::missing;
   // An effect that leaves most of the misfit, or errors far above the noise, is no explanation, and its
@@ -293,11 +290,11 @@ void Pipeline::judge() {
     if (result_.missing != std::get<5>(without_effects))
       std::tie(base_, theta_, chosen_, first_boxes_, final_, result_.missing) = without_effects;
     if (result_.missing.empty()) return conclude_unknown();
-    result_.notes.push_back(
-        "beside what the momentum balance convicts something else is missing that none of the known effects "
-        "explains");
   }
-  if (result_.verdict == Verdict::unknown) conclude_unknown();
+  if (result_.verdict == Verdict::unknown) return conclude_unknown();
+  if (final_.p_value <= rejected && final_.scatter < codes_differ)
+    result_.notes.push_back(
+        "a small misfit remains, as between two codes of the same physics; no known effect explains it");
 }
 
 void Pipeline::note_failures(const Refit& fit) {

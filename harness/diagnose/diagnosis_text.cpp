@@ -45,6 +45,7 @@ std::string diagnosis_text(const Diagnosis& d) {
       for (const std::string& name : r.look_alikes) alike += (alike.empty() ? "" : ", ") + name;
       text += fmt::format("    {:<34} {:>10.1f} {:>14} {}\n", r.effect, r.gain,
                           std::isfinite(r.held_out_gain) ? fmt::format("{:.1f}", r.held_out_gain)
+                          : r.by_balance                 ? "(balance)"
                           : r.fitted                     ? "-"
                                                          : "(linear)",
                           alike);

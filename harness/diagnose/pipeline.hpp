@@ -116,7 +116,8 @@ class Pipeline {
   std::string what_it_brings() const;
   std::string what_is_unknown() const;
   void finish();
-  void sort_ranking();
+  void complete_ranking();
+  std::string told_from_by_nothing(const std::string& effect) const;
   void conclude_unknown();
   void advise_experiments();
 

@@ -107,7 +107,9 @@ ReportSection suspects_section(const Diagnosis& diagnosis) {
   }
   section.paragraphs = {
       "What each effect would explain if it were added and everything else refitted: fall of the misfit, on "
-      "the runs fitted to and on box lengths left out of the fit."};
+      "the runs fitted to and on box lengths left out of the fit. What the momentum balance asks for needs "
+      "no "
+      "simulation: there it is the misfit of the balance."};
   if (!section.list.empty()) section.paragraphs.push_back("Experiments that would tell more:");
   ReportBars bars;
   bars.names = {"fall of the misfit", "of held-out lengths"};
@@ -125,7 +127,8 @@ ReportSection suspects_section(const Diagnosis& diagnosis) {
     bars.lines.push_back(line);
   }
   bars.caption =
-      "In units of chi squared. Effects without a second bar were judged by a linear estimate only.";
+      "In units of chi squared. Effects without a second bar were judged by a linear estimate or by the "
+      "balance only.";
   if (!bars.lines.empty()) section.bars = {bars};
   ReportTable table{"All suspects as numbers",
                     "",

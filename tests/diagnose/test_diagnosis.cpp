@@ -213,6 +213,11 @@ TEST(SlowDiagnosis, FindsAForceOnTheBoxAndTheErrorFalls) {
   // The ensembles do not bend what the balance knows better.
   ASSERT_EQ(d.momentum.terms.size(), 1u);
   const FoundTerm& balance = d.momentum.terms.front();
+  // What needs no simulation is a suspect all the same.
+  ASSERT_FALSE(d.ranking.empty());
+  EXPECT_EQ(d.ranking.front().effect, balance.effect);
+  EXPECT_EQ(d.ranking.front().gain, balance.gain);
+  EXPECT_TRUE(d.ranking.front().by_balance);
   const auto damping =
       std::find_if(d.parameters.begin(), d.parameters.end(),
                    [](const DiagnosedParameter& p) { return p.name == "blade_viscous_damping.damping"; });
@@ -221,6 +226,15 @@ TEST(SlowDiagnosis, FindsAForceOnTheBoxAndTheErrorFalls) {
             3 * (balance.high - balance.low));  // seen: 2.0; by themselves 5 to 10
   EXPECT_LE(damping->low, 0.08);
   EXPECT_GE(damping->high, 0.08);
+}
+
+TEST(SlowDiagnosis, WhatTheBalanceCannotTellApartIsSaid) {
+  const Diagnosis d = diagnosis_of({{"blade_viscous_damping=damping:0.0009 N s/m"}, {}, {}, {0.040, 0.040}},
+                                   {"blade_viscous_damping", "blade_quadratic_drag", "clamp_dry_friction"});
+  ASSERT_EQ(d.missing.size(), 1u) << d.sentence;
+  const std::size_t told = d.sentence.find("cannot tell " + d.missing[0] + " from ");
+  ASSERT_NE(told, std::string::npos) << d.sentence;
+  EXPECT_NE(d.sentence.find("blade_viscous_damping", told), std::string::npos) << d.sentence;
 }
 
 TEST(SlowDiagnosis, FrictionOfGrainsAndOfWallsEachGetsItsOwnInterval) {
