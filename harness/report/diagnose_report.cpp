@@ -99,17 +99,13 @@ ReportSection suspects_section(const Diagnosis& diagnosis) {
   section.title = diagnosis.ranking.empty() ? "What to measure next" : "Suspects";
   section.list = diagnosis.next_experiments;
   if (diagnosis.ranking.empty()) {
-    section.paragraphs = {
-        diagnosis.missing.empty()
-            ? "No effect had to be ranked."
-            : "The balance of momentum told what is missing; nothing inside the contacts had to be ranked."};
+    section.paragraphs = {"No effect had to be ranked."};
     return section;
   }
   section.paragraphs = {
       "What each effect would explain if it were added and everything else refitted: fall of the misfit, on "
-      "the runs fitted to and on box lengths left out of the fit. What the momentum balance asks for needs "
-      "no "
-      "simulation: there it is the misfit of the balance."};
+      "the runs fitted to and on box lengths left out. Of what the momentum balance asks for, which needs no "
+      "simulation, it is the misfit of the balance."};
   if (!section.list.empty()) section.paragraphs.push_back("Experiments that would tell more:");
   ReportBars bars;
   bars.names = {"fall of the misfit", "of held-out lengths"};

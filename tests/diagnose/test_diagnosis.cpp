@@ -237,6 +237,16 @@ TEST(SlowDiagnosis, WhatTheBalanceCannotTellApartIsSaid) {
   EXPECT_NE(d.sentence.find("blade_viscous_damping", told), std::string::npos) << d.sentence;
 }
 
+// Restitutions of old grains hidden from the fit: the force is there, and not alone.
+TEST(SlowDiagnosis, AModelThatIsStillRejectedIsSaidToBe) {
+  const Diagnosis d =
+      diagnosis_of({{"blade_viscous_damping=damping:0.08 N s/m"}, {{"restitution.grain_grain", "0.6"}}},
+                   {"blade_viscous_damping"}, 2, {"restitution.grain_grain", "restitution.grain_wall"});
+  EXPECT_EQ(d.missing, std::vector<std::string>{"blade_viscous_damping"}) << d.sentence;
+  EXPECT_LE(d.ladder.back().p_value, 0.01);
+  EXPECT_NE(d.sentence.find("still reject"), std::string::npos) << d.sentence;
+}
+
 TEST(SlowDiagnosis, FrictionOfGrainsAndOfWallsEachGetsItsOwnInterval) {
   const Diagnosis d =
       diagnosis_of({{"grain_friction=grain_grain:0.4,grain_wall:0.1"}, {}, {}, {0.040, 0.065, 0.104}},

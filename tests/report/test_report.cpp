@@ -10,6 +10,7 @@
 
 #include "engines.hpp"
 #include "errors.hpp"
+#include "measured_against_model.hpp"
 #include "output_file.hpp"
 #include "packed_numbers.hpp"
 #include "paper_report.hpp"
@@ -94,6 +95,35 @@ TEST(Report, SeveralAreJoinedWithoutMixingTheirRuns) {
   ASSERT_EQ(all.sections.size(), 3u);
   EXPECT_EQ(all.sections[1].plots[0].group, "a: L040");
   EXPECT_EQ(all.sections[2].strips[0].rows[0].group, "b: L040");
+}
+
+// A camera may be wrong about the grains and right about the box.
+TEST(Report, ShowsWhereTheGrainsCentreFailsWhereItWasSeen) {
+  MeasuredAgainstModel run;
+  run.run = "L040";
+  for (int i = 0; i < 50; ++i) run.time.push_back(0.02 * i);
+  const std::vector<double> still(50, 0.0), off(50, 2e-3), four(50, 4.0);
+  run.box = still;
+  run.centre = off;
+  run.box_residual = run.given_box_residual = run.centre_residual = still;
+  run.given_centre_residual = four;
+  for (ModelMotion* model : {&run.as_given, &run.final_model}) {
+    model->runs = 1;
+    model->box = model->centre = {still, still};
+  }
+  const ReportSection curves = curves_section({run}, "curves"), failures = failure_section({run});
+  ASSERT_EQ(curves.plots.size(), 5u);
+  EXPECT_EQ(curves.plots[4].title, "Error of the centre of the grains");
+  EXPECT_EQ(curves.plots[4].curves.back().y, std::vector<double>(50, 2.0));  // mm
+  ASSERT_EQ(failures.strips.size(), 4u);
+  EXPECT_EQ(failures.strips[2].title, "The centre of the grains by time and run: as given");
+  for (const double value : failures.strips[2].rows[0].values) EXPECT_EQ(value, 4);
+  for (const std::size_t strip : {0, 1, 3})
+    for (const double value : failures.strips[strip].rows[0].values) EXPECT_EQ(value, 0);
+
+  run.centre.assign(50, std::nan(""));
+  EXPECT_EQ(curves_section({run}, "curves").plots.size(), 3u);
+  EXPECT_EQ(failure_section({run}).strips.size(), 2u);
 }
 
 TEST(PackedNumbers, KeepFourDigitsOfTheLargestAndTheGaps) {
