@@ -23,7 +23,12 @@ struct Command {
   std::function<int()> run;
 };
 
-/// Adds every command, in the order of `shakedown --help`. A new command is one file and one line here.
+/// Parses the words, runs the command that they name, and returns its exit code; prints errors.
+int run_program(const char* name, const char* description, std::vector<Command> (*add)(CLI::App&), int count,
+                char** words);
+
+/// Adds every command, in the order of `shakedown --help`. A new command is one file, a line here and one
+/// in commands.cpp.
 std::vector<Command> add_commands(CLI::App& program);
 
 Command add_run_command(CLI::App& program);
@@ -31,7 +36,6 @@ Command add_theory_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
 Command add_diagnose_command(CLI::App& program);
 Command add_hide_command(CLI::App& program);
-Command add_blind_suite_command(CLI::App& program);
 Command add_add_command(CLI::App& program);
 Command add_ladder_command(CLI::App& program);
 Command add_export_command(CLI::App& program);
@@ -44,6 +48,7 @@ Command add_check_command(CLI::App& program);
 Command add_sweep_command(CLI::App& program);
 Command add_merge_command(CLI::App& program);
 Command add_fit_command(CLI::App& program);
-Command add_paper_command(CLI::App& program);
+/// `paper` and `blind-suite`: hands its words to shakedown-studies, which lies beside this program.
+Command add_study_command(CLI::App& program, const char* name, const char* description);
 
 }  // namespace shakedown

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "errors.hpp"
 
-#include <cstdio>
-#include <cstdlib>
-
 namespace shakedown {
 
 std::string to_string(const Violation& violation) {
@@ -30,11 +27,5 @@ std::string joined(const std::vector<Violation>& violations) {
 
 InputError::InputError(std::vector<Violation> found)
     : std::runtime_error(joined(found)), violations(std::move(found)) {}
-
-void report_bug(const char* condition, const char* file, int line) {
-  std::fprintf(stderr, "shakedown: this is a bug of the program, please report it: %s:%d: expected %s\n",
-               file, line, condition);
-  std::abort();
-}
 
 }  // namespace shakedown

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "expect.hpp"
+
 namespace shakedown {
 
 /// Where in a file something stands; line and column count from 1, 0 when unknown.
@@ -49,9 +51,4 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-[[noreturn]] void report_bug(const char* condition, const char* file, int line);
-
 }  // namespace shakedown
-
-/// An assertion that stays on in every build: a failure is a bug of this project, not of its user.
-#define EXPECT(condition) ((condition) ? void(0) : ::shakedown::report_bug(#condition, __FILE__, __LINE__))

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "quantity.hpp"
-#include "toml_document.hpp"
+#include "toml_string.hpp"
 
 namespace shakedown {
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,50 +16,52 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
-  std::set<std::string> may_include;       ///< folders of the project
-  std::set<std::string> libraries;         ///< prefixes of third-party headers that its .cpp files may open
-  std::set<std::string> public_libraries;  ///< and its headers
+/// One library of ours as its CMakeLists.txt declares it.
+struct Layer {
+  std::string library, folder;
+  std::set<std::string> opened, opened_by_headers;  ///< libraries, ours and others'
 };
 
-const std::set<std::string> engines{"hardsphere", "softsphere"};
-
-std::set<std::string> with(std::set<std::string> folders, const std::set<std::string>& more) {
-  folders.insert(more.begin(), more.end());
-  return folders;
+std::set<std::string> words_of(const std::string& list) {
+  std::set<std::string> words;
+  std::istringstream stream(list);
+  for (std::string word; std::getline(stream, word, ',');)
+    if (!word.empty()) words.insert(word);
+  return words;
 }
 
-/// From the floor up; each floor may use what its line names and no more.
-std::map<std::string, Folder> folders() {
-  const std::set<std::string> ground{"harness/problem"}, laws{"harness/problem", "harness/effects"};
-  const std::set<std::string> run = with(laws, with(engines, {"harness/observe"}));
-  const std::set<std::string> compare = with(run, {"harness/run", "harness/measure"});
-  const std::set<std::string> diagnose = with(compare, {"harness/compare"});
-  const std::set<std::string> laboratory = with(diagnose, {"harness/diagnose"});
-  const std::set<std::string> report =
-      with(laboratory, {"harness/export", "harness/sweep", "harness/fit", "harness/paper"});
-  const std::set<std::string> json{"nlohmann/", "fmt/", "toml++/"};
-  return {
-      {"harness/problem", {{}, {"toml++/", "Eigen/"}, {"Eigen/"}}},
-      {"harness/effects", {ground, {"muParser", "nlohmann/", "fmt/", "Eigen/"}, {"Eigen/"}}},
-      {"hardsphere", {laws, {"Eigen/"}, {"Eigen/"}}},
-      {"softsphere", {laws, {"Eigen/", "Bullet", "bullet/", "LinearMath/", "bt"}, {"Eigen/"}}},
-      {"harness/observe", {laws, {"Eigen/"}, {"Eigen/"}}},
-      {"harness/run", {run, json, {}}},
-      {"harness/sweep", {with(run, {"harness/run"}), {"fmt/", "sqlite3"}, {}}},
-      {"harness/measure", {with(laws, {"harness/observe"}), with(json, {"Eigen/"}), {"Eigen/"}}},
-      {"harness/compare", {compare, with(json, {"nlopt", "Eigen/", "sqlite3"}), {"Eigen/"}}},
-      {"harness/fit", {diagnose, with(json, {"Eigen/"}), {"Eigen/"}}},
-      {"harness/diagnose", {diagnose, with(json, {"Eigen/", "sqlite3", "nlopt", "muParser"}), {"Eigen/"}}},
-      {"harness/laboratory", {laboratory, json, {}}},
-      {"harness/paper",
-       {with(laboratory, {"harness/fit", "harness/laboratory"}), with(json, {"Eigen/"}), {"Eigen/"}}},
-      {"harness/export", {diagnose, with(json, {"Eigen/"}), {"Eigen/"}}},
-      {"harness/report", {report, with(json, {"Eigen/", "zlib.h"}), {"Eigen/"}}},
-      {"harness/cli",
-       {with(report, {"harness/report", "harness/laboratory"}), with(json, {"CLI/"}), {"CLI/"}}},
-  };
+/// The table that CMake writes: in order of dependency, each library with what it may open.
+std::vector<Layer> layers() {
+  std::vector<Layer> found;
+  std::ifstream file(LAYERS);
+  for (std::string line; std::getline(file, line);) {
+    Layer layer;
+    std::string open, closed;
+    std::istringstream(line) >> layer.library >> layer.folder >> open >> closed;
+    layer.opened_by_headers = words_of(open.substr(std::string("public=").size()));
+    layer.opened = words_of(closed.substr(std::string("private=").size()));
+    layer.opened.insert(layer.opened_by_headers.begin(), layer.opened_by_headers.end());
+    found.push_back(layer);
+  }
+  return found;
 }
+
+/// How the headers of other people's libraries begin.
+const std::map<std::string, std::set<std::string>> headers_of_others{
+    {"Eigen3::Eigen", {"Eigen/", "unsupported/Eigen/"}},
+    {"fmt::fmt", {"fmt/"}},
+    {"nlohmann_json::nlohmann_json", {"nlohmann/"}},
+    {"muparser::muparser", {"muParser"}},
+    {"PkgConfig::BULLET64", {"Bullet", "bullet/", "LinearMath/", "bt"}},
+    {"PkgConfig::NLOPT", {"nlopt"}},
+    {"SQLite::SQLite3", {"sqlite3"}},
+    {"ZLIB::ZLIB", {"zlib.h"}},
+    {"CLI11::CLI11", {"CLI/"}},
+    {"Threads::Threads", {}},
+};
+
+/// The TOML library is headers alone and no target: one folder opens it.
+bool may_open_toml(const Layer& layer) { return layer.library == "setup_file"; }
 
 struct Include {
   fs::path file;
@@ -92,15 +95,16 @@ std::vector<fs::path> sources_of(const std::string& folder) {
   return files;
 }
 
-/// Folder of each of our headers by its plain name; names must be unique, or an include could mean two files.
+/// Library of each of our headers by its plain name; names must be unique, or an include could mean two
+/// files.
 std::map<std::string, std::string> home_of_headers() {
   std::map<std::string, std::string> home;
-  for (const auto& [name, rules] : folders())
-    for (const fs::path& file : sources_of(name))
+  for (const Layer& layer : layers())
+    for (const fs::path& file : sources_of(layer.folder))
       if (file.extension() == ".hpp") {
-        const auto [place, fresh] = home.emplace(file.filename().string(), name);
+        const auto [place, fresh] = home.emplace(file.filename().string(), layer.library);
         EXPECT_TRUE(fresh) << "two headers are called " << file.filename() << ": in " << place->second
-                           << " and " << name;
+                           << " and " << layer.library;
       }
   return home;
 }
@@ -129,10 +133,12 @@ const std::set<std::string> generated{"build_info.hpp"};
 
 }  // namespace
 
-TEST(Layering, EachFolderOpensOnlyTheFoldersBelowIt) {
+TEST(Layering, EachFolderOpensWhatItsCMakeListsNamesAndAllOfIt) {
   const std::map<std::string, std::string> home = home_of_headers();
-  for (const auto& [folder, rules] : folders())
-    for (const fs::path& file : sources_of(folder))
+  ASSERT_GT(layers().size(), 15u) << LAYERS;
+  for (const Layer& layer : layers()) {
+    std::set<std::string> used;
+    for (const fs::path& file : sources_of(layer.folder))
       for (const Include& include : includes_of(file)) {
         if (!include.quoted || generated.contains(include.header)) continue;
         EXPECT_EQ(include.header.find('/'), std::string::npos)
@@ -142,30 +148,53 @@ TEST(Layering, EachFolderOpensOnlyTheFoldersBelowIt) {
           ADD_FAILURE() << where(include) << ": is none of our headers";
           continue;
         }
-        EXPECT_TRUE(found->second == folder || rules.may_include.contains(found->second))
-            << where(include) << ": " << folder << " may not open " << found->second;
+        if (found->second == layer.library) continue;
+        used.insert(found->second);
+        const bool is_header = file.extension() == ".hpp";
+        EXPECT_TRUE((is_header ? layer.opened_by_headers : layer.opened).contains(found->second))
+            << where(include) << ": " << layer.library << " does not name " << found->second
+            << (is_header ? " as PUBLIC" : "");
       }
+    for (const std::string& named : layer.opened)
+      EXPECT_TRUE(headers_of_others.contains(named) || used.contains(named))
+          << layer.folder << "/CMakeLists.txt names " << named << ", which nothing there opens";
+  }
+}
+
+TEST(Layering, NoFolderOpensOneAboveIt) {
+  std::set<std::string> below;
+  for (const Layer& layer : layers()) {
+    for (const std::string& named : layer.opened)
+      EXPECT_TRUE(below.contains(named) || headers_of_others.contains(named))
+          << layer.library << " opens " << named << ", which comes after it in CMakeLists.txt";
+    below.insert(layer.library);
+  }
 }
 
 TEST(Layering, ThirdPartyHeadersStayPrivate) {
-  for (const auto& [folder, rules] : folders())
-    for (const fs::path& file : sources_of(folder))
+  for (const Layer& layer : layers())
+    for (const fs::path& file : sources_of(layer.folder))
       for (const Include& include : includes_of(file)) {
         if (include.quoted || is_standard(include.header)) continue;
         const bool is_header = file.extension() == ".hpp";
-        EXPECT_TRUE(starts_with_any(include.header, is_header ? rules.public_libraries : rules.libraries))
-            << where(include) << (is_header ? ": not in a header" : ": not a library of this folder");
+        bool allowed = include.header.starts_with("toml++/") && may_open_toml(layer) && !is_header;
+        for (const std::string& named : is_header ? layer.opened_by_headers : layer.opened)
+          if (const auto others = headers_of_others.find(named); others != headers_of_others.end())
+            allowed = allowed || starts_with_any(include.header, others->second);
+        EXPECT_TRUE(allowed) << where(include)
+                             << (is_header ? ": not in a header" : ": not a library of this folder");
       }
 }
 
 TEST(Layering, EveryFolderOfTheProjectIsInTheTable) {
-  const std::map<std::string, Folder> table = folders();
-  for (const char* root : {"harness", "."})
+  std::set<std::string> named;
+  for (const Layer& layer : layers()) named.insert(layer.folder);
+  for (const char* root : {"harness", "bench", "."})
     for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(PROJECT_ROOT) / root)) {
       if (!entry.is_directory() || !fs::exists(entry.path() / "CMakeLists.txt")) continue;
       const std::string name = fs::relative(entry.path(), PROJECT_ROOT).string();
       if (name == "tests" || name == "bench") continue;
-      EXPECT_TRUE(table.contains(name)) << name;
+      EXPECT_TRUE(named.contains(name)) << name;
     }
 }
 
@@ -182,8 +211,8 @@ TEST(Layering, EverySourceIsFormatted) {
 }
 
 TEST(Layering, EverySourceNamesItsLicence) {
-  for (const auto& [folder, rules] : folders())
-    for (const fs::path& file : sources_of(folder)) {
+  for (const Layer& layer : layers())
+    for (const fs::path& file : sources_of(layer.folder)) {
       std::ifstream stream(file);
       std::string first;
       std::getline(stream, first);

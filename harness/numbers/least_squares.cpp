@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "errors.hpp"
+#include "expect.hpp"
 
 namespace shakedown {
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "command.hpp"
 #include "effects.hpp"
 #include "engine_differences.hpp"
 #include "engines.hpp"
@@ -15,6 +14,7 @@
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
+#include "study_commands.hpp"
 
 namespace shakedown {
 

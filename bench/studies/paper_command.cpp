@@ -6,7 +6,6 @@
 
 #include <memory>
 
-#include "command.hpp"
 #include "ensemble_options.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
@@ -14,6 +13,7 @@
 #include "paper_report.hpp"
 #include "progress_display.hpp"
 #include "report_output.hpp"
+#include "study_commands.hpp"
 
 namespace shakedown {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "errors.hpp"
+#include "toml_string.hpp"
 
 namespace shakedown {
 
@@ -42,8 +43,5 @@ TomlValue parse_toml(std::string_view text, const std::string& name);
 
 /// The whole file; throws FileError.
 std::string read_text_file(const std::filesystem::path& file);
-
-/// A TOML string: quoted and escaped.
-std::string toml_string(std::string_view text);
 
 }  // namespace shakedown

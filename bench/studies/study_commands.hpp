@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "command.hpp"
+
+namespace shakedown {
+
+Command add_paper_command(CLI::App& program);
+Command add_blind_suite_command(CLI::App& program);
+
+}  // namespace shakedown
