@@ -6,9 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "known_value.hpp"
 #include "setup_file.hpp"
 
 namespace shakedown {
+
+/// How a run begins. From rest at release.displacement, or anywhere in the motion with a position and a speed
+/// of its own; when not said: anywhere for an empty box, else from rest (starts_anywhere decides).
+enum class Start { not_said, from_rest, anywhere };
 
 /// One recorded run. Lab frame, x = 0 where the spring is relaxed, +x towards the release.
 struct MeasuredRun {
@@ -18,6 +23,8 @@ struct MeasuredRun {
   double frame_rate = 0;                      ///< Hz, as stated, else the inverse of the median interval
   std::vector<Override> overrides;            ///< setup keys of this run, box.length among them
   std::map<std::string, SourcePlace> places;  ///< where the experiment file gives each override
+  std::vector<KnownValue> known;  ///< of this run alone; goes before the experiment's of the same key
+  Start start = Start::not_said;
 
   // One entry a frame, in the order of time.
   std::vector<double>
@@ -36,6 +43,7 @@ struct Experiment {
   std::string title;
   std::string file;
   std::vector<MeasuredRun> runs;
+  std::vector<KnownValue> known;   ///< what was weighed and measured, and how well
   std::vector<std::string> notes;  ///< what was assumed in reading, in words
 };
 

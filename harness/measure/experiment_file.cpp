@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "column_reading.hpp"
+#include "column_tables.hpp"
+#include "experiment_reader.hpp"
 #include "fnv.hpp"
 #include "quantity.hpp"
 #include "suggestion.hpp"
@@ -21,151 +23,7 @@ namespace {
 
 using Kind = TomlValue::Kind;
 using Violations = std::vector<Violation>;
-
-/// Values of one table of the file; what is wrong goes to `violations`, what nobody asked for is reported as
-/// unknown.
-class Reader {
- public:
-  Reader(const TomlValue& table, std::string path, Violations& violations)
-      : table_(&table), path_(std::move(path)), violations_(&violations) {}
-
-  const TomlValue* find(std::string_view key) {
-    known_.emplace_back(key);
-    return table_->find(key);
-  }
-
-  std::string text(std::string_view key) {
-    const TomlValue* value = find(key);
-    if (!value) return {};
-    if (value->kind == Kind::text) return value->text;
-    report(*value, key, "is " + std::string(describe(value->kind)) + " where a text is due",
-           "write it in quotes");
-    return {};
-  }
-
-  double number(std::string_view key, std::string_view unit, double otherwise) {
-    const TomlValue* value = find(key);
-    if (!value) return otherwise;
-    const ValueOrProblem<double> result = number_in(*value, unit);
-    if (const double* number = std::get_if<double>(&result)) return *number;
-    report(*value, key, std::get<Problem>(result).problem, std::get<Problem>(result).remedy);
-    return otherwise;
-  }
-
-  double positive(std::string_view key, std::string_view unit, double otherwise) {
-    constexpr double absent = -std::numeric_limits<double>::infinity();  // or wrong, and reported
-    const double value = number(key, unit, absent);
-    if (value > 0) return value;
-    if (value != absent) report(*table_->find(key), key, "must be greater than 0", "");
-    return otherwise;
-  }
-
-  /// The table of this name; nullptr when there is none or it is something else (reported).
-  const TomlValue* table(std::string_view key, const std::string& remedy) {
-    const TomlValue* value = find(key);
-    if (!value || value->kind == Kind::table) return value;
-    report(*value, key, "is " + std::string(describe(value->kind)) + " where a table is due", remedy);
-    return nullptr;
-  }
-
-  bool boolean(std::string_view key) {
-    const TomlValue* value = find(key);
-    if (!value) return false;
-    if (value->kind != Kind::boolean) report(*value, key, "is neither true nor false", "write true or false");
-    return value->boolean;
-  }
-
-  void report(const TomlValue& value, std::string_view key, const std::string& problem,
-              const std::string& remedy) {
-    violations_->push_back({value.place, path_ + std::string(key), problem, remedy});
-  }
-
-  void report_unknown() {
-    for (const TomlEntry& entry : table_->entries) {
-      if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
-      const std::string_view near = nearest(entry.key, known_);
-      violations_->push_back({entry.place, path_ + entry.key, "is not a key of the experiment file",
-                              (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") +
-                                  "known here: " + listed(known_)});
-    }
-  }
-
- private:
-  const TomlValue* table_;
-  std::string path_;
-  Violations* violations_;
-  std::vector<std::string_view> known_;
-};
-
-std::vector<std::string> track_names(Reader& reader) {
-  const TomlValue* value = reader.find("track");
-  if (!value) return {};
-  const auto name = [](const TomlValue& item) {
-    return item.kind == Kind::integer ? std::to_string(item.integer) : item.text;
-  };
-  std::vector<std::string> names;
-  if (value->kind != Kind::array) names.push_back(name(*value));
-  for (const TomlValue& item : value->items) names.push_back(name(item));
-  return names;
-}
-
-/// What [column.NAME] says, on top of what a wider table said before.
-ColumnChoice column_choice(const TomlValue& table, const std::string& path, ColumnChoice choice,
-                           double pixel_size, Violations& violations) {
-  Reader reader(table, path, violations);
-  choice.place = table.place;
-  if (reader.find("from")) choice.from = reader.text("from");
-  if (reader.find("unit")) choice.unit = reader.text("unit");
-  const auto length = [&](const char* key, double otherwise) {
-    const TomlValue* value = reader.find(key);
-    if (!value || value->kind != Kind::text || !value->text.ends_with("px") || !(pixel_size > 0))
-      return reader.number(key, "mm", otherwise);
-    const std::string_view digits(value->text.data(), value->text.size() - 2);
-    if (const std::optional<double> pixels = cell_number(trimmed(digits), false)) return *pixels * pixel_size;
-    reader.report(*value, key, "'" + value->text + "' is not a number of pixels",
-                  "write it with a decimal point, e.g. \"1920.5 px\"");
-    return otherwise;
-  };
-  choice.uncertainty = length("uncertainty", choice.uncertainty);
-  if (choice.uncertainty < 0)
-    reader.report(table, "uncertainty", "is negative", "give one standard deviation");
-  choice.origin = length("origin", choice.origin);
-  if (reader.find("reversed")) choice.reversed = reader.boolean("reversed");
-  if (const auto tracks = track_names(reader); !tracks.empty()) choice.tracks = tracks;
-  if (reader.find("track_from")) choice.track_from = reader.text("track_from");
-  reader.report_unknown();
-  return choice;
-}
-
-constexpr std::array<std::string_view, 3> column_names_known{"time", "box_position", "grain_centre"};
-
-/// The [column.*] of the file, or of one run on top of those.
-RunColumns read_column_tables(const TomlValue* table, const std::string& path, RunColumns columns,
-                              double pixel_size, Violations& violations) {
-  if (!table) return columns;
-  for (const TomlEntry& entry : table->entries) {
-    const std::string below = path + entry.key + ".";
-    if (entry.value.kind != Kind::table)
-      violations.push_back({entry.place, path + entry.key,
-                            "is " + std::string(describe(entry.value.kind)) + " where a table is due",
-                            "write [column." + entry.key + "] with from = \"header of the column\""});
-    else if (entry.key == "time")
-      columns.time =
-          column_choice(entry.value, below, columns.time.value_or(ColumnChoice{}), pixel_size, violations);
-    else if (entry.key == "box_position")
-      columns.box = column_choice(entry.value, below, columns.box, pixel_size, violations);
-    else if (entry.key == "grain_centre")
-      columns.com =
-          column_choice(entry.value, below, columns.com.value_or(ColumnChoice{}), pixel_size, violations);
-    else {
-      const std::string_view near = nearest(entry.key, column_names_known);
-      violations.push_back({entry.place, path + entry.key, "is not a column that shakedown knows",
-                            (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") +
-                                "known: " + listed(column_names_known)});
-    }
-  }
-  return columns;
-}
+using Reader = ExperimentReader;
 
 /// A value of the file as an override of the setup would be written on the command line.
 std::string as_written(const TomlValue& value) {
@@ -197,16 +55,19 @@ const Override* find_override(const MeasuredRun& run, std::string_view key) {
   return nullptr;
 }
 
+const std::string known_remedy = "write [known] and below it \"box.mass\" = \"434 g +- 2 g\"";
+
 /// Keys of [[run]] that are not the setup's.
-constexpr std::array<std::string_view, 6> own_keys{"file",         "box_length",     "frame_rate",
-                                                   "release_time", "initial_grains", "column"};
+constexpr std::array<std::string_view, 8> own_keys{
+    "file", "box_length", "frame_rate", "release_time", "initial_grains", "column", "known", "release"};
 
 /// A bare word among the setup's dotted keys is a mistyped key of [[run]].
 void split_run_keys(const TomlValue& table, const std::string& file, MeasuredRun& run,
                     Violations& violations) {
   TomlValue rest;
   for (const TomlEntry& entry : table.entries) {
-    if (std::find(own_keys.begin(), own_keys.end(), entry.key) != own_keys.end()) continue;
+    const bool own = std::find(own_keys.begin(), own_keys.end(), entry.key) != own_keys.end();
+    if (own && (entry.key != "release" || entry.value.kind != Kind::table)) continue;
     if (entry.value.kind == Kind::table) {
       rest.entries.push_back(entry);
       continue;
@@ -260,6 +121,17 @@ void take_length_of_setup(const TomlValue& table, MeasuredRun& run, Violations& 
     run.box_length = *metres;  // else the setup complains
 }
 
+/// release = "unknown" or "at rest"; a table below `release` holds keys of the setup.
+Start start_of(Reader& reader) {
+  const TomlValue* value = reader.find("release");
+  if (!value || value->kind == Kind::table) return Start::not_said;
+  if (value->kind == Kind::text && value->text == "unknown") return Start::anywhere;
+  if (value->kind == Kind::text && value->text == "at rest") return Start::from_rest;
+  reader.report(*value, "release", "is neither \"unknown\" nor \"at rest\"",
+                "write release = \"unknown\" where the recording begins in the middle of the motion");
+  return Start::not_said;
+}
+
 double typical_rate(const std::vector<double>& time) {
   std::vector<double> intervals;
   for (std::size_t i = 1; i < time.size(); ++i) intervals.push_back(time[i] - time[i - 1]);
@@ -308,6 +180,9 @@ void read_run(const TomlValue& table, const std::filesystem::path& folder, const
   ClockAndScale scale = defaults.scale;
   scale.frame_rate = reader.positive("frame_rate", "Hz", scale.frame_rate);
   scale.release_time = reader.number("release_time", "s", 0);
+  run.start = start_of(reader);
+  if (const TomlValue* known = reader.table("known", known_remedy))
+    run.known = read_known(*known, "run.known.", violations);
   take_length_and_grains(reader, folder, experiment.file, run);
   split_run_keys(table, experiment.file, run, violations);
   take_length_of_setup(table, run, violations);
@@ -353,6 +228,8 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
     of_camera.report_unknown();
   }
   defaults.columns = read_column_tables(columns, "column.", {}, defaults.scale.pixel_size, violations);
+  if (const TomlValue* known = reader.table("known", known_remedy))
+    experiment.known = read_known(*known, "known.", violations);
   reader.report_unknown();
   if (!runs || runs->kind != Kind::array || runs->items.empty())
     violations.push_back(
@@ -372,8 +249,14 @@ std::string digest(const Experiment& experiment) {
   std::uint64_t hash = fnv_start;
   const auto text = [&](const std::string& part) { hash = fnv1a(part + '\n', hash); };
   const auto number = [&](double part) { hash = fnv_step(hash, std::bit_cast<std::uint64_t>(part)); };
+  const auto known_values = [&](const std::vector<KnownValue>& known) {
+    for (const KnownValue& one : known) text(one.key), number(one.value), number(one.error);
+  };
+  known_values(experiment.known);
   for (const MeasuredRun& run : experiment.runs) {
     text(run.name);
+    known_values(run.known);
+    number(static_cast<double>(run.start));
     for (const Override& one : run.overrides) text(one.key), text(one.value);
     for (const double part : {run.box_length, run.frame_rate, run.box_uncertainty, run.com_uncertainty})
       number(part);
@@ -383,6 +266,17 @@ std::string digest(const Experiment& experiment) {
     }
   }
   return hexadecimal(hash);
+}
+
+bool starts_anywhere(const MeasuredRun& run, const Setup& setup) {
+  return run.start == Start::anywhere || (run.start == Start::not_said && setup.grains.count == 0);
+}
+
+std::vector<KnownValue> known_of(const Experiment& experiment, const MeasuredRun& run) {
+  std::vector<KnownValue> known = run.known;
+  for (const KnownValue& one : experiment.known)
+    if (!find_known(run.known, one.key)) known.push_back(one);
+  return known;
 }
 
 Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known) {

@@ -20,7 +20,9 @@ namespace shakedown {
 ///   [column.box_position]      from, unit ("m", "mm", "px"), uncertainty of one frame; origin (subtracted),
 ///   reversed = true, [column.grain_centre]      track = "1" or ["1", "2"] (mean) and track_from for tables
 ///   with one row a track and frame
-///   [[run]]                    file, box_length; frame_rate, release_time (on the table's clock),
+///   [known]                    "box.mass" = "434 g +- 2 g": what was weighed and measured (known_value.hpp)
+///   [[run]]                    file, box_length; frame_rate, release_time (on the table's clock), known,
+///   release = "unknown"
 ///   initial_grains, column.* of this
 ///                              run alone (from = "": not measured), any key of the setup, e.g. grains.count
 ///                              = 0
@@ -32,6 +34,13 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
 
 /// A short digest of what was measured and in which setups: changes with any number.
 std::string digest(const Experiment& experiment);
+
+/// True when the first position and speed of the run are its own: it says release = "unknown", or says
+/// nothing and its box is empty. `setup` is that of the run.
+bool starts_anywhere(const MeasuredRun& run, const Setup& setup);
+
+/// What is known of one run: its own values, and the experiment's where it has none.
+std::vector<KnownValue> known_of(const Experiment& experiment, const MeasuredRun& run);
 
 /// The setup of one run: the user's, with the run's own keys. Throws InputError that names the run's line for
 /// a key that does not exist or does not fit.

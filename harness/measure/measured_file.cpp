@@ -69,6 +69,8 @@ void write_experiment(const std::filesystem::path& file, const Experiment& exper
   write_column(output, "time", "t_s", "s", NAN);
   write_column(output, "box_position", "x_box_m", "m", box_uncertainty);
   if (com) write_column(output, "grain_centre", "x_com_m", "m", com_uncertainty);
+  if (!experiment.known.empty()) output << "\n[known]\n";
+  for (const KnownValue& known : experiment.known) output << known_line(known) << "\n";
   for (const MeasuredRun& run : experiment.runs) {
     output << "\n[[run]]\nfile = " << toml_string(run.name + ".csv") << "\n";
     if (std::isfinite(run.box_length))
@@ -76,6 +78,9 @@ void write_experiment(const std::filesystem::path& file, const Experiment& exper
     if (run.frame_rate != experiment.runs.front().frame_rate)
       output << "frame_rate = " << toml_string(write_quantity(run.frame_rate, "Hz")) << "\n";
     if (com && !run.has_com()) output << "column.grain_centre.from = \"\"\n";
+    if (run.start != Start::not_said)
+      output << "release = " << (run.start == Start::anywhere ? "\"unknown\"" : "\"at rest\"") << "\n";
+    for (const KnownValue& known : run.known) output << "known." << known_line(known) << "\n";
     for (const Override& override : run.overrides)
       if (override.key != "box.length") output << override.key << " = " << toml_value(override) << "\n";
   }

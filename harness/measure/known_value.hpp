@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What was weighed and measured before the experiment, and how well: [known] of an experiment file.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "errors.hpp"
+#include "toml_document.hpp"
+
+namespace shakedown {
+
+/// `key` is a numeric key of the setup ("box.mass", "restitution.grain_grain") or one of camera_keys().
+struct KnownValue {
+  std::string key;
+  double value = 0;   ///< SI; of camera and clock as a rule 0: nothing wrong expected
+  double error = 0;   ///< SI, one standard deviation; 0: exact
+  SourcePlace place;  ///< of the key in the experiment file
+};
+
+/// What a camera and its clock may do to positions and times; keys of [known] beside those of the setup.
+struct CameraKey {
+  std::string_view path;  ///< "camera.scale"
+  std::string_view unit;  ///< in which people write it; empty: a ratio
+  bool positive = false;  ///< a size (of a wander), which cannot be negative
+  bool each_run = false;  ///< drawn anew in every run; else common to all
+  std::string_view sentence;
+};
+std::span<const CameraKey> camera_keys();
+
+/// True for what is drawn anew in every run, whose error is of each run by itself: the release and the
+/// trigger.
+bool is_of_each_run(std::string_view key);
+
+/// Reads [known]: keys in quotes ("box.mass") or with a dot, values as `value +- error [unit]` with the unit
+/// once or with both. What is wrong goes to `violations`; `path` stands before the keys there.
+std::vector<KnownValue> read_known(const TomlValue& table, const std::string& path,
+                                   std::vector<Violation>& violations);
+
+/// The value of this key, nullptr when it is not known.
+const KnownValue* find_known(const std::vector<KnownValue>& known, std::string_view key);
+
+/// As a line of an experiment file, without its end: "box.mass" = "434 g +- 2 g".
+std::string known_line(const KnownValue& known);
+
+}  // namespace shakedown
