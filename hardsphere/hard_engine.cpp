@@ -14,7 +14,7 @@ namespace {
 class HardEngine final : public Engine {
  public:
   std::string_view name() const override { return "hard"; }
-  Capability can_model(const EffectRecord& effect) const override { return effect.hard; }
+  Capability can_model(const EffectRecord& effect) const override { return effect.capability(name()); }
 
   Trajectory run(const Setup& setup, const RunOptions& options) const override {
     refuse_what_is_not_modelled(*this, setup);

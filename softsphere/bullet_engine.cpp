@@ -165,7 +165,7 @@ class BulletRun {
 class BulletEngine final : public Engine {
  public:
   std::string_view name() const override { return "bullet"; }
-  Capability can_model(const EffectRecord& effect) const override { return effect.bullet; }
+  Capability can_model(const EffectRecord& effect) const override { return effect.capability(name()); }
   Trajectory run(const Setup& setup, const RunOptions& options) const override {
     refuse_what_is_not_modelled(*this, setup);
     const Physics physics = physics_of(setup);

@@ -192,7 +192,7 @@ class SoftEngine final : public Engine {
  public:
   explicit SoftEngine(PairSearch search) : search_(search) {}
   std::string_view name() const override { return "soft"; }
-  Capability can_model(const EffectRecord& effect) const override { return effect.soft; }
+  Capability can_model(const EffectRecord& effect) const override { return effect.capability(name()); }
   Trajectory run(const Setup& setup, const RunOptions& options) const override {
     refuse_what_is_not_modelled(*this, setup);
     check(setup);

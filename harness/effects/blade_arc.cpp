@@ -13,6 +13,8 @@ void apply(const EffectChoice& choice, int index, Physics& physics) {
 
 extern const EffectRecord blade_arc{
     .name = "blade_arc",
+    .label = "arc of the box",
+    .family = "spring",
     .acts_on = ActsOn::box,
     .sentence = "The box moves on the arc of the blade's tip, which throws the grains across.",
     .formula =
@@ -32,11 +34,19 @@ extern const EffectRecord blade_arc{
                     .low = 0.05,
                     .high = 1000,
                     .typical = 0.59,
-                    .sentence = "Free length of the blade."}},
+                    .sentence = "Free length of the blade.",
+                    .unit_shown = "mm"}},
     .claims = "arc of the box",
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"},
-    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .engines = {{"hard", {Fidelity::exact}},
+                {"soft",
+                 {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
+    .search = {.strengths = {{.parameters = "blade_length",
+                              .typical = 0.59,
+                              .levels = {1.2, 0.59, 0.3},
+                              .low = 0.2,
+                              .high = 3,
+                              .inverse = true,
+                              .strongest = 0.15}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

@@ -10,6 +10,8 @@ void apply(const EffectChoice& choice, int, Physics& physics) { physics.box_mass
 
 extern const EffectRecord blade_mass{
     .name = "blade_mass",
+    .label = "moving mass of the blade",
+    .family = "camera of the centre",
     .acts_on = ActsOn::box,
     .sentence = "Moving mass added to the box while the spring constant stays.",
     .formula = "M -> M + dM, k unchanged",
@@ -27,10 +29,9 @@ extern const EffectRecord blade_mass{
                     .high = 10,
                     .neutral = 0,
                     .typical = 0.01,
-                    .sentence = "Mass added to the box."}},
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::exact},
-    .bullet = {Fidelity::exact},
+                    .sentence = "Mass added to the box.",
+                    .unit_shown = "g"}},
+    .engines = {{every_engine, {Fidelity::exact}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

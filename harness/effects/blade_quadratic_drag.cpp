@@ -15,6 +15,8 @@ void apply(const EffectChoice& choice, int index, Physics& physics) {
 
 extern const EffectRecord blade_quadratic_drag{
     .name = "blade_quadratic_drag",
+    .label = "quadratic drag of the box",
+    .family = "drag",
     .acts_on = ActsOn::box,
     .sentence = "Drag of the box that grows as the square of its speed.",
     .formula = "F = -c v |v|",
@@ -31,10 +33,12 @@ extern const EffectRecord blade_quadratic_drag{
                     .typical = 0.03,
                     .sentence = "Force divided by the square of the speed."}},
     .dissipative = true,
-    .hard = {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"},
-    .soft = {Fidelity::to_stated_error,
-             "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
-    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .engines = {{"hard",
+                 {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"}},
+                {"soft",
+                 {Fidelity::to_stated_error,
+                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}}},
+    .search = {.strengths = {{.parameters = "drag", .strongest = 0.6}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

@@ -13,6 +13,8 @@ void apply(const EffectChoice& choice, int index, Physics& physics) {
 
 extern const EffectRecord blade_viscous_damping{
     .name = "blade_viscous_damping",
+    .label = "linear damping of the box",
+    .family = "drag",
     .acts_on = ActsOn::box,
     .sentence = "Linear damping of the box.",
     .formula = "F = -c v",
@@ -29,10 +31,10 @@ extern const EffectRecord blade_viscous_damping{
                     .typical = 0.05,
                     .sentence = "Force divided by the speed of the box."}},
     .dissipative = true,
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error,
-             "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
-    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .engines = {{"hard", {Fidelity::exact}},
+                {"soft",
+                 {Fidelity::to_stated_error,
+                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

@@ -12,6 +12,8 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 
 extern const EffectRecord camera_arc{
     .name = "camera_arc",
+    .label = "tilt of the box as the camera sees it",
+    .family = "camera of the centre",
     .acts_on = ActsOn::camera,
     .sentence = "The recorded centre of the grains is foreshortened by the tilt of the box on its blade.",
     .formula = "x_recorded = x_box + (x_com - x_box) cos(1.5 x_box/l)",
@@ -28,10 +30,16 @@ extern const EffectRecord camera_arc{
                     .low = 0.05,
                     .high = 1000,
                     .typical = 0.59,
-                    .sentence = "Free length of the blade."}},
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::exact},
-    .bullet = {Fidelity::exact},
+                    .sentence = "Free length of the blade.",
+                    .unit_shown = "mm"}},
+    .engines = {{every_engine, {Fidelity::exact}}},
+    .search = {.strengths = {{.parameters = "blade_length",
+                              .typical = 0.59,
+                              .levels = {1.2, 0.59, 0.3},
+                              .low = 0.2,
+                              .high = 3,
+                              .inverse = true,
+                              .strongest = 0.12}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

@@ -12,6 +12,8 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 
 extern const EffectRecord camera_com_bias{
     .name = "camera_com_bias",
+    .label = "bias of the grains' recorded centre",
+    .family = "camera of the centre",
     .acts_on = ActsOn::camera,
     .sentence = "The recorded centre of the grains lies too near to the middle of the box.",
     .formula = "x_recorded = x_box + (1 - b)(x_com - x_box)",
@@ -26,9 +28,7 @@ extern const EffectRecord camera_com_bias{
                     .neutral = 0,
                     .typical = 0.05,
                     .sentence = "Share of the distance to the middle that is lost."}},
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::exact},
-    .bullet = {Fidelity::exact},
+    .engines = {{every_engine, {Fidelity::exact}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

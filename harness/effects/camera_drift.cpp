@@ -12,6 +12,7 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 
 extern const EffectRecord camera_drift{
     .name = "camera_drift",
+    .label = "drift of the camera",
     .acts_on = ActsOn::camera,
     .sentence = "Recorded positions drift at a constant speed.",
     .formula = "x_recorded = x + u t",
@@ -24,10 +25,10 @@ extern const EffectRecord camera_drift{
                     .high = 1,
                     .neutral = 0,
                     .typical = 1e-4,
-                    .sentence = "Speed of the drift."}},
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::exact},
-    .bullet = {Fidelity::exact},
+                    .sentence = "Speed of the drift.",
+                    .unit_shown = "mm/s"}},
+    .engines = {{every_engine, {Fidelity::exact}}},
+    .search = {.strengths = {{.parameters = "drift", .strongest = 5e-3}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

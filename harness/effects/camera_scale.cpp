@@ -12,6 +12,7 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 
 extern const EffectRecord camera_scale{
     .name = "camera_scale",
+    .label = "scale of the camera",
     .acts_on = ActsOn::camera,
     .sentence = "All recorded lengths are too long by a factor.",
     .formula = "x_recorded = (1 + s) x",
@@ -26,9 +27,8 @@ extern const EffectRecord camera_scale{
                     .neutral = 0,
                     .typical = 0.01,
                     .sentence = "Relative error of recorded lengths."}},
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::exact},
-    .bullet = {Fidelity::exact},
+    .engines = {{every_engine, {Fidelity::exact}}},
+    .search = {.strengths = {{.parameters = "scale", .strongest = 0.2}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

@@ -12,6 +12,8 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 
 extern const EffectRecord camera_time_offset{
     .name = "camera_time_offset",
+    .label = "offset of the camera's clock",
+    .family = "release",
     .acts_on = ActsOn::camera,
     .sentence = "Recorded times are shifted.",
     .formula = "t_recorded = t + t0",
@@ -24,10 +26,10 @@ extern const EffectRecord camera_time_offset{
                     .high = 10,
                     .neutral = 0,
                     .typical = 0.002,
-                    .sentence = "Recorded time minus time since release."}},
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::exact},
-    .bullet = {Fidelity::exact},
+                    .sentence = "Recorded time minus time since release.",
+                    .unit_shown = "ms"}},
+    .engines = {{every_engine, {Fidelity::exact}}},
+    .search = {.strengths = {{.parameters = "offset", .strongest = 0.04}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

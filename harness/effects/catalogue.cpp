@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "effects.hpp"
 #include "engine_differences.hpp"
 #include "quantity.hpp"
 #include "setup_keys.hpp"
@@ -52,8 +53,8 @@ std::string toml_value(const Parameter& parameter, double strength) {
     case ParameterKind::number: return toml_of(strength, parameter.unit);
     case ParameterKind::vector: return "{x = " + toml_of(strength, parameter.unit) + "}";
     case ParameterKind::choice: return toml_string(std::get<std::string>(parameter.default_value));
-    case ParameterKind::text: return toml_string("-c*v*abs(v)");
-    case ParameterKind::constants: return "{c = \"0.1 N s^2/m^2\"}";
+    case ParameterKind::text:
+    case ParameterKind::constants: return std::string(parameter.example);
   }
   return "";
 }
@@ -104,14 +105,26 @@ std::string_view name_of(Fidelity fidelity) {
   return names[static_cast<std::size_t>(fidelity)];
 }
 
+std::vector<std::string_view> engines_of(std::span<const EffectRecord* const> effects) {
+  std::vector<std::string_view> engines;
+  for (const EffectRecord* effect : effects)
+    for (const EngineCapability& one : effect->engines)
+      if (one.engine != every_engine &&
+          std::find(engines.begin(), engines.end(), one.engine) == engines.end())
+        engines.push_back(one.engine);
+  return engines;
+}
+
 std::string list_effects(std::span<const EffectRecord* const> effects) {
   const auto mark = [](const Capability& capability) { return padded(name_of(capability.fidelity), 19); };
-  std::string text = padded("effect", 32) + padded("acts on", 9) + padded("hard", 19) + padded("soft", 19) +
-                     padded("bullet", 19) + padded("hard-soft*", 14) + "what it is\n";
-  for (const EffectRecord* effect : effects)
-    text += padded(effect->name, 32) + padded(name_of(effect->acts_on), 9) + mark(effect->hard) +
-            mark(effect->soft) + mark(effect->bullet) + padded(shortly(effect->name), 14) +
-            std::string(effect->sentence) + "\n";
+  std::string text = padded("effect", 32) + padded("acts on", 9);
+  for (const std::string_view engine : engines_of(effects)) text += padded(engine, 19);
+  text += padded("hard-soft*", 14) + "what it is\n";
+  for (const EffectRecord* effect : effects) {
+    text += padded(effect->name, 32) + padded(name_of(effect->acts_on), 9);
+    for (const std::string_view engine : engines_of(effects)) text += mark(effect->capability(engine));
+    text += padded(shortly(effect->name), 14) + std::string(effect->sentence) + "\n";
+  }
   return text + "* of the slope, added by the effect at its typical strength, L = 40 and 104 mm, mm/s\n";
 }
 
@@ -136,9 +149,8 @@ std::string describe_effect(const EffectRecord& effect) {
   const auto capability = [&](std::string_view engine, const Capability& of) {
     line(engine, std::string(name_of(of.fidelity)) + (of.note.empty() ? "" : ": " + std::string(of.note)));
   };
-  capability("hard", effect.hard);
-  capability("soft", effect.soft);
-  capability("bullet", effect.bullet);
+  for (const std::string_view engine : engines_of(all_effects()))
+    capability(engine, effect.capability(engine));
   line("engines", differences_of(effect));
   for (const Parameter& parameter : effect.parameters) {
     text += "  parameter " + std::string(parameter.name) + (parameter.required ? " (required)" : "") + "\n";

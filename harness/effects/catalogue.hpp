@@ -11,6 +11,9 @@ namespace shakedown {
 std::string_view name_of(ActsOn acts_on);
 std::string_view name_of(Fidelity fidelity);
 
+/// The engines that the records name, in the order in which they do.
+std::vector<std::string_view> engines_of(std::span<const EffectRecord* const> effects);
+
 /// A table of all effects: name, what it acts on, what each engine makes of it, sentence.
 std::string list_effects(std::span<const EffectRecord* const> effects);
 

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "catalogue.hpp"
+#include "effect_strength.hpp"
+#include "effects.hpp"
 #include "engine_differences.hpp"
 #include "quantity.hpp"
 #include "setup_keys.hpp"
@@ -26,6 +28,7 @@ Json json_of(const Parameter& parameter) {
             {"required", parameter.required}};
   if (numeric) {
     json["unit"] = parameter.unit;
+    if (!parameter.unit_shown.empty()) json["unit_shown"] = parameter.unit_shown;
     const auto number = [&](const char* key, double value) {
       json[key] = std::isfinite(value) ? Json(value) : Json();
     };
@@ -65,23 +68,41 @@ Json differences_of(const EffectRecord& effect) {
   return rows;
 }
 
+Json json_of(const SearchedStrength& strength) {
+  Json json{{"parameters", strength.parameters},
+            {"typical", strength.typical},
+            {"levels", strength.levels},
+            {"low", strength.low},
+            {"high", strength.high},
+            {"strongest", strength.strongest}};
+  if (!strength.absent_key.empty()) json["absent_key"] = strength.absent_key;
+  if (strength.inverse) json["inverse"] = true;
+  return json;
+}
+
+/// How a diagnosis looks for it: strengths with their levels, or why it does not.
+Json search_json(const EffectRecord& effect) {
+  const Search search = search_of(effect);
+  if (!search.not_searched.empty()) return {{"not_searched", search.not_searched}};
+  Json strengths = Json::array();
+  for (const SearchedStrength& strength : search.strengths) strengths.push_back(json_of(strength));
+  return {{"strengths", strengths}, {"odds", search.odds}};
+}
+
 Json json_of(const EffectRecord& effect) {
   Json parameters = Json::array();
   for (const Parameter& parameter : effect.parameters) parameters.push_back(json_of(parameter));
-  return {
-      {"name", effect.name},
-      {"acts_on", name_of(effect.acts_on)},
-      {"sentence", effect.sentence},
-      {"formula", effect.formula},
-      {"source", effect.source},
-      {"limits", effect.limits},
-      {"replaces", effect.claims},
-      {"dissipative", effect.dissipative},
-      {"parameters", parameters},
-      {"engines",
-       {{"hard", json_of(effect.hard)}, {"soft", json_of(effect.soft)}, {"bullet", json_of(effect.bullet)}}},
-      {"hard_soft_difference", differences_of(effect)},
-      {"example", example_of(effect)}};
+  Json engines = Json::object();
+  for (const std::string_view engine : engines_of(all_effects()))
+    engines[std::string(engine)] = json_of(effect.capability(engine));
+  return {{"name", effect.name},           {"label", effect.label},
+          {"family", family_of(effect)},   {"acts_on", name_of(effect.acts_on)},
+          {"sentence", effect.sentence},   {"formula", effect.formula},
+          {"source", effect.source},       {"limits", effect.limits},
+          {"replaces", effect.claims},     {"dissipative", effect.dissipative},
+          {"parameters", parameters},      {"engines", engines},
+          {"search", search_json(effect)}, {"hard_soft_difference", differences_of(effect)},
+          {"example", example_of(effect)}};
 }
 
 // ---- schema ----

@@ -13,6 +13,8 @@ void apply(const EffectChoice& choice, int index, Physics& physics) {
 
 extern const EffectRecord clamp_dry_friction{
     .name = "clamp_dry_friction",
+    .label = "dry friction of the clamp",
+    .family = "drag",
     .acts_on = ActsOn::box,
     .sentence = "Coulomb friction on the box that opposes its motion and can hold it still.",
     .formula = "F = -F0 sgn(v); at rest as much as balances spring and grains, up to F0",
@@ -26,12 +28,13 @@ extern const EffectRecord clamp_dry_friction{
                     .high = 10,
                     .neutral = 0,
                     .typical = 0.02,
-                    .sentence = "Friction force."}},
+                    .sentence = "Friction force.",
+                    .unit_shown = "mN"}},
     .dissipative = true,
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error,
-             "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
-    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .engines = {{"hard", {Fidelity::exact}},
+                {"soft",
+                 {Fidelity::to_stated_error,
+                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

@@ -16,6 +16,7 @@ void apply(const EffectChoice& choice, int index, Physics& physics) {
 
 extern const EffectRecord constant_acceleration{
     .name = "constant_acceleration",
+    .label = "constant acceleration",
     .acts_on = ActsOn::all,
     .sentence = "A constant acceleration of grains and box.",
     .formula = "+m a on every grain and +M a_x on the box; +x points towards the release",
@@ -34,10 +35,16 @@ extern const EffectRecord constant_acceleration{
                     .neutral = 0,
                     .typical = 0.1,
                     .sentence = "Acceleration [x, y, z]."}},
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error,
-             "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
-    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .engines = {{"hard", {Fidelity::exact}},
+                {"soft",
+                 {Fidelity::to_stated_error,
+                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}}},
+    // Across the axis both signs do the same to the box: nothing is linear about zero, and layers that lie on
+    // a side wall cost three times the events.
+    .search = {.strengths = {{.parameters = "acceleration.x", .strongest = 0.5},
+                             {.parameters = "acceleration.y", .typical = 0.15, .even = true, .strongest = 2},
+                             {.parameters = "acceleration.z", .typical = 0.15, .even = true, .strongest = 2}},
+               .cost = Search::Cost::slow},
     .apply = &apply,
     .applied_last = true};
 

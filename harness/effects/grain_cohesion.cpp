@@ -13,6 +13,8 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 
 extern const EffectRecord grain_cohesion{
     .name = "grain_cohesion",
+    .label = "attraction of the grains",
+    .family = "contact",
     .acts_on = ActsOn::contact,
     .sentence = "Grains attract each other and the walls with a constant force up to a small gap.",
     .formula =
@@ -38,19 +40,33 @@ extern const EffectRecord grain_cohesion{
                     .low = 0,
                     .high = 10,
                     .neutral = 0,
-                    .typical = 0.02,
-                    .sentence = "Attraction of two grains, or of a grain and a wall, within the range."},
+                    .typical = 8e-3,
+                    .sentence = "Attraction of two grains, or of a grain and a wall, within the range.",
+                    .unit_shown = "mN"},
                    {.name = "range",
                     .unit = "m",
                     .default_value = 2e-5,
                     .low = 1e-7,
                     .high = 2e-3,
                     .typical = 2e-5,
-                    .sentence = "Gap between the surfaces up to which it acts."}},
+                    .sentence = "Gap between the surfaces up to which it acts.",
+                    .unit_shown = "mm"}},
     .claims = "attraction of grains",
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"},
-    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .engines = {{"hard", {Fidelity::exact}},
+                {"soft",
+                 {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
+    // What matters to moving grains is force times range. Ranges beyond the gaps of the packing let the hard
+    // engine's wells hold the layer at the wall for good, and so do stronger forces. Dry grains of some
+    // millimetres rarely stick: exp(-2).
+    .search = {.strengths = {{.parameters = "force",
+                              .typical = 8e-3,
+                              .levels = {4e-3, 8e-3, 16e-3},
+                              .low = 0,
+                              .high = 2e-2,
+                              .strongest = 0.2}},
+               .besides = {{"range", 2e-5}},
+               .cost = Search::Cost::dear,
+               .odds = 0.135},
     .apply = &apply};
 
 }  // namespace shakedown::effect

@@ -12,6 +12,7 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 
 extern const EffectRecord grain_polydispersity{
     .name = "grain_polydispersity",
+    .label = "unequal sizes of the grains",
     .acts_on = ActsOn::grains,
     .sentence = "Diameters of the grains scatter, masses as the cube of the diameter.",
     .formula =
@@ -29,9 +30,8 @@ extern const EffectRecord grain_polydispersity{
                     .typical = 0.05,
                     .sentence = "Standard deviation of the diameter divided by its mean."}},
     .claims = "diameters of the grains",
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::exact},
-    .bullet = {Fidelity::exact},
+    .engines = {{every_engine, {Fidelity::exact}}},
+    .search = {.strengths = {{.parameters = "relative_deviation", .strongest = 0.1}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

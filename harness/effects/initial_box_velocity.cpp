@@ -12,6 +12,8 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 
 extern const EffectRecord initial_box_velocity{
     .name = "initial_box_velocity",
+    .label = "push at the release",
+    .family = "release",
     .acts_on = ActsOn::box,
     .sentence = "Velocity of the box at release.",
     .formula = "v_box(0) = v",
@@ -26,10 +28,9 @@ extern const EffectRecord initial_box_velocity{
                     .high = 10,
                     .neutral = 0,
                     .typical = 0.02,
-                    .sentence = "Velocity of the box at release, along +x."}},
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::exact},
-    .bullet = {Fidelity::exact},
+                    .sentence = "Velocity of the box at release, along +x.",
+                    .unit_shown = "mm/s"}},
+    .engines = {{every_engine, {Fidelity::exact}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

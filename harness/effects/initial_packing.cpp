@@ -13,6 +13,7 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 
 extern const EffectRecord initial_packing{
     .name = "initial_packing",
+    .label = "arrangement of the grains at release",
     .acts_on = ActsOn::grains,
     .sentence = "Another arrangement of the grains at release.",
     .formula = "fcc or square layers on the outer wall, random in a layer, spread over the box",
@@ -27,9 +28,9 @@ extern const EffectRecord initial_packing{
                     .sentence = "The arrangement.",
                     .choices = {"fcc", "square", "random", "spread"}}},
     .claims = "release.packing",
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::exact},
-    .bullet = {Fidelity::exact},
+    .engines = {{every_engine, {Fidelity::exact}}},
+    .search = {.not_searched = "How a run was released is not a law of physics; every fit allows for it."},
+    .nuisance = true,
     .apply = &apply};
 
 }  // namespace shakedown::effect

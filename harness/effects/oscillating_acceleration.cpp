@@ -16,6 +16,7 @@ void apply(const EffectChoice& choice, int index, Physics& physics) {
 
 extern const EffectRecord oscillating_acceleration{
     .name = "oscillating_acceleration",
+    .label = "oscillating acceleration",
     .acts_on = ActsOn::all,
     .sentence = "A harmonic acceleration of grains and box.",
     .formula = "+m a sin(2 pi f t + phi) on every grain and +M a_x sin(2 pi f t + phi) on the box",
@@ -44,10 +45,12 @@ extern const EffectRecord oscillating_acceleration{
                     .low = -10,
                     .high = 10,
                     .sentence = "Phase at release."}},
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error,
-             "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
-    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .engines = {{"hard", {Fidelity::exact}},
+                {"soft",
+                 {Fidelity::to_stated_error,
+                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}}},
+    .search = {.strengths = {{.parameters = "amplitude.x", .typical = 0.1}},
+               .harmonic = SearchedHarmonic{"amplitude.x", "frequency", "phase"}},
     .apply = &apply,
     .applied_last = true};
 

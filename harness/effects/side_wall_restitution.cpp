@@ -13,6 +13,8 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 
 extern const EffectRecord side_wall_restitution{
     .name = "side_wall_restitution",
+    .label = "restitution of the side walls",
+    .family = "contact",
     .acts_on = ActsOn::contact,
     .sentence = "Normal restitution of the side walls, apart from that of the end walls.",
     .formula = "eps of grain and side wall = restitution; end walls keep restitution.grain_wall",
@@ -28,10 +30,19 @@ extern const EffectRecord side_wall_restitution{
                     .typical = 0.6,
                     .sentence = "Coefficient of normal restitution of a grain and a side wall."}},
     .claims = "restitution of the side walls",
-    .hard = {Fidelity::exact},
-    .soft = {Fidelity::to_stated_error,
-             "restitution to second order in the time step, as at the other walls"},
-    .bullet = {Fidelity::exact},
+    .engines = {{"hard", {Fidelity::exact}},
+                {"soft",
+                 {Fidelity::to_stated_error,
+                  "restitution to second order in the time step, as at the other walls"}},
+                {"bullet", {Fidelity::exact}}},
+    // Known to 0.2 of that of the end walls; below 0.05 grains stay at the wall.
+    .search = {.strengths = {{.parameters = "restitution",
+                              .typical = -0.2,
+                              .levels = {-0.1, -0.2, -0.4},
+                              .low = 0.05,
+                              .high = 0.999,
+                              .absent_key = "restitution.grain_wall",
+                              .strongest = -0.66}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

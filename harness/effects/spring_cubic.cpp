@@ -18,6 +18,8 @@ void apply(const EffectChoice& choice, int index, Physics& physics) {
 
 extern const EffectRecord spring_cubic{
     .name = "spring_cubic",
+    .label = "cubic term of the spring",
+    .family = "spring",
     .acts_on = ActsOn::box,
     .sentence = "Spring force with a cubic term.",
     .formula = "F = -k x (1 + b (x/Delta0)^2), Delta0 the reference, or else the release displacement",
@@ -41,10 +43,12 @@ extern const EffectRecord spring_cubic{
           .sentence = "Displacement of the coefficient; 0: the release displacement of the run. Runs of one "
                       "spring with other releases share one."}},
     .claims = "spring force",
-    .hard = {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"},
-    .soft = {Fidelity::to_stated_error,
-             "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"},
-    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .engines = {{"hard",
+                 {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"}},
+                {"soft",
+                 {Fidelity::to_stated_error,
+                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}}},
+    .search = {.strengths = {{.parameters = "coefficient", .strongest = 0.8}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

@@ -69,6 +69,7 @@ Capability capability_of(const EffectChoice& choice, std::string_view engine, Ca
 
 extern const EffectRecord user_force{
     .name = "user_force",
+    .label = "force given as a formula",
     .acts_on = ActsOn::all,
     .sentence = "A force along the axis on the box or on every grain, given as a formula.",
     .formula =
@@ -87,17 +88,22 @@ extern const EffectRecord user_force{
                     .kind = ParameterKind::text,
                     .default_value = std::string("0"),
                     .required = true,
-                    .sentence = "The formula, e.g. \"-c*v*exp(-((x-x0)/w)^2)\"."},
+                    .sentence = "The formula, e.g. \"-c*v*exp(-((x-x0)/w)^2)\".",
+                    .example = "\"-c*v*abs(v)\""},
                    {.name = "constants",
                     .kind = ParameterKind::constants,
                     .default_value = std::map<std::string, double>{},
                     .sentence = "Named quantities with units, e.g. {c = \"0.4 N s/m\", x0 = \"45 mm\", w = "
-                                "\"12 mm\"}; the formula sees them in SI."}},
-    .hard = {Fidelity::to_stated_error,
-             "on the box: motion dense to 1e-13 of the release displacement; on grains: formulas of t alone, "
-             "else --engine soft"},
-    .soft = {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"},
-    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such force; use --engine hard or soft"},
+                                "\"12 mm\"}; the formula sees them in SI.",
+                    .example = "{c = \"0.1 N s^2/m^2\"}"}},
+    .engines =
+        {{"hard",
+          {Fidelity::to_stated_error,
+           "on the box: motion dense to 1e-13 of the release displacement; on grains: formulas of t alone, "
+           "else --engine soft"}},
+         {"soft", {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
+    .search = {.not_searched = "A formula has no strength of its own; where no effect of the list fits, a "
+                               "diagnosis offers formulas."},
     .apply = &apply,
     .check = &check,
     .capability_of = &capability_of};

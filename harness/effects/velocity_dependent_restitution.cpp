@@ -69,6 +69,8 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 
 extern const EffectRecord velocity_dependent_restitution{
     .name = "velocity_dependent_restitution",
+    .label = "restitution that falls with the speed",
+    .family = "contact",
     .acts_on = ActsOn::contact,
     .sentence =
         "Normal restitution that falls with the closing speed; the setup's values hold at the reference "
@@ -106,12 +108,13 @@ extern const EffectRecord velocity_dependent_restitution{
                     .typical = 0.3,
                     .sentence = "Closing speed at which the setup's restitution holds."}},
     .claims = "normal restitution",
-    .hard = {Fidelity::exact, "viscoelastic: restitution from a table, to 1e-10"},
-    .soft =
-        {Fidelity::to_stated_error,
-         "power: linear spring-dashpot of the restitution at the closing speed; viscoelastic: Hertz's force "
-         "itself, first order in the time step"},
-    .bullet = {Fidelity::not_modelled, "Bullet's own solver has no such law; use --engine hard or soft"},
+    .engines = {{"hard", {Fidelity::exact, "viscoelastic: restitution from a table, to 1e-10"}},
+                {"soft",
+                 {Fidelity::to_stated_error,
+                  "power: linear spring-dashpot of the restitution at the closing speed; viscoelastic: "
+                  "Hertz's force "
+                  "itself, first order in the time step"}}},
+    .search = {.strengths = {{.parameters = "exponent", .strongest = 0.5}}, .hides_in_restitution = true},
     .apply = &apply,
     .applied_last = true};
 

@@ -31,6 +31,19 @@ const Parameter* EffectRecord::find(std::string_view parameter) const {
   return nullptr;
 }
 
+Capability EffectRecord::capability(std::string_view engine) const {
+  for (const std::string_view who : {engine, every_engine})
+    for (const EngineCapability& one : engines)
+      if (one.engine == who) return one.capability;
+  return {Fidelity::not_modelled, "this engine has no such law; use --engine hard or soft"};
+}
+
+bool EffectRecord::takes_formula() const {
+  for (const Parameter& parameter : parameters)
+    if (parameter.kind == ParameterKind::text) return true;
+  return false;
+}
+
 EffectChoice with_defaults(const EffectRecord& record) {
   EffectChoice choice{&record, {}, {}};
   for (const Parameter& parameter : record.parameters)

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A physical effect: a constant record, from which the setup's keys, the JSON schema, the listing, the fit's
-// bounds, the engines' capability table and the generic tests are made; and one function that writes the
-// effect into the physics an engine reads.
+// bounds, the engines' capability table, how a diagnosis looks for it, how a laboratory hides it and the
+// generic tests are made; and one function that writes the effect into the physics an engine reads.
 #pragma once
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -41,6 +43,8 @@ struct Parameter {
   double typical = 0;           ///< a strength worth looking for: step of a sensitivity, start of a fit; SI
   std::string_view sentence{};  ///< what it is
   std::vector<std::string_view> choices{};
+  std::string_view unit_shown{};  ///< in which people read it where that is not `unit`: "mm/s"
+  std::string_view example{};     ///< of a text or of constants: a value as a setup file has it
 };
 
 /// How faithfully an engine models an effect.
@@ -49,6 +53,13 @@ struct Capability {
   Fidelity fidelity = Fidelity::not_modelled;
   std::string_view note{};  ///< the stated error, or what to use instead
 };
+
+/// Engines that a record does not name: as every_engine says, else not modelled.
+struct EngineCapability {
+  std::string_view engine{};
+  Capability capability{};
+};
+constexpr std::string_view every_engine = "*";
 
 /// Where an effect acts. Camera effects change only what the measurement sees.
 enum class ActsOn { contact, grains, box, all, camera };
@@ -61,8 +72,49 @@ struct ParameterProblem {
   std::string problem, remedy;
 };
 
+/// One number that says how strong an effect is, for a diagnosis that looks for it and for a laboratory that
+/// hides it. `typical` and `levels` are changes from the value at which the effect is absent (which is 0 for
+/// most, so that they are the values themselves); of an `inverse` one they are the values.
+struct SearchedStrength {
+  /// "damping"; a component, "acceleration.x"; several that move together, "grain_grain&grain_wall".
+  std::string parameters{};
+  double typical = 0;  ///< scale of the prior of the strength, one of the levels; 0: the parameter's
+  /// Strengths at which its signature is simulated, SI, weakest first, three to five over its sensible range.
+  /// More than three say that even a parabola through them would not do.
+  std::vector<double> levels{};
+  double low = 0, high = 0;  ///< values searched; both 0: the parameter's own bounds
+  /// Key of the setup whose value it has when absent ("restitution.grain_wall"); empty: the parameter's
+  /// neutral value, or else 0.
+  std::string_view absent_key{};
+  bool inverse = false;  ///< a length: without end when the effect is absent
+  bool even = false;     ///< both signs do the same; searched on the positive side
+  double strongest = 0;  ///< hidden at most at this strength; 0: ten typical ones, within the bounds
+};
+
+/// A strength that oscillates: a diagnosis searches its frequency and phase too.
+struct SearchedHarmonic {
+  std::string_view amplitude{}, frequency{}, phase{};  ///< parameters; of an amplitude the component
+};
+
+/// How a diagnosis looks for an effect. Left empty it is made from the parameters: see search_of().
+struct Search {
+  std::vector<SearchedStrength> strengths{};                   ///< each an alternative of its own (x, y, z)
+  std::vector<std::pair<std::string_view, double>> besides{};  ///< parameters that its presence needs, SI
+  std::optional<SearchedHarmonic> harmonic{};
+  /// What a run with it costs: as one without; three to five times that; ten times that.
+  enum class Cost { plain, slow, dear } cost = Cost::plain;
+  /// How likely it is in such an experiment beside a usual effect (viscous damping, friction): a prior.
+  double odds = 1;
+  /// Restitutions take up most of what is linear in it, so that only its full strength tells.
+  bool hides_in_restitution = false;
+  std::string_view not_searched{};  ///< why no diagnosis looks for it; empty: one does
+};
+
 struct EffectRecord {
-  std::string_view name{};  ///< snake_case id, fixed for ever
+  std::string_view name{};   ///< snake_case id, fixed for ever
+  std::string_view label{};  ///< short name for people, "linear damping of the box"
+  /// Effects of one family look alike, and naming the family is half an answer; empty: has no look-alikes.
+  std::string_view family{};
   ActsOn acts_on = ActsOn::box;
   std::string_view sentence{};  ///< one sentence for people
   std::string_view formula{};
@@ -73,7 +125,10 @@ struct EffectRecord {
   /// restitution", or the path of the setup's key that it stands for; empty: adds up.
   std::string_view claims{};
   bool dissipative = false;  ///< its line in the energy ledger can never be negative
-  Capability hard{}, soft{}, bullet{};
+  std::vector<EngineCapability> engines{};
+  Search search{};
+  /// How a run was made rather than a law of physics: never missing in a model.
+  bool nuisance = false;
   /// Writes the effect's share into the physics. `index` is its line in Setup::effects and in the energy
   /// ledger.
   void (*apply)(const EffectChoice& choice, int index, Physics& physics) = nullptr;
@@ -89,6 +144,10 @@ struct EffectRecord {
 
   /// The parameter of this name, or nullptr.
   const Parameter* find(std::string_view parameter) const;
+  /// What this engine makes of it, whatever the choice of parameters.
+  Capability capability(std::string_view engine) const;
+  /// Its law is written in the setup.
+  bool takes_formula() const;
 };
 
 /// An effect as chosen in a setup, with all its parameters filled in.

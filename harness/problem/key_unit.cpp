@@ -14,7 +14,8 @@ std::string unit_of_key(std::string_view key, std::span<const EffectRecord* cons
   key = key.substr(0, key.find(key_joint));
   if (const SetupKey* found = find_setup_key(key)) return std::string(found->unit);
   const Parameter* parameter = find_parameter(known, key);
-  return parameter ? std::string(parameter->unit) : "";
+  if (parameter == nullptr) return "";
+  return std::string(parameter->unit_shown.empty() ? parameter->unit : parameter->unit_shown);
 }
 
 std::vector<std::string> joined_keys(std::string_view keys) {

@@ -21,6 +21,7 @@ void apply(const EffectChoice& choice, int index, Physics& physics) {
 
 extern const EffectRecord eddy_brake{
     .name = "eddy_brake",
+    .label = "eddy-current brake",
     .acts_on = ActsOn::box,
     .sentence = "A magnet beside the track brakes the box where it passes.",
     .formula = "F = -c v exp(-((x - x0)/w)^2)",
@@ -49,9 +50,10 @@ extern const EffectRecord eddy_brake{
                     .typical = 0.012,
                     .sentence = "Reach of the magnet."}},
     .dissipative = true,
-    .hard = {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"},
-    .soft = {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"},
-    .bullet = {Fidelity::not_modelled, "use --engine hard or soft"},
+    .engines = {{"hard",
+                 {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"}},
+                {"soft",
+                 {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "catalogue.hpp"
+#include "effect_strength.hpp"
 #include "effects.hpp"
 #include "initial_state.hpp"
 #include "key_unit.hpp"
@@ -55,8 +56,10 @@ TEST_P(Records, SaysWhatItIs) {
 }
 
 TEST_P(Records, CapabilitiesThatAreNotExactSayWhy) {
-  for (const Capability& capability : {record.hard, record.soft, record.bullet})
-    EXPECT_TRUE(capability.fidelity == Fidelity::exact || !capability.note.empty()) << record.name;
+  for (const std::string_view engine : engines_of(all_effects())) {
+    const Capability capability = record.capability(engine);
+    EXPECT_TRUE(capability.fidelity == Fidelity::exact || !capability.note.empty()) << engine;
+  }
 }
 
 TEST_P(Records, ParametersAreSound) {
@@ -86,6 +89,99 @@ TEST_P(Records, ParametersAreSound) {
           << parameter.name;
     }
   }
+}
+
+TEST_P(Records, ADiagnosisKnowsHowToLookForItOrWhyNot) {
+  const Search search = search_of(record);
+  EXPECT_NE(search.strengths.empty(), search.not_searched.empty());
+  if (!search.not_searched.empty()) expect_sentence(search.not_searched, record.name);
+  EXPECT_GT(search.odds, 0);
+  EXPECT_LE(search.odds, 1);
+  EXPECT_FALSE(record.label.empty());
+  for (const auto& [parameter, value] : search.besides) {
+    ASSERT_NE(record.find(parameter), nullptr) << parameter;
+    EXPECT_EQ(out_of_bounds(value, record.find(parameter)->low, record.find(parameter)->high, false, ""), "");
+  }
+}
+
+TEST_P(Records, StrengthsThatAreSearchedLieWithinTheirBoundsAndGrow) {
+  for (const SearchedStrength& strength : search_of(record).strengths) {
+    SCOPED_TRACE(strength.parameters);
+    const Parameter& parameter = parameter_of(record, strength);
+    EXPECT_GE(strength.low, parameter.low);
+    EXPECT_LE(strength.high, parameter.high);
+    EXPECT_LT(strength.low, strength.high);
+    EXPECT_EQ(std::count(strength.levels.begin(), strength.levels.end(), strength.typical), 1);
+    EXPECT_GE(strength.levels.size(), 2u);
+    EXPECT_LE(strength.levels.size(), 5u);
+    const auto weaker = [&](double a, double b) {
+      return strength.inverse ? a > b : std::abs(a) < std::abs(b);
+    };
+    EXPECT_TRUE(std::is_sorted(strength.levels.begin(), strength.levels.end(), weaker));
+    EXPECT_TRUE(weaker(strength.typical, strength.strongest));
+    const double absent = absent_value(record, strength, {});
+    for (const double level : strength.levels) {
+      const double value = strength.inverse ? level : absent + level;
+      EXPECT_GE(value, strength.low);
+      EXPECT_LE(value, strength.high);
+      EXPECT_EQ(value_at_level(strength, level, absent), value);
+    }
+    const double hidden = strength.inverse ? strength.strongest : absent + strength.strongest;
+    EXPECT_EQ(out_of_bounds(hidden, parameter.low, parameter.high, false, parameter.unit), "");
+  }
+}
+
+TEST_P(Records, ItsStrengthCanBeSetByTheKeysOfASearch) {
+  for (const SearchedStrength& strength : search_of(record).strengths) {
+    shakedown::Setup setup;
+    const double absent = absent_value(record, strength, setup);
+    for (const std::string& key : joined_keys(keys_of(record, strength)))
+      set_number(setup, key, value_at_level(strength, strength.typical, absent), all_effects());
+    const shakedown::Setup read = parse_setup(write_setup(setup), "searched", all_effects());
+    ASSERT_EQ(read.effects.size(), 1u) << strength.parameters;
+    if (strength.inverse) continue;
+    for (const std::string& key : joined_keys(keys_of(record, strength)))
+      set_number(setup, key, absent, all_effects());
+    if (strength.absent_key.empty()) {
+      EXPECT_TRUE(parse_setup(write_setup(setup), "absent", all_effects()).effects.empty());
+    }
+  }
+}
+
+TEST(Search, ChangesThatLeaveTheBoundsGoTheOtherWay) {
+  const EffectRecord& side = *find_effect("side_wall_restitution");
+  const SearchedStrength strength = search_of(side).strengths.at(0);
+  shakedown::Setup setup;
+  EXPECT_DOUBLE_EQ(value_at_level(strength, -0.2, absent_value(side, strength, setup)), 0.56);
+  setup.restitution.grain_wall = 0.2;
+  EXPECT_DOUBLE_EQ(value_at_level(strength, -0.2, absent_value(side, strength, setup)), 0.4);
+}
+
+TEST(Search, IsMadeFromTheParametersOfARecordThatSaysNothing) {
+  const SearchedStrength damping = search_of(*find_effect("blade_viscous_damping")).strengths.at(0);
+  EXPECT_EQ(damping.parameters, "damping");
+  EXPECT_EQ(damping.levels, (std::vector{0.025, 0.05, 0.1}));
+  EXPECT_EQ(damping.high, 10);
+  EXPECT_EQ(damping.strongest, 0.5);
+  EffectRecord pull;
+  pull.name = "pull";
+  pull.parameters = {
+      {.name = "force", .kind = ParameterKind::vector, .low = -2, .high = 2, .neutral = 0, .typical = 1.5}};
+  const Search search = search_of(pull);
+  ASSERT_EQ(search.strengths.size(), 3u);
+  EXPECT_EQ(keys_of(pull, search.strengths[1]), "pull.force.y");
+  EXPECT_EQ(search.strengths[1].levels, (std::vector{0.75, 1.5}));
+  EXPECT_EQ(search.strengths[1].strongest, 2);
+}
+
+TEST(Search, StrengthsInWords) {
+  const auto words = [](const char* effect, double value) {
+    const EffectRecord& record = *find_effect(effect);
+    return strength_in_words(record, search_of(record).strengths.at(0), value);
+  };
+  EXPECT_EQ(words("blade_viscous_damping", 0.05), "linear damping of the box, 0.05 N s/m");
+  EXPECT_EQ(words("camera_drift", 1.234567e-4), "drift of the camera, 0.123 mm/s");
+  EXPECT_EQ(words("grain_friction", 0.2), "friction of the grains, 0.2");
 }
 
 TEST_P(Records, ExampleIsASetupThatWritesAndReadsBack) {
@@ -207,7 +303,7 @@ TEST(RecordList, EffectsCombineInAnyOrder) {
 
 TEST(RecordList, KeysHaveTheirUnits) {
   EXPECT_EQ(unit_of_key("box.length", all_effects()), "mm");
-  EXPECT_EQ(unit_of_key("grain_cohesion.force", all_effects()), "N");
+  EXPECT_EQ(unit_of_key("grain_cohesion.force", all_effects()), "mN");
   EXPECT_EQ(unit_of_key("constant_acceleration.acceleration.x", all_effects()), "m/s^2");
   EXPECT_EQ(unit_of_key("grain_friction.grain_grain&grain_friction.grain_wall", all_effects()), "");
   EXPECT_EQ(unit_of_key("spring.frequency&box.length", all_effects()), "Hz");

@@ -32,9 +32,7 @@ class Stub : public Engine {
  public:
   explicit Stub(std::string_view name) : name_(name) {}
   std::string_view name() const override { return name_; }
-  Capability can_model(const EffectRecord& effect) const override {
-    return name_ == "hard" ? effect.hard : effect.soft;
-  }
+  Capability can_model(const EffectRecord& effect) const override { return effect.capability(name_); }
   Trajectory run(const shakedown::Setup&, const RunOptions&) const override { return {}; }
 
  private:

@@ -178,7 +178,7 @@ TEST_P(EveryEngine, StopsWhenAsked) {
 TEST_P(EveryEngine, RefusesWhatItDoesNotModel) {
   EffectRecord record;
   record.name = "magnetism";
-  record.hard = record.soft = record.bullet = {Fidelity::not_modelled, "nobody does"};
+  record.engines = {{every_engine, {Fidelity::not_modelled, "nobody does"}}};
   record.apply = [](const EffectChoice&, int, Physics&) {};
   shakedown::Setup setup = short_damper();
   setup.effects.push_back({&record, {}, {"setup.toml", 12, 3}});

@@ -130,7 +130,7 @@ TEST(BulletEngine, RefusesEffectsOnBulletUntouched) {
   static constexpr auto apply = [](const EffectChoice&, int, Physics& physics) { physics.box.viscous = 1; };
   EffectRecord record;
   record.name = "syrup";
-  record.bullet = {Fidelity::exact, ""};
+  record.engines = {{"bullet", {Fidelity::exact}}};
   record.apply = apply;
   shakedown::Setup setup;
   setup.run.duration = 0.01;
