@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "camera.hpp"
 #include "known_effects.hpp"
 
 namespace shakedown {
@@ -17,16 +18,6 @@ constexpr double longest_filled_gap =
     0.03;  // s; the cubic through 30 ms misses k x_box'' by less than 1e-5 kg m
 constexpr double smoothing_half_time =
     0.02;  // s; longer smears the landings, shorter leaves 10 mm/s of noise in v
-
-/// Recorded positions back to true ones, by the camera that the setup states.
-void undo_camera(const Camera& camera, double time, double& x_box, double& x_com) {
-  const double drift = camera.drift * time;
-  x_box = (x_box - drift) / (1 + camera.scale);
-  x_com = (x_com - drift) / (1 + camera.scale);
-  double shrink = 1 - camera.centre_bias;
-  if (camera.arc_length > 0) shrink *= std::cos(1.5 * x_box / camera.arc_length);
-  x_com = x_box + (x_com - x_box) / shrink;
-}
 
 /// Values at the grid's places from the frames next to each; false where they are too far apart.
 void fill(const std::vector<double>& place, const std::vector<double>& value, Eigen::ArrayXd& out,
@@ -159,14 +150,10 @@ MomentumRun momentum_run(const RunAudit& audit, const MeasuredRun& measured, con
   const bool empty = setup.grains.count == 0;
   if (measured.time.size() < 8 || (!empty && !measured.has_com())) return run;
 
-  std::vector<double> place, x_box, x_com;
-  for (std::size_t i = 0; i < measured.time.size(); ++i) {
-    double box = audit.x_box[i], com = empty ? audit.x_box[i] : audit.x_com[i];
-    undo_camera(physics.camera, measured.time[i], box, com);
-    place.push_back((measured.time[i] - measured.time[0]) / run.interval);
-    x_box.push_back(box);
-    x_com.push_back(com);
-  }
+  const Recording truth =
+      undone(physics.camera, {measured.time, audit.x_box, empty ? audit.x_box : audit.x_com});
+  std::vector<double> place;
+  for (const double time : measured.time) place.push_back((time - measured.time[0]) / run.interval);
   const Eigen::Index n = static_cast<Eigen::Index>(std::lround(place.back())) + 1;
   run.time = measured.time[0] - physics.camera.time_offset +
              run.interval * Eigen::ArrayXd::LinSpaced(n, 0, static_cast<double>(n - 1));
@@ -176,8 +163,8 @@ MomentumRun momentum_run(const RunAudit& audit, const MeasuredRun& measured, con
   run.x_box.resize(n);
   run.x_com.resize(n);
   const double longest = std::max(longest_filled_gap / run.interval, 2.5);
-  fill(place, x_box, run.x_box, run.usable, run.box_filled, longest);
-  fill(place, x_com, run.x_com, run.usable, run.com_filled, longest);
+  fill(place, truth.x_box, run.x_box, run.usable, run.box_filled, longest);
+  fill(place, truth.x_com, run.x_com, run.usable, run.com_filled, longest);
   smooth(run);
   add_model_forces(physics, setup.grains.count, run);
   return run;

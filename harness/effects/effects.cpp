@@ -29,6 +29,10 @@
   EFFECT(camera_time_offset)             \
   EFFECT(camera_drift)                   \
   EFFECT(camera_arc)                     \
+  EFFECT(camera_lens)                    \
+  EFFECT(camera_shutter)                 \
+  EFFECT(camera_depth)                   \
+  EFFECT(camera_origin)                  \
   EFFECT(user_force)
 
 namespace shakedown {

@@ -1,25 +1,187 @@
 // SPDX-License-Identifier: MIT
 #include "camera.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+
+#include "moved_in_time.hpp"
 
 namespace shakedown {
 
+namespace {
+
+struct Place {
+  double box, centre;
+};
+
+double through_lens(double lens, double x) {
+  const double relative = x / camera_lens_reach;
+  return x * (1 + lens * relative * relative);
+}
+
+/// Newton; from the recorded position it converges to rounding in five rounds for any lens that does not
+/// fold.
+double before_lens(double lens, double seen) {
+  double x = seen;
+  if (lens == 0) return x;
+  for (int round = 0; round < 20; ++round) {
+    const double relative = x / camera_lens_reach;
+    const double step = (through_lens(lens, x) - seen) / (1 + 3 * lens * relative * relative);
+    x -= step;
+    if (std::abs(step) < 1e-17) break;
+  }
+  return x;
+}
+
+/// Of the distance from the middle of the box to the centre of the grains.
+double share_seen(const Camera& camera, double box) {
+  const double share = 1 - camera.centre_bias;
+  return camera.arc_length > 0 ? share * std::cos(1.5 * box / camera.arc_length) : share;
+}
+
+bool needs_box(const Camera& camera) { return camera.centre_bias != 0 || camera.arc_length > 0; }
+
+/// All that the camera does to one frame but its times.
+Place in_picture(const Camera& camera, double time, Place at) {
+  double centre = at.centre;  // which is all where the box is lost and the camera needs it not
+  if (std::isfinite(at.box) || needs_box(camera))
+    centre = at.box + share_seen(camera, at.box) * (at.centre - at.box);
+  const double shift = camera.drift * time + camera.origin;
+  return {(1 + camera.scale) * through_lens(camera.lens, at.box) + shift,
+          (1 + camera.scale) * through_lens(camera.lens, (1 + camera.depth) * centre) + shift};
+}
+
+Place out_of_picture(const Camera& camera, double time, Place seen) {
+  const double shift = camera.drift * time + camera.origin;
+  const double box = before_lens(camera.lens, (seen.box - shift) / (1 + camera.scale));
+  const double centre =
+      before_lens(camera.lens, (seen.centre - shift) / (1 + camera.scale)) / (1 + camera.depth);
+  if (!std::isfinite(box) && !needs_box(camera)) return {box, centre};
+  return {box, box + (centre - box) / share_seen(camera, box)};
+}
+
+double centre_at(const Recording& recording, std::size_t i) {
+  return recording.x_com.empty() ? std::numeric_limits<double>::quiet_NaN() : recording.x_com[i];
+}
+
+enum class Way { forth, back };
+
+/// Each position as it is when its row of the picture is read, or the inverse. `time` is the camera's.
+std::vector<double> read_by_rows(double shutter, const std::vector<double>& time,
+                                 const std::vector<double>& position, Way way) {
+  if (shutter == 0) return position;
+  const double delay = shutter / camera_track;
+  const LocalCubics cubics(time, position, std::abs(delay) * camera_lens_reach);
+  const auto shift = [delay](double x) { return delay * x; };
+  return way == Way::forth ? cubics.later(position, shift) : cubics.earlier(position, shift);
+}
+
+}  // namespace
+
 Recording recorded_by(const Camera& camera, const Trajectory& trajectory) {
-  Recording seen;
-  const std::size_t count = trajectory.time.size();
-  seen.time.reserve(count);
-  seen.x_box.reserve(count);
-  seen.x_com.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double time = trajectory.time[i], box = trajectory.x_box[i];
-    double grains = (1 - camera.centre_bias) * (trajectory.x_com[i] - box);
-    if (camera.arc_length > 0) grains *= std::cos(1.5 * box / camera.arc_length);
-    seen.time.push_back(time + camera.time_offset);
-    seen.x_box.push_back((1 + camera.scale) * box + camera.drift * time);
-    seen.x_com.push_back((1 + camera.scale) * (box + grains) + camera.drift * time);
+  return seen_through(camera, {trajectory.time, trajectory.x_box, trajectory.x_com});
+}
+
+Recording seen_through(const Camera& camera, const Recording& recording) {
+  Recording seen{recording.time, read_by_rows(camera.shutter, recording.time, recording.x_box, Way::forth),
+                 read_by_rows(camera.shutter, recording.time, recording.x_com, Way::forth)};
+  for (std::size_t i = 0; i < seen.time.size(); ++i) {
+    const Place place = in_picture(camera, recording.time[i], {seen.x_box[i], centre_at(seen, i)});
+    seen.x_box[i] = place.box;
+    if (!seen.x_com.empty()) seen.x_com[i] = place.centre;
+    seen.time[i] += camera.time_offset;
   }
   return seen;
+}
+
+Recording undone(const Camera& camera, const Recording& recording) {
+  Recording truth = recording;
+  for (std::size_t i = 0; i < truth.time.size(); ++i) {
+    truth.time[i] -= camera.time_offset;
+    const Place place = out_of_picture(camera, truth.time[i], {recording.x_box[i], centre_at(recording, i)});
+    truth.x_box[i] = place.box;
+    if (!truth.x_com.empty()) truth.x_com[i] = place.centre;
+  }
+  truth.x_box = read_by_rows(camera.shutter, truth.time, truth.x_box, Way::back);
+  truth.x_com = read_by_rows(camera.shutter, truth.time, truth.x_com, Way::back);
+  return truth;
+}
+
+std::span<const CameraParameter> camera_parameters() {
+  static constexpr std::array<CameraParameter, 9> parameters{{
+      {"camera_scale.scale", "", 0.01, &Camera::scale},
+      {"camera_lens.distortion", "", 0.005, &Camera::lens},
+      {"camera_depth.depth", "", 0.005, &Camera::depth},
+      {"camera_shutter.time", "s", 1e-3, &Camera::shutter},
+      {"camera_origin.origin", "m", 0.5e-3, &Camera::origin},
+      {"camera_drift.drift", "m/s", 1e-4, &Camera::drift},
+      {"camera_time_offset.offset", "s", 0.002, &Camera::time_offset},
+      {"camera_com_bias.bias", "", 0.05, &Camera::centre_bias},
+      {"camera_arc.blade_length", "m", 0.59, &Camera::arc_length, true},
+  }};
+  return parameters;
+}
+
+const CameraParameter* find_camera_parameter(std::string_view path) {
+  for (const CameraParameter& parameter : camera_parameters())
+    if (parameter.path == path) return &parameter;
+  return nullptr;
+}
+
+namespace {
+
+using Change = double (*)(double time, double box, double own, double velocity);
+
+struct Changes {
+  double Camera::*field;
+  Change box, centre;  ///< own: the thing's own position; velocity: its own, m/s
+  bool needs_velocity = false;
+};
+
+constexpr Change nothing = [](double, double, double, double) { return 0.0; };
+constexpr Change same = [](double, double, double own, double) { return own; };
+constexpr Change distortion = [](double, double, double own, double) {
+  return own * own * own / (camera_lens_reach * camera_lens_reach);
+};
+constexpr Change one = [](double, double, double, double) { return 1.0; };
+constexpr Change elapsed = [](double time, double, double, double) { return time; };
+constexpr Change backwards = [](double, double, double, double velocity) { return -velocity; };
+constexpr Change along_rows = [](double, double, double own, double velocity) {
+  return velocity * own / camera_track;
+};
+constexpr Change to_the_box = [](double, double box, double own, double) { return box - own; };
+constexpr Change foreshortened = [](double, double box, double own, double) {
+  return -1.125 * box * box * (own - box);  // cos(1.5 x/l) - 1 = -(1.5 x)^2 / 2 l^2
+};
+
+constexpr std::array<Changes, 9> all_changes{{
+    {&Camera::scale, same, same},
+    {&Camera::lens, distortion, distortion},
+    {&Camera::depth, nothing, same},
+    {&Camera::shutter, along_rows, along_rows, true},
+    {&Camera::origin, one, one},
+    {&Camera::drift, elapsed, elapsed},
+    {&Camera::time_offset, backwards, backwards, true},
+    {&Camera::centre_bias, nothing, to_the_box},
+    {&Camera::arc_length, nothing, foreshortened},
+}};
+
+}  // namespace
+
+Recording derivative(const Recording& recording, const CameraParameter& parameter) {
+  const Changes& changes = *std::find_if(all_changes.begin(), all_changes.end(),
+                                         [&](const Changes& one) { return one.field == parameter.field; });
+  const auto of = [&](const std::vector<double>& own, Change change) {
+    const std::vector<double> velocity =
+        changes.needs_velocity ? LocalCubics(recording.time, own, 0).slope(own) : own;
+    std::vector<double> values(own.size());
+    for (std::size_t i = 0; i < own.size(); ++i)
+      values[i] = change(recording.time[i], recording.x_box[i], own[i], velocity[i]);
+    return values;
+  };
+  return {recording.time, of(recording.x_box, changes.box), of(recording.x_com, changes.centre)};
 }
 
 }  // namespace shakedown

@@ -90,13 +90,21 @@ struct GrainForces {
   int arc_effect = -1;
 };
 
-/// What the camera does to the truth.
+/// The shutter's number is a time for this length of track, and the lens's a distortion at this distance from
+/// the optical axis, m.
+constexpr double camera_track = 0.4, camera_lens_reach = 0.2;
+
+/// What the camera does to the truth, in this order. The optical axis meets the track at x = 0.
 struct Camera {
-  double centre_bias = 0;  ///< recorded centre = x_box + (1 - b)(x_com - x_box)
-  double scale = 0;        ///< lengths times 1 + s
+  double shutter = 0;      ///< s for camera_track; a thing at x is seen at t + shutter x / camera_track
+  double centre_bias = 0;  ///< centre = x_box + (1 - b)(x_com - x_box)
+  double arc_length = 0;   ///< m; centre = x_box + (x_com - x_box) cos(1.5 x_box/l); 0: off
+  double depth = 0;   ///< centre times 1 + depth: the grains are nearer to the lens (> 0) than the marker
+  double lens = 0;    ///< positions times 1 + lens (x / camera_lens_reach)^2
+  double scale = 0;   ///< positions times 1 + s
+  double drift = 0;   ///< m/s, times t added to positions
+  double origin = 0;  ///< m, added to positions
   double time_offset = 0;  ///< s, t_recorded = t + offset
-  double drift = 0;        ///< m/s, added to positions
-  double arc_length = 0;   ///< m; recorded centre = x_box + (x_com - x_box) cos(1.5 x_box/l); 0: off
 };
 
 struct Physics {

@@ -279,6 +279,10 @@ TEST(RecordList, KeepsTheNamesOnceGiven) {
                                       "camera_time_offset",
                                       "camera_drift",
                                       "camera_arc",
+                                      "camera_lens",
+                                      "camera_shutter",
+                                      "camera_depth",
+                                      "camera_origin",
                                       "user_force"})
     EXPECT_NE(find_effect(name), nullptr) << name;
 }

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "moved_in_time.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+namespace shakedown {
+
+namespace {
+
+constexpr std::size_t least_half_width =
+    3;                                // samples; a cubic through seven halves the noise of five's slope
+constexpr double width_of_shift = 4;  // shifts; the fixed point then contracts by 0.62 at worst (eigenvalues)
+constexpr int most_rounds = 200;      // 0.62^200 is nothing
+
+std::size_t half_width(std::span<const double> time, double longest_shift) {
+  if (time.size() < 2) return least_half_width;
+  const double interval = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  return std::max(least_half_width,
+                  static_cast<std::size_t>(std::ceil(width_of_shift * longest_shift / interval)));
+}
+
+/// Weights for the coefficients of a least-squares cubic in `time` but its constant.
+Eigen::Matrix3Xd cubic_weights(const Eigen::ArrayXd& time) {
+  const Eigen::Index n = time.size(), terms = std::min<Eigen::Index>(4, n);
+  const double reach = std::max(time.abs().maxCoeff(), 1e-300);
+  Eigen::MatrixXd powers(n, terms);
+  for (Eigen::Index power = 0; power < terms; ++power)
+    powers.col(power) = (time / reach).pow(static_cast<double>(power)).matrix();
+  const Eigen::MatrixXd fit = powers.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(n, n));
+  Eigen::Matrix3Xd weights = Eigen::Matrix3Xd::Zero(3, n);
+  for (Eigen::Index power = 1; power < terms; ++power)
+    weights.row(power - 1) = fit.row(power) / std::pow(reach, static_cast<double>(power));
+  return weights;
+}
+
+}  // namespace
+
+LocalCubics::LocalCubics(std::span<const double> time, std::span<const double> position,
+                         double longest_shift) {
+  for (std::size_t i = 0; i < position.size(); ++i)
+    if (std::isfinite(position[i])) used_.push_back(i);
+  const std::size_t half = half_width(time, longest_shift), count = std::min(2 * half + 1, used_.size());
+  Eigen::ArrayXd around(static_cast<Eigen::Index>(count)), last_around;
+  for (std::size_t i = 0; i < used_.size(); ++i) {
+    const std::size_t first = std::min(i > half ? i - half : 0, used_.size() - count);
+    const double at = time[used_[i]];
+    for (std::size_t j = 0; j < count; ++j)
+      around[static_cast<Eigen::Index>(j)] = time[used_[first + j]] - at;
+    // An even clock gives the same weights again and again.
+    const bool same = last_around.size() == around.size() &&
+                      (around - last_around).abs().maxCoeff() <= 1e-9 * around.abs().maxCoeff();
+    if (!same) {
+      weights_.push_back(cubic_weights(around));
+      last_around = around;
+    }
+    pieces_.push_back({first, weights_.size() - 1});
+  }
+}
+
+Eigen::Vector3d LocalCubics::coefficients(const Piece& piece, std::span<const double> position) const {
+  const Eigen::Matrix3Xd& weights = weights_[piece.weights];
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (Eigen::Index j = 0; j < weights.cols(); ++j)
+    sum += weights.col(j) * position[used_[piece.first + static_cast<std::size_t>(j)]];
+  return sum;
+}
+
+std::vector<double> LocalCubics::later(std::span<const double> position, const Shift& shift) const {
+  std::vector<double> moved(position.begin(), position.end());
+  for (std::size_t i = 0; i < used_.size(); ++i) {
+    const Eigen::Vector3d cubic = coefficients(pieces_[i], position);
+    double& here = moved[used_[i]];
+    const double start = here;
+    for (int round = 0; round < 4; ++round) {  // each gains v shift'(x), a factor of hundreds
+      const double dt = shift(here);
+      here = start + dt * (cubic[0] + dt * (cubic[1] + dt * cubic[2]));
+    }
+  }
+  return moved;
+}
+
+std::vector<double> LocalCubics::earlier(std::span<const double> position, const Shift& shift) const {
+  std::vector<double> truth(position.begin(), position.end());
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::vector<double> seen = later(truth, shift);
+    double change = 0;
+    for (const std::size_t i : used_) {
+      const double miss = position[i] - seen[i];
+      truth[i] += miss;
+      change = std::max(change, std::abs(miss));
+    }
+    if (change < 1e-13) break;
+  }
+  return truth;
+}
+
+std::vector<double> LocalCubics::slope(std::span<const double> position) const {
+  std::vector<double> slopes(position.begin(), position.end());  // NaN stays
+  for (std::size_t i = 0; i < used_.size(); ++i) slopes[used_[i]] = coefficients(pieces_[i], position)[0];
+  return slopes;
+}
+
+}  // namespace shakedown
