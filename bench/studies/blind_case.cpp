@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "comma_list.hpp"
+#include "embedded_table.hpp"
 #include "quantity.hpp"
 #include "random.hpp"
 #include "setup_keys.hpp"
@@ -13,6 +14,8 @@
 #include "toml_document.hpp"
 
 namespace shakedown {
+
+extern const std::string_view twin_pairs_csv;
 
 namespace {
 
@@ -92,7 +95,7 @@ void Draw::hide(Random& random, const Hideable& hideable, double signal, std::ve
   // Not faster: the balance's windows would see much less of it than of the one that the law was measured
   // with.
   const double frequency = between(random, 0.5, 3), phase = between(random, 0, 6);
-  for (Override& override : at_strength(hideable, strength, frequency, phase))
+  for (Override& override : at_strength(hideable, strength, believed_, {frequency, phase}))
     truth.push_back(std::move(override));
   drawn.ids.emplace_back(hideable.id);
   drawn.strengths.push_back(name);
@@ -100,15 +103,17 @@ void Draw::hide(Random& random, const Hideable& hideable, double signal, std::ve
   drawn.signal_to_noise = drawn.signal_to_noise > 0 ? std::min(drawn.signal_to_noise, reached) : reached;
 }
 
-/// One from outside, one from inside the contacts or the box.
+/// One from inside the contacts, and one that acts on the box, on everything or in the camera.
 void Draw::hide_pair(Random& random, std::vector<Override>& truth, BlindCase& drawn) const {
-  constexpr std::array<std::string_view, 5> outside{"blade_viscous_damping", "clamp_dry_friction",
-                                                    "spring_cubic", "constant_acceleration.x",
-                                                    "camera_com_bias"};
-  constexpr std::array<std::string_view, 4> inside{"grain_friction", "velocity_dependent_restitution",
-                                                   "grain_cohesion", "side_wall_restitution"};
-  hide(random, *find_hideable(outside[choice(random, outside.size())]), 12, truth, drawn);
-  hide(random, *find_hideable(inside[choice(random, inside.size())]), 12, truth, drawn);
+  std::vector<const Hideable*> inside, outside;
+  for (const Hideable& hideable : hideable_effects()) {
+    if (hideable.effect->acts_on == ActsOn::contact)
+      inside.push_back(&hideable);
+    else if (hideable.effect->acts_on != ActsOn::grains)
+      outside.push_back(&hideable);
+  }
+  hide(random, *outside[choice(random, outside.size())], 12, truth, drawn);
+  hide(random, *inside[choice(random, inside.size())], 12, truth, drawn);
 }
 
 void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Override>& truth,
@@ -128,9 +133,11 @@ void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Overri
     case BlindKind::null: return;
     case BlindKind::parameters: return;
     case BlindKind::single:
-      return hide_next(hideable_effects(), 0, [](const Hideable& h) { return !h.camera; });
+      return hide_next(hideable_effects(), 0,
+                       [](const Hideable& h) { return h.effect->acts_on != ActsOn::camera; });
     case BlindKind::camera:
-      return hide_next(hideable_effects(), 0, [](const Hideable& h) { return h.camera; });
+      return hide_next(hideable_effects(), 0,
+                       [](const Hideable& h) { return h.effect->acts_on == ActsOn::camera; });
     case BlindKind::pair: return hide_pair(random, truth, drawn);
     case BlindKind::unlisted: return hide_next(hideable_forces(), 12, [](const Hideable&) { return true; });
     case BlindKind::twins: {
@@ -195,10 +202,12 @@ BlindCounts parse_counts(std::string_view text, const std::string& origin) {
 }
 
 const std::vector<TwinPair>& twin_pairs() {
-  static const std::vector<TwinPair> pairs{
-      {"blade_viscous_damping", "blade_quadratic_drag"}, {"camera_time_offset", "initial_box_velocity"},
-      {"clamp_dry_friction", "blade_viscous_damping"},   {"initial_box_velocity", "camera_time_offset"},
-      {"blade_quadratic_drag", "blade_viscous_damping"}, {"camera_com_bias", "blade_viscous_damping"}};
+  static const std::vector<TwinPair> pairs = [] {
+    std::vector<TwinPair> read;
+    for (const std::vector<std::string>& row : embedded_rows(twin_pairs_csv))
+      read.push_back({row.at(0), row.at(1)});
+    return read;
+  }();
   return pairs;
 }
 

@@ -41,10 +41,10 @@ BlindDesign full_design();
 /// Two short runs and strong signals, for a first look and for tests.
 BlindDesign small_design();
 
-/// What is hidden, and what imitates it so well in twin_runs() that with the truth given the two lie less
-/// than three standard errors apart (distance_of_imitation(), at twin_signal).
+/// Of twin_pairs.csv. What is hidden, and what imitates it so well in twin_runs() that with the truth given
+/// the two lie less than three standard errors apart (distance_of_imitation(), at twin_signal).
 struct TwinPair {
-  std::string_view hidden, twin;
+  std::string hidden, twin;
 };
 const std::vector<TwinPair>& twin_pairs();
 constexpr double twin_signal = 8;

@@ -119,8 +119,12 @@ void open_answer(const fs::path& file, OpenedCase& one, void (*read)(const Json&
 }  // namespace
 
 bool OpenedCase::first_suspects_family_is_right() const {
+  const auto family = [](const std::string& effect) {
+    const EffectRecord* record = find_effect(effect);
+    return record == nullptr ? std::string_view(effect) : family_of(*record);
+  };
   return !missing.empty() && std::any_of(hidden.begin(), hidden.end(), [&](const std::string& effect) {
-    return family_of(effect) == family_of(missing.front());
+    return family(effect) == family(missing.front());
   });
 }
 

@@ -54,15 +54,16 @@ HiddenCase hidden_case(const HideArguments& arguments) {
   std::vector<Override> common, truth;
   std::vector<Violation> found;
   if (!arguments.duration.empty()) common.push_back({"run.duration", arguments.duration, "--duration"});
+  const Setup believed = read_setup(arguments.setup, all_effects(), common);
   read_each(arguments.effects, found, [&](const std::string& text) {
-    for (Override& override : overrides_of_effect(text)) truth.push_back(std::move(override));
+    for (Override& override : overrides_of_effect(text, "--effect", believed))
+      truth.push_back(std::move(override));
   });
   read_each(arguments.parameters, found,
             [&](const std::string& text) { truth.push_back(parse_override(text)); });
   if (!found.empty()) throw InputError(std::move(found));
   truth.insert(truth.begin(), common.begin(), common.end());
-  return {read_setup(arguments.setup, all_effects(), common),
-          read_setup(arguments.setup, all_effects(), truth)};
+  return {believed, read_setup(arguments.setup, all_effects(), truth)};
 }
 
 std::vector<PlannedRun> planned_runs(const HideArguments& arguments) {

@@ -2,78 +2,113 @@
 #include "candidates.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
+#include <numbers>
 
+#include "effect_strength.hpp"
+#include "key_unit.hpp"
 #include "known_effects.hpp"
+#include "physics.hpp"
 #include "setup_file.hpp"
 
 namespace shakedown {
 
 namespace {
 
-/// A knob of an effect's parameter, from its record: bounds, and one typical strength about its neutral
-/// value.
-Knob knob_of(const EffectRecord& effect, const Parameter& parameter, std::string_view component = "") {
-  const std::string key =
-      std::string(effect.name) + "." + std::string(parameter.name) + std::string(component);
-  return {key, 0.0, parameter.typical, parameter.low, parameter.high, true};
+constexpr std::array probes{-0.08, -0.02, 0.03, 0.1};  // m, m/s and s: where forces are compared
+
+/// What acts on box and grains along the axis from outside, all of them at one place.
+double force_from_outside(const Physics& physics, double grains, double x, double v, double t) {
+  const auto swing = [t](double frequency, double phase) {
+    return std::sin(2 * std::numbers::pi * frequency * t + phase);
+  };
+  double force = -physics.stiffness * x * (1 + physics.spring_cubic * x * x) - physics.box.viscous * v -
+                 std::copysign(physics.box.dry_friction, v) + physics.box.constant +
+                 grains * physics.grains.constant.x();
+  for (const Harmonic& one : physics.box.harmonics) force += one.amplitude * swing(one.frequency, one.phase);
+  for (const auto& one : physics.grains.harmonics)
+    force += grains * one.amplitude.x() * swing(one.frequency, one.phase);
+  for (const FreeForce& one : physics.box.free) force += one.newton(x, v, t);
+  return force;
+}
+
+/// The momentum balance of box and grains is not the same with both.
+bool balance_differs(const Physics& a, const Physics& b, double grains) {
+  // A scale and a clock that is late leave the balance as it is.
+  const auto seen = [](const Camera& camera) {
+    return std::array{camera.centre_bias, camera.arc_length, camera.drift,  camera.depth,
+                      camera.origin,      camera.lens,       camera.shutter};
+  };
+  if (a.box_mass != b.box_mass || seen(a.camera) != seen(b.camera) ||
+      a.grains.free.size() != b.grains.free.size())
+    return true;
+  for (const double x : probes)
+    for (const double v : probes)
+      for (const double t : probes)
+        if (force_from_outside(a, grains, x, v, t) != force_from_outside(b, grains, x, v, t)) return true;
+  return false;
+}
+
+/// A knob about the effect's absence, one typical strength wide; of what does the same with both signs about
+/// that strength, for nothing is linear about zero.
+Knob knob_of(const EffectRecord& record, const SearchedStrength& strength, const Setup& setup) {
+  Knob knob{keys_of(record, strength), 0, std::abs(strength.typical), strength.low, strength.high, true};
+  if (strength.inverse) {
+    knob.centre = strength.typical;
+    knob.width = strength.typical / 2;
+  } else {
+    knob.centre = strength.even ? strength.typical : absent_value(record, strength, setup);
+  }
+  knob.cubic = strength.levels.size() > 3;
+  return knob;
+}
+
+Candidate candidate_of(const EffectRecord& record, const Search& search, const SearchedStrength& strength,
+                       const Setup& setup) {
+  Candidate candidate;
+  candidate.effect = record.name;
+  candidate.doubt = -2 * std::log(search.odds);
+  candidate.dear = search.cost == Search::Cost::dear;
+  candidate.slow = search.cost == Search::Cost::slow;
+  candidate.always = search.hides_in_restitution;
+  for (const auto& [parameter, value] : search.besides)
+    candidate.fixed.emplace_back(candidate.effect + "." + std::string(parameter), value);
+  const Knob knob = knob_of(record, strength, setup);
+  (strength.inverse ? candidate.when_tried : candidate.knobs).push_back(knob);
+  if (strength.inverse) candidate.fixed.emplace_back(knob.key, strength.typical);
+  return candidate;
+}
+
+/// The setup with the effect at its typical strength.
+Setup with_effect(const Setup& setup, const Candidate& candidate, const SearchedStrength& strength,
+                  double absent, std::span<const EffectRecord* const> known) {
+  Setup changed = prepared(setup, candidate, known);
+  for (const std::string& key : joined_keys(candidate.fitted_knobs().front().key))
+    set_number(changed, key, value_at_level(strength, strength.typical, absent), known);
+  return changed;
 }
 
 std::vector<Candidate> all_candidates(const Setup& setup, std::span<const EffectRecord* const> known) {
   std::vector<Candidate> list;
-  const auto add = [&](std::string_view name, std::string_view parameter, bool momentum,
-                       std::string_view component = "") {
-    if (const EffectRecord* effect = find_record(known, name))
-      list.push_back(
-          {std::string(name), {knob_of(*effect, *effect->find(parameter), component)}, {}, momentum});
-  };
-  // The first tenth of friction does as much as the next two, and more than .25 dissipates less again (fitted
-  // restitutions of frictional runs): no parabola.
-  Knob friction{"grain_friction.grain_grain&grain_friction.grain_wall", 0, 0.2, 0, 1, true};
-  friction.cubic = true;
-  list.push_back({"grain_friction", {friction}, {}, false, 0, true, true});
-  add("velocity_dependent_restitution", "exponent", false);
-  list.back().always = true;
-  // What matters to moving grains is force times range. Ranges beyond the gaps of the packing let the hard
-  // engine's wells hold the layer at the wall for good, and so do stronger forces.
-  list.push_back({"grain_cohesion",
-                  {{"grain_cohesion.force", 0, 8e-3, 0, 2e-2, true}},
-                  {{"grain_cohesion.range", 2e-5}},
-                  false,
-                  4,
-                  true});
-  list.push_back(
-      {"side_wall_restitution",
-       {{"side_wall_restitution.restitution", setup.restitution.grain_wall, 0.2, 0.05, 0.999, true}},
-       {},
-       false});
-  add("grain_polydispersity", "relative_deviation", false);
-  add("grain_air_drag", "linear", false);
-  list.back().slow = true;
-  list.back().doubt = 10;  // air of 1 bar drags a grain some hundred times less than such data can show
-  for (const char* axis : {".y", ".z"}) {
-    // Across the axis both signs do the same: nothing is linear about zero, so it is looked for about a
-    // strength.
-    add("constant_acceleration", "acceleration", false, axis);
-    list.back().slow = true;
-    Knob& knob = list.back().knobs[0];
-    knob.centre = knob.width = 0.15;
-    knob.low = 0;
+  const Physics plain = physics_of(setup);
+  const double grains = setup.grains.count * setup.grains.mass;
+  for (const EffectRecord* record : known) {
+    const Search search = search_of(*record);
+    const bool elsewhere = search.harmonic.has_value();  // the balance finds tones
+    if (elsewhere || !search.not_searched.empty() || find_choice(setup, record->name) != nullptr) continue;
+    for (const SearchedStrength& strength : search.strengths) {
+      Candidate candidate = candidate_of(*record, search, strength, setup);
+      try {
+        const double absent = absent_value(*record, strength, setup);
+        const Physics with = physics_of(with_effect(setup, candidate, strength, absent, known));
+        candidate.seen_by_momentum = balance_differs(plain, with, grains);
+        list.push_back(std::move(candidate));
+      } catch (const InputError&) {  // this setup cannot have it: a cubic spring without a displacement
+      }
+    }
   }
-  list.push_back({"blade_arc", {}, {{"blade_arc.blade_length", 0.59}}, false});
-  list.back().when_tried = {{"blade_arc.blade_length", 0.7, 0.3, 0.2, 3, true}};
-  add("camera_com_bias", "bias", true);
-  list.push_back({"camera_arc", {}, {{"camera_arc.blade_length", 0.59}}, true});
-  add("camera_scale", "scale", false);
-  add("camera_time_offset", "offset", false);
-  add("camera_drift", "drift", true);
-  add("initial_box_velocity", "velocity", false);
-  add("blade_viscous_damping", "damping", true);
-  add("blade_quadratic_drag", "drag", true);
-  add("clamp_dry_friction", "force", true);
-  add("spring_cubic", "coefficient", true);
-  add("constant_acceleration", "acceleration", true, ".x");
-  list.back().knobs[0].width = 0.1;
   return list;
 }
 
@@ -83,8 +118,7 @@ std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std:
                                       std::span<const EffectRecord* const> known) {
   std::vector<Candidate> list = all_candidates(setup, known);
   std::erase_if(list, [&](const Candidate& candidate) {
-    if (!only.empty() && std::find(only.begin(), only.end(), candidate.effect) == only.end()) return true;
-    return find_choice(setup, candidate.effect) != nullptr;
+    return !only.empty() && std::find(only.begin(), only.end(), candidate.effect) == only.end();
   });
   return list;
 }

@@ -76,7 +76,7 @@ std::string differences_of(const EffectRecord& effect) {
     std::snprintf(part.data(), part.size(),
                   "at %.0f mm the slope changes by %.2f mm/s, hard minus soft by %.2f +- %.2f",
                   1e3 * row.box_length, 1e3 * added.change, 1e3 * added.added, 1e3 * added.half_width);
-    text += (text.empty() ? "measured at the typical strength: " : "; ") + std::string(part.data());
+    text += (text.empty() ? "measured at " + row.strength + ": " : "; ") + std::string(part.data());
   }
   return text;
 }
@@ -125,7 +125,7 @@ std::string list_effects(std::span<const EffectRecord* const> effects) {
     for (const std::string_view engine : engines_of(effects)) text += mark(effect->capability(engine));
     text += padded(shortly(effect->name), 14) + std::string(effect->sentence) + "\n";
   }
-  return text + "* of the slope, added by the effect at its typical strength, L = 40 and 104 mm, mm/s\n";
+  return text + "* of the slope, added by the effect at the strength measured, L = 40 and 104 mm, mm/s\n";
 }
 
 std::string example_of(const EffectRecord& effect) {

@@ -51,13 +51,14 @@ Json json_of(const Capability& capability) {
   return {{"fidelity", name_of(capability.fidelity)}, {"note", capability.note}};
 }
 
-/// In mm/s at the typical strength, a row a box length; empty: not measured, or seen by the camera only.
+/// In mm/s at the strength measured, a row a box length; empty: not measured, or seen by the camera only.
 Json differences_of(const EffectRecord& effect) {
   Json rows = Json::array();
   for (const EngineDifference& row : engine_differences()) {
     if (row.effect != effect.name) continue;
     const AddedDifference added = *added_difference(row.effect, row.box_length);
-    rows.push_back({{"box_length_mm", 1e3 * row.box_length},
+    rows.push_back({{"strength", row.strength},
+                    {"box_length_mm", 1e3 * row.box_length},
                     {"slope_mm_per_s", 1e3 * row.hard_slope},
                     {"hard_minus_soft_mm_per_s", 1e3 * row.hard_minus_soft},
                     {"half_width_95_mm_per_s", 1e3 * row.half_width},

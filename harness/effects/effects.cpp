@@ -10,6 +10,7 @@
 #define SHAKEDOWN_EFFECTS(EFFECT)        \
   EFFECT(grain_friction)                 \
   EFFECT(velocity_dependent_restitution) \
+  EFFECT(fluctuating_restitution)        \
   EFFECT(grain_cohesion)                 \
   EFFECT(side_wall_restitution)          \
   EFFECT(grain_polydispersity)           \

@@ -5,25 +5,27 @@
 #pragma once
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace shakedown {
 
-/// Slopes of |peaks| (observe/observables.hpp) of ensembles at the effect's typical strength; the paper's
+/// A row of engine_differences.csv: slopes of |peaks| (observe/observables.hpp) of ensembles; the paper's
 /// damper at this box length, contacts of 0.3 ms in the soft engine. Measured with
 /// tests/engines/effects_crosscheck.
 struct EngineDifference {
-  std::string_view effect;  ///< empty: the plain model
-  double box_length;        ///< m
-  double hard_slope;        ///< m/s
-  double hard_minus_soft;   ///< m/s
-  double half_width;        ///< m/s, of the 95 % interval of hard_minus_soft
+  std::string effect;      ///< empty: the plain model
+  std::string strength;    ///< at which it was measured, in words
+  double box_length;       ///< m
+  double hard_slope;       ///< m/s
+  double hard_minus_soft;  ///< m/s
+  double half_width;       ///< m/s, of the 95 % interval of hard_minus_soft
 };
 
 std::span<const EngineDifference> engine_differences();
 
 /// What the effect does to the slope, and what it adds to the difference of the engines beyond that of the
-/// plain model, all at its typical strength and in m/s. |added| / |change| is the relative uncertainty of a
+/// plain model, all at the strength measured and in m/s. |added| / |change| is the relative uncertainty of a
 /// strength, to first order in it.
 struct AddedDifference {
   double change;      ///< of the hard engine's slope by the effect

@@ -23,18 +23,9 @@ extern const EffectRecord grain_cohesion{
     .source = "B. J. Alder and T. E. Wainwright, J. Chem. Phys. 31, 459 (1959), square wells",
     .limits =
         "The force has no memory of the contact (no hysteresis, no liquid volume). The range should stay "
-        "small against the diameter. A step of depth F d would hold what lies against it with any force, so "
-        "bonds that hang at the edge of "
-        "their well give way to a mean pull above F. At L = 40 mm slopes of the engines (hard, soft) are, "
-        "mm/s: -8.41, -8.37 (5 mN, "
-        "0.02 mm), -8.33, -8.17 (20 mN, 0.02 mm), -8.74, -8.86 (20 mN, 0.1 mm), -6.45, -6.95 (50 mN, 0.02 "
-        "mm). Made a step at the edge "
-        "in the soft engine too, the same attraction gives -8.08 where hard bonds that never give way give "
-        "-7.97 (20 mN, 0.02 mm), and both "
-        "glue all grains together at 20 mN, 0.1 mm: it is the shape of the well that tells them apart. "
-        "Forces above the grain's mass times "
-        "the box's top acceleration (26 mN for the paper's damper) glue grains together, and the engines "
-        "part.",
+        "small against the diameter. Bonds that hang at the edge of their well give way to a mean pull above "
+        "F. Forces above the grain's mass times the box's top acceleration (26 mN for the paper's damper) "
+        "glue grains together, and the engines part.",
     .parameters = {{.name = "force",
                     .unit = "N",
                     .low = 0,

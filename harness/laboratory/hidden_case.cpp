@@ -7,11 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "comma_list.hpp"
+#include "effect_strength.hpp"
 #include "effects.hpp"
+#include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "quantity.hpp"
 #include "setup_keys.hpp"
 #include "suggestion.hpp"
+#include "toml_document.hpp"
 #include "value_reading.hpp"
 
 namespace shakedown {
@@ -31,32 +34,25 @@ const EffectRecord& effect_named(const std::string& name, const std::string& ori
                      : "did you mean '" + std::string(near) + "'? `shakedown effects` lists them"}});
 }
 
-/// Every strength at its typical value.
-std::vector<Override> typical(const EffectRecord& record, const std::string& origin) {
+/// What must be given, at its example or its default.
+std::vector<Override> examples(const EffectRecord& record, const std::string& origin) {
   std::vector<Override> overrides;
-  const std::string name(record.name);
   for (const Parameter& parameter : record.parameters) {
-    const std::string key = name + "." + std::string(parameter.name);
-    if (parameter.kind == ParameterKind::number)
-      overrides.push_back({key, toml_of(parameter.typical, parameter.unit), origin});
-    if (parameter.kind == ParameterKind::vector)
-      overrides.push_back({key + ".x", toml_of(parameter.typical, parameter.unit), origin});
-    if (parameter.kind == ParameterKind::choice)
+    const std::string key = std::string(record.name) + "." + std::string(parameter.name);
+    if (!parameter.example.empty())
+      overrides.push_back({key, std::string(parameter.example), origin});
+    else if (parameter.kind == ParameterKind::choice && parameter.required)
       overrides.push_back({key, std::get<std::string>(parameter.default_value), origin});
-    if (parameter.kind == ParameterKind::text && parameter.required)
-      throw InputError({{{origin, 0, 0},
-                         key,
-                         "must be given (a formula has no typical value)",
-                         "write " + name + "=" + std::string(parameter.name) +
-                             ":\"-c*v*abs(v)\",constants.c:\"0.1 N s^2/m^2\""}});
   }
-  // A parameter without a typical value stays at its default.
-  std::erase_if(overrides, [&](const Override& override) {
-    const Parameter* parameter = record.find(override.key.substr(name.size() + 1));
-    return parameter != nullptr && parameter->kind == ParameterKind::number && parameter->typical == 0 &&
-           !parameter->required;
-  });
   return overrides;
+}
+
+/// At its typical strength, by the first of its strengths; of what has none an example.
+std::vector<Override> typical(const EffectRecord& record, const Setup& believed, const std::string& origin) {
+  const Search search = search_of(record);
+  if (search.strengths.empty()) return examples(record, origin);
+  const SearchedStrength& strength = search.strengths.front();
+  return overrides_of_strength(record, strength, strength.typical, believed, origin);
 }
 
 /// Keys that tell how a run was made, or that nobody can know of a real one.
@@ -151,15 +147,37 @@ void take_recording(const std::string& part, const std::string& origin, Recordin
     return;
   }
   refuse("is not a property of the camera",
-         "known: " + listed(names) + "; errors such as a scale or a bias are effects: --effect camera_scale");
+         "known: " + listed(names) +
+             "; errors such as a scale or a bias are effects: `shakedown effects` lists them");
 }
 
 }  // namespace
 
-std::vector<Override> overrides_of_effect(std::string_view text, const std::string& origin) {
+std::vector<Override> overrides_of_strength(const EffectRecord& record, const SearchedStrength& strength,
+                                            double level, const Setup& setup, const std::string& origin) {
+  const double value = value_at_level(strength, level, absent_value(record, strength, setup));
+  const std::string_view unit = parameter_of(record, strength).unit;
+  std::vector<Override> overrides;
+  for (const std::string& key : joined_keys(keys_of(record, strength)))
+    overrides.push_back({key, toml_of(value, unit), origin});
+  for (const auto& [parameter, needed] : record.search.besides)
+    overrides.push_back({std::string(record.name) + "." + std::string(parameter),
+                         toml_of(needed, record.find(parameter)->unit), origin});
+  return overrides;
+}
+
+const EffectRecord& formula_effect() {
+  for (const EffectRecord* record : all_effects())
+    if (record->takes_formula()) return *record;
+  EXPECT(false && "no effect takes a formula");
+  return *all_effects().front();
+}
+
+std::vector<Override> overrides_of_effect(std::string_view text, const std::string& origin,
+                                          const Setup& believed) {
   const std::size_t equals = std::min(text.find('='), text.size());
   const EffectRecord& record = effect_named(stripped(text.substr(0, equals)), origin);
-  if (equals == text.size()) return typical(record, origin);
+  if (equals == text.size()) return typical(record, believed, origin);
   std::vector<Override> overrides;
   std::vector<Violation> found;
   for (const std::string& part : split_at_commas(text.substr(equals + 1))) {
@@ -198,8 +216,8 @@ std::vector<std::string> hidden_effects(const HiddenCase& hidden) {
   for (const EffectChoice& choice : hidden.truth.effects) {
     const EffectChoice* same = find_choice(hidden.believed, choice.record->name);
     if (same != nullptr && same->values == choice.values) continue;
-    if (choice.record->name == "user_force") return {"unknown"};
-    if (choice.record->name != "initial_packing") names.emplace_back(choice.record->name);
+    if (choice.record->takes_formula()) return {"unknown"};
+    if (!choice.record->nuisance) names.emplace_back(choice.record->name);
   }
   return names;
 }

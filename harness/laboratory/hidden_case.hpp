@@ -11,11 +11,20 @@
 
 namespace shakedown {
 
-/// `NAME` (at its typical strength) or `NAME=parameter:value,...` as overrides that put the effect into a
-/// setup, e.g. "grain_friction=grain_grain:0.1,grain_wall:0.2", "constant_acceleration=acceleration.z:0.2
-/// m/s^2". Throws InputError with the place `origin` for a name that is no effect, a part that sets nothing,
-/// a formula that must be given.
-std::vector<Override> overrides_of_effect(std::string_view text, const std::string& origin = "--effect");
+/// `NAME` (at its typical strength, which may count from what is believed) or `NAME=parameter:value,...` as
+/// overrides that put the effect into a setup, e.g. "grain_friction=grain_grain:0.1,grain_wall:0.2",
+/// "constant_acceleration=acceleration.z:0.2 m/s^2". Throws InputError with the place `origin` for a name
+/// that is no effect and for a part that sets nothing.
+std::vector<Override> overrides_of_effect(std::string_view text, const std::string& origin = "--effect",
+                                          const Setup& believed = {});
+
+/// The same for one strength of its search at this level.
+std::vector<Override> overrides_of_strength(const EffectRecord& record, const SearchedStrength& strength,
+                                            double level, const Setup& setup,
+                                            const std::string& origin = "blind suite");
+
+/// The effect of the list whose law is written in the setup.
+const EffectRecord& formula_effect();
 
 /// noise.box, noise.centre, fps, missing, outliers, jump, centre (true, false), as "key=value" parts. Throws
 /// InputError with everything that is wrong.

@@ -1,46 +1,44 @@
 // SPDX-License-Identifier: MIT
-// What a blind suite hides, each with one number that says how strong it is.
+// What a blind suite hides, each with one number that says how strong it is: every effect of the list, by its
+// record's search, and forces that no list has.
 #pragma once
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "effect_strength.hpp"
 #include "trial.hpp"
 
 namespace shakedown {
 
-/// One way of being wrong. strength 1 is a typical one; the overrides at a strength come from at_strength().
+/// One way of being wrong. Strengths are counted in typical ones: 1 is typical, of a length without end at
+/// none half of it at strength 2.
 struct Hideable {
-  std::string_view id{};      ///< "grain_friction", "constant_acceleration.z", "force:eddy"
-  std::string_view effect{};  ///< the effect in the setup
-  std::string_view family{};  ///< effects of one family look alike; naming the family is half the answer
-  std::string_view key{};     ///< key that holds the strength; several joined by "&"
-  double typical = 0;         ///< value of the key at strength 1, SI; of `away_from` values the change
-  std::string_view unit{};
-  enum class As {
-    proportional,
-    inverse,
-    away
-  } as = As::proportional;  ///< key = typical s, typical / s, away_from - typical s
-  double away_from = 0;
-  double strongest = 0;          ///< strength at the bounds of what makes sense
+  std::string
+      id;  ///< the effect's name, of several ways with the way ("constant_acceleration.z"); "force:..."
+  const EffectRecord* effect = nullptr;
+  SearchedStrength strength{};   ///< within the bounds of the parameter; of a force unused
+  double strongest = 0;          ///< in typical ones: where it stops making sense
   std::string_view formula{};    ///< of a force in no list; its constant c is the strength
   std::string_view constants{};  ///< its other constants, as TOML
-  bool camera = false;
+  double typical_constant = 0;   ///< c at strength 1, SI
+  std::string_view unit{};       ///< of c
 };
 
-/// Physical effects, then camera artefacts.
+/// Every effect that a diagnosis looks for, in the order of the list, each strength of its own.
 const std::vector<Hideable>& hideable_effects();
 /// Forces that no list has.
 const std::vector<Hideable>& hideable_forces();
 const Hideable* find_hideable(std::string_view id);
 
-/// The family of an effect's name ("drag", "contact" ...); of effects without look-alikes the name itself.
-std::string_view family_of(std::string_view effect);
+/// Frequency and phase of what oscillates.
+struct Tone {
+  double frequency = 2.3, phase = 0.7;
+};
 
-/// Overrides that put it into a setup. A periodic one gets this frequency and phase.
-std::vector<Override> at_strength(const Hideable& hideable, double strength, double frequency = 2.3,
-                                  double phase = 0.7);
+/// Overrides that put it into this setup.
+std::vector<Override> at_strength(const Hideable& hideable, double strength, const Setup& setup = {},
+                                  const Tone& tone = {});
 
 /// The setup with overrides on top.
 Setup changed(const Setup& setup, const std::vector<Override>& overrides,

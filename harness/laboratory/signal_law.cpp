@@ -109,8 +109,9 @@ SignalLaw signal_law(const Hideable& hideable, const Setup& believed, std::uint6
   const auto signal_at = [&](double strength, int round, double enough) {
     SignalSettings here = settings;
     here.enough = enough;
-    return signal_to_noise({believed, changed(believed, at_strength(hideable, strength), tools.known)},
-                           seed + static_cast<std::uint64_t>(round), here, tools);
+    return signal_to_noise(
+        {believed, changed(believed, at_strength(hideable, strength, believed), tools.known)},
+        seed + static_cast<std::uint64_t>(round), here, tools);
   };
   SignalLaw law;
   Signal signal;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "effects.hpp"
+
 namespace shakedown {
 
 Experiment measured_in(const Trial& trial, const TrialTools& tools) {
@@ -28,7 +30,8 @@ Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools) {
 TrialJudgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict,
                      const std::vector<std::string>& missing) {
   std::set<std::string> found(missing.begin(), missing.end());
-  found.erase("initial_packing");  // a nuisance, not physics
+  for (const EffectRecord* record : all_effects())
+    if (record->nuisance) found.erase(std::string(record->name));
   const std::set<std::string> truth(hidden.begin(), hidden.end());
   TrialJudgement judgement;
   judgement.detected = verdict == Verdict::missing || verdict == Verdict::unknown;

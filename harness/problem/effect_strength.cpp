@@ -57,7 +57,6 @@ double usual_strongest(const SearchedStrength& strength, double absent) {
 
 Search search_of(const EffectRecord& record) {
   Search search = record.search;
-  if (!search.not_searched.empty()) return search;
   if (search.strengths.empty()) search.strengths = suggested(record);
   for (SearchedStrength& strength : search.strengths) {
     const Parameter& parameter = parameter_of(record, strength);

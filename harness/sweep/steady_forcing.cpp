@@ -40,9 +40,12 @@ auto integral(F f, double from, double to) {
 std::optional<SteadyForcing> steady_forcing_of(const Setup& setup) {
   std::optional<SteadyForcing> found;
   for (const EffectChoice& choice : setup.effects) {
-    if (choice.record->name != "oscillating_acceleration" || choice.vector("amplitude").x() == 0) continue;
+    const auto& harmonic = choice.record->search.harmonic;
+    if (!harmonic) continue;
+    const double amplitude = choice.vector(harmonic->amplitude.substr(0, harmonic->amplitude.find('.'))).x();
+    if (amplitude == 0) continue;
     if (found) return {};
-    found = {choice.vector("amplitude").x(), choice.number("frequency"), choice.number("phase")};
+    found = {amplitude, choice.number(harmonic->frequency), choice.number(harmonic->phase)};
   }
   return found;
 }

@@ -93,7 +93,7 @@ TEST_P(Records, ParametersAreSound) {
 
 TEST_P(Records, ADiagnosisKnowsHowToLookForItOrWhyNot) {
   const Search search = search_of(record);
-  EXPECT_NE(search.strengths.empty(), search.not_searched.empty());
+  EXPECT_FALSE(search.strengths.empty() && search.not_searched.empty());
   if (!search.not_searched.empty()) expect_sentence(search.not_searched, record.name);
   EXPECT_GT(search.odds, 0);
   EXPECT_LE(search.odds, 1);
@@ -287,9 +287,12 @@ TEST(RecordList, KeepsTheNamesOnceGiven) {
     EXPECT_NE(find_effect(name), nullptr) << name;
 }
 
+/// Of two that replace the same part of the model the first in the list.
 TEST(RecordList, EffectsCombineInAnyOrder) {
   std::string forward, backward;
+  std::set<std::string_view> claimed;
   for (const EffectRecord* effect : all_effects()) {
+    if (!effect->claims.empty() && !claimed.insert(effect->claims).second) continue;
     forward += example_of(*effect);
     backward = example_of(*effect) + backward;
   }

@@ -84,10 +84,21 @@ TEST(HiddenCase, MistakesAreNamedWithWhatToDo) {
             std::string::npos);
   EXPECT_NE(message([] { overrides_of_effect("grain_friction=0.1"); }).find("grain_friction=grain_grain:"),
             std::string::npos);
-  EXPECT_NE(message([] { overrides_of_effect("user_force"); }).find("must be given"), std::string::npos);
   const std::string both = message([] { parse_recording({"noise.box=0.2", "fsp=500"}); });
   EXPECT_NE(both.find("has no unit"), std::string::npos);
   EXPECT_NE(both.find("known: centre, noise.box"), std::string::npos);
+}
+
+TEST(HiddenCase, EveryEffectOfTheListCanBeHiddenByItsNameAlone) {
+  for (const EffectRecord* record : all_effects()) {
+    const HiddenCase hidden = case_of({std::string(record->name)});
+    ASSERT_EQ(hidden.truth.effects.size(), 1u) << record->name;
+    EXPECT_EQ(hidden.truth.effects[0].record, record);
+  }
+  shakedown::Setup believed;
+  believed.restitution.grain_wall = 0.6;
+  EXPECT_NEAR(std::stod(overrides_of_effect("side_wall_restitution", "--effect", believed).at(0).value), 0.4,
+              1e-12);
 }
 
 TEST(HiddenCase, TheCamerasPropertiesAreReadWithUnits) {

@@ -33,8 +33,7 @@ void answered(const fs::path& folder, const BlindCounts& counts,
   nlohmann::json table;
   for (const std::vector<Hideable>* list : {&hideable_effects(), &hideable_forces()})
     for (const Hideable& hideable : *list)
-      table["signals"][std::string(hideable.id)] = {
-          {"strength", 1}, {"signal", 20}, {"power", 1}, {"by", "ensembles"}};
+      table["signals"][hideable.id] = {{"strength", 1}, {"signal", 20}, {"power", 1}, {"by", "ensembles"}};
   for (const BlindCase& one : draw_cases(believed, counts, small_design(), {}, options.seed, all_effects()))
     for (const std::string& id : one.strengths) table["signals"][id] = table["signals"]["grain_friction"];
   write(folder / "strengths.json", table.dump());

@@ -14,11 +14,11 @@ using namespace shakedown;
 namespace {
 
 /// Typical strengths that leave a signal of 8 in two runs of 40 mm (signal_law()).
-const std::map<std::string_view, double> strengths{
+const std::map<std::string, double, std::less<>> strengths{
     {"blade_viscous_damping", 0.0213}, {"blade_quadratic_drag", 0.0777}, {"clamp_dry_friction", 0.0194},
     {"camera_time_offset", 0.290},     {"initial_box_velocity", 0.203},  {"camera_com_bias", 0.157}};
 
-double distance(std::string_view hidden, const std::string& imitation) {
+double distance(const std::string& hidden, const std::string& imitation) {
   const auto soft = engine_named("soft"), hard = engine_named("hard");
   TrialTools tools;
   tools.laboratory = soft.get();
@@ -33,7 +33,7 @@ double distance(std::string_view hidden, const std::string& imitation) {
 
 TEST(SlowTwins, LieWithinThreeStandardErrorsWithTheTruthGiven) {
   for (const TwinPair& pair : twin_pairs())  // seen: 0 to 2.4
-    EXPECT_LT(distance(pair.hidden, std::string(pair.twin)), 3) << pair.hidden << " and " << pair.twin;
+    EXPECT_LT(distance(pair.hidden, pair.twin), 3) << pair.hidden << " and " << pair.twin;
 }
 
 // A heavier blade takes part in the motion; a camera that sees the grains too near the box's centre does the

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// What a diagnosis looks for follows from the records, those of tomorrow included.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "candidates.hpp"
+#include "effects.hpp"
+#include "physics.hpp"
+#include "setup_file.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+EffectRecord brake_of_tomorrow() {
+  EffectRecord brake;
+  brake.name = "cubic_brake";
+  brake.parameters = {
+      {.name = "drag", .unit = "N s^3/m^3", .low = 0, .high = 5, .neutral = 0, .typical = 0.2}};
+  brake.apply = [](const EffectChoice& choice, int index, Physics& physics) {
+    const double drag = choice.number("drag");
+    physics.box.free.push_back({[drag](double, double v, double) { return -drag * v * v * v; }, index});
+  };
+  return brake;
+}
+
+const Candidate& candidate_for(const std::vector<Candidate>& list, std::string_view effect) {
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [&](const Candidate& candidate) { return candidate.effect == effect; });
+  EXPECT(found != list.end());
+  return *found;
+}
+
+}  // namespace
+
+TEST(Candidates, AnEffectOfTomorrowIsLookedForByItsRecordAlone) {
+  const EffectRecord brake = brake_of_tomorrow();
+  std::vector<const EffectRecord*> known(all_effects().begin(), all_effects().end());
+  known.push_back(&brake);
+  const std::vector<Candidate> list = candidates_for({}, {}, known);
+  const Candidate& found = candidate_for(list, "cubic_brake");
+  ASSERT_EQ(found.knobs.size(), 1u);
+  EXPECT_EQ(found.knobs[0].key, "cubic_brake.drag");
+  EXPECT_EQ(found.knobs[0].centre, 0);
+  EXPECT_EQ(found.knobs[0].width, 0.2);
+  EXPECT_EQ(found.knobs[0].high, 5);
+  EXPECT_TRUE(found.seen_by_momentum);
+  EXPECT_EQ(found.doubt, 0);
+}
+
+TEST(Candidates, WhatTheBalanceOfMomentumSeesFollowsFromTheForces) {
+  const std::vector<Candidate> list = candidates_for({}, {}, all_effects());
+  for (const char* effect : {"blade_viscous_damping", "clamp_dry_friction", "spring_cubic", "blade_mass",
+                             "camera_com_bias", "camera_arc", "camera_drift"})
+    EXPECT_TRUE(candidate_for(list, effect).seen_by_momentum) << effect;
+  for (const char* effect : {"grain_friction", "grain_air_drag", "side_wall_restitution", "blade_arc",
+                             "camera_scale", "camera_time_offset", "initial_box_velocity"})
+    EXPECT_FALSE(candidate_for(list, effect).seen_by_momentum) << effect;
+  for (const Candidate& candidate : list)
+    if (candidate.effect == "constant_acceleration") {
+      EXPECT_EQ(candidate.seen_by_momentum, candidate.knobs[0].key.ends_with(".x"));
+    }
+}
+
+TEST(Candidates, KnobsStandWhereTheEffectIsAbsent) {
+  shakedown::Setup setup;
+  setup.restitution.grain_wall = 0.6;
+  const std::vector<Candidate> list = candidates_for(setup, {}, all_effects());
+  const Knob& side = candidate_for(list, "side_wall_restitution").knobs.at(0);
+  EXPECT_EQ(side.centre, 0.6);
+  EXPECT_EQ(side.width, 0.2);
+  EXPECT_EQ(when_absent(side), 0.6);
+  const Candidate& friction = candidate_for(list, "grain_friction");
+  EXPECT_TRUE(friction.always && friction.dear && friction.knobs.at(0).cubic);
+  EXPECT_EQ(friction.knobs.at(0).key, "grain_friction.grain_grain&grain_friction.grain_wall");
+  const Candidate& arc = candidate_for(list, "blade_arc");
+  EXPECT_TRUE(arc.knobs.empty());
+  EXPECT_EQ(arc.fitted_knobs().at(0).centre, 0.59);
+  EXPECT_NEAR(candidate_for(list, "grain_air_drag").doubt, 10, 0.02);
+}
+
+TEST(Candidates, LeaveOutWhatTheSetupHasAndWhatItCannotHave) {
+  shakedown::Setup setup;
+  set_number(setup, "spring_cubic.coefficient", 0.1, all_effects());
+  for (const Candidate& candidate : candidates_for(setup, {}, all_effects()))
+    EXPECT_NE(candidate.effect, "spring_cubic");
+  shakedown::Setup at_rest;
+  at_rest.release.displacement = 0;  // a cubic spring would have no scale
+  const std::vector<Candidate> list = candidates_for(at_rest, {}, all_effects());
+  EXPECT_FALSE(list.empty());
+  for (const Candidate& candidate : list) EXPECT_NE(candidate.effect, "spring_cubic");
+  EXPECT_EQ(candidates_for({}, {"grain_cohesion"}, all_effects()).size(), 1u);
+}
