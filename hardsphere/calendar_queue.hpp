@@ -81,7 +81,12 @@ class CalendarQueue {
   };
   std::size_t days() const { return first_.size() - 1; }
 
+  /// Dates without end at one moment (a grain between walls that leave it no play) would make days so short
+  /// that no number counts them.
+  static constexpr double shortest_day = 1e-15;  // s
+
   void set_day_length(double length) {
+    length = std::max(length, shortest_day);
     day_length_ = length;
     per_second_ = 1 / length;
   }

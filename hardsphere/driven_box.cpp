@@ -62,6 +62,11 @@ double sign_of(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
 }  // namespace
 
+bool is_driven(const Physics& physics) {
+  return physics.contact.has_friction() || physics.contact.has_attraction() || physics.spring_cubic != 0 ||
+         !physics.box.none() || !physics.grains.none();
+}
+
 DrivenBox::DrivenBox(const Physics& physics, double x, double v, double time)
     : mass_(physics.box_mass),
       stiffness_(physics.stiffness),
@@ -69,7 +74,7 @@ DrivenBox::DrivenBox(const Physics& physics, double x, double v, double time)
       cubic_(physics.spring_cubic),
       forces_(physics.box),
       accounted_(time) {
-  const double damping = forces_.viscous / (2 * mass_), w2 = angular_frequency_ * angular_frequency_;
+  const double damping = forces_.viscous.sum() / (2 * mass_), w2 = angular_frequency_ * angular_frequency_;
   needs_dense_ = cubic_ != 0 || !forces_.free.empty() || damping >= 0.99 * angular_frequency_;
   for (const Harmonic& harmonic : forces_.harmonics) {
     const double drive = 2 * std::numbers::pi * harmonic.frequency, detuning = w2 - drive * drive;
@@ -83,8 +88,8 @@ DrivenBox::DrivenBox(const Physics& physics, double x, double v, double time)
   const auto grow = [this](int effect) {
     if (effect >= static_cast<int>(work_.size())) work_.resize(static_cast<std::size_t>(effect) + 1, 0.0);
   };
-  for (const int effect : {forces_.viscous_effect, forces_.dry_friction_effect, forces_.constant_effect})
-    grow(effect);
+  for (const auto* slot : {&forces_.viscous, &forces_.dry_friction, &forces_.constant})
+    for (const auto& share : slot->shares()) grow(share.effect);
   for (const Harmonic& harmonic : forces_.harmonics) grow(harmonic.effect);
   for (const FreeForce& force : forces_.free) grow(force.effect);
   restart(time, x, v);
@@ -102,16 +107,13 @@ void DrivenBox::go_on() {
   account(valid_until_);
   // A standstill sooner than a time can resolve is now: else the piece would begin anew for ever.
   const double least = std::max(1e-12 * (top_speed() + 1e-6), 5e-16 * valid_until_ * top_acceleration_);
-  const bool turning = forces_.dry_friction > 0 && std::abs(point.v) <= least;
+  const bool turning = forces_.dry_friction.sum() > 0 && std::abs(point.v) <= least;
   restart(valid_until_, point.x, turning ? 0.0 : point.v);
 }
 
 /// All forces on the box but dry friction and grains, N.
 double DrivenBox::smooth_force(double x, double v, double t) const {
-  double force = -stiffness_ * x * (1 + cubic_ * x * x) - forces_.viscous * v + forces_.constant;
-  for (const Harmonic& h : forces_.harmonics)
-    force += h.amplitude * std::sin(2 * std::numbers::pi * h.frequency * t + h.phase);
-  for (const FreeForce& free : forces_.free) force += free.newton(x, v, t);
+  const double force = forces_.newton(x, v, t, -stiffness_ * x * (1 + cubic_ * x * x));
   if (!std::isfinite(force))
     throw PhysicsError("the force on the box is not finite at x = " + std::to_string(x) +
                        " m, v = " + std::to_string(v) + " m/s, t = " + std::to_string(t) +
@@ -121,10 +123,10 @@ double DrivenBox::smooth_force(double x, double v, double t) const {
 
 void DrivenBox::begin() {
   double friction = 0;
-  if (forces_.dry_friction > 0) {
+  if (const double most = forces_.dry_friction.sum(); most > 0) {
     const double pull = smooth_force(x_, v_, time_);
-    if (v_ == 0 && std::abs(pull) <= forces_.dry_friction * (1 + 1e-13)) return begin_stuck();
-    friction = -forces_.dry_friction * sign_of(v_ != 0 ? v_ : pull);
+    if (v_ == 0 && std::abs(pull) <= most * (1 + 1e-13)) return begin_stuck();
+    friction = -most * sign_of(v_ != 0 ? v_ : pull);
   }
   if (needs_dense_)
     begin_dense(friction);
@@ -135,10 +137,10 @@ void DrivenBox::begin() {
 void DrivenBox::begin_closed(double friction_force) {
   piece_ = Piece::closed;
   friction_ = friction_force;
-  decay_ = forces_.viscous / (2 * mass_);
+  decay_ = forces_.viscous.sum() / (2 * mass_);
   const double w = angular_frequency_;
   damped_frequency_ = std::sqrt(w * w - decay_ * decay_);
-  centre_ = (forces_.constant + friction_force) / stiffness_;
+  centre_ = (forces_.constant.sum() + friction_force) / stiffness_;
   double x = x_ - centre_, v = v_, response_reach = 0, response_speed = 0, response_acceleration = 0,
          response_jerk = 0;
   for (const Response& r : responses_) {
@@ -158,7 +160,7 @@ void DrivenBox::begin_closed(double friction_force) {
   top_acceleration_ = w * w * amplitude + response_acceleration;
   top_reach_ = {std::abs(centre_) + amplitude + response_reach, w * amplitude + response_speed};
   valid_until_ =
-      forces_.dry_friction > 0 ? first_standstill(w * w * w * amplitude + response_jerk) : infinity;
+      forces_.dry_friction.sum() > 0 ? first_standstill(w * w * w * amplitude + response_jerk) : infinity;
 }
 
 void DrivenBox::begin_stuck() {
@@ -173,7 +175,7 @@ void DrivenBox::begin_stuck() {
   double rate = 0;
   for (const Harmonic& h : forces_.harmonics)
     rate += std::abs(h.amplitude) * 2 * std::numbers::pi * h.frequency;
-  const double margin = forces_.dry_friction - std::abs(friction_);
+  const double margin = forces_.dry_friction.sum() - std::abs(friction_);
   const double safe = forces_.free.empty() && rate > 0 ? margin / rate : 0;
   valid_until_ = time_ + std::clamp(safe, 1e-5, 1.0);
 }
@@ -221,7 +223,7 @@ void DrivenBox::begin_dense(double friction_force) {
   const double gained = top_acceleration_ * length;
   top_reach_ = {std::abs(x_) + (std::abs(v_) + gained) * length, std::abs(v_) + gained};
   valid_until_ = time_ + length;
-  if (forces_.dry_friction > 0) valid_until_ = std::min(valid_until_, first_standstill(jerk));
+  if (forces_.dry_friction.sum() > 0) valid_until_ = std::min(valid_until_, first_standstill(jerk));
 }
 
 /// Solves the collocation equations by fixed-point iteration; false when the piece is too long for the
@@ -300,14 +302,12 @@ void DrivenBox::account(double t) {
       };
       add(-stiffness_ * p.x, -1);
       if (cubic_ != 0) add(-stiffness_ * cubic_ * p.x * p.x * p.x, -1);  // stored, like the linear spring's
-      if (forces_.viscous != 0) add(-forces_.viscous * p.v, forces_.viscous_effect);
-      if (forces_.constant != 0) add(forces_.constant, forces_.constant_effect);
-      for (const Harmonic& harmonic : forces_.harmonics)
-        add(harmonic.amplitude * std::sin(2 * std::numbers::pi * harmonic.frequency * time + harmonic.phase),
-            harmonic.effect);
-      for (const FreeForce& free : forces_.free) add(free.newton(p.x, p.v, time), free.effect);
-      if (forces_.dry_friction > 0)
-        add(piece_ == Piece::stuck ? -smooth_force(p.x, 0, time) : friction_, forces_.dry_friction_effect);
+      forces_.each(p.x, p.v, time, add);
+      if (const double most = forces_.dry_friction.sum(); most > 0) {
+        const double friction = piece_ == Piece::stuck ? -smooth_force(p.x, 0, time) : friction_;
+        for (const auto& share : forces_.dry_friction.shares())
+          add(friction * (share.strength / most), share.effect);
+      }
       impulse_ += weight * total;
     }
     accounted_ = h < t - accounted_ ? accounted_ + h : t;

@@ -13,6 +13,10 @@
 
 namespace shakedown {
 
+/// Whether anything acts besides linear spring and constant restitution; what acts costs only those setups
+/// that have it.
+bool is_driven(const Physics& physics);
+
 class DrivenBox {
  public:
   using Point = BoxMotion::Point;

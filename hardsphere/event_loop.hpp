@@ -1,36 +1,29 @@
 // SPDX-License-Identifier: MIT
 // The event loop: takes the earliest of what the grains and the walls announce, executes it, and asks those
-// concerned for news. `Grains` finds pair and side-wall events (AllPairs for few grains, CellLists for many);
-// EndWalls those with moving walls. `Motion` is the box: BoxMotion on its spring alone (the paper's damper,
-// kept free of everything else), or DrivenBox with effects. Then grains are described in a frame that falls
-// with them, and the side walls are EndWalls too where they move or attract.
+// concerned for their next events. `Grains` finds pair and side-wall events (AllPairs for few grains,
+// CellLists for many); EndWalls those with moving walls. With a driven box grains are described in a frame
+// that falls with them, and the side walls are EndWalls too where they move or attract.
 #pragma once
 #include <atomic>
-#include <cmath>
+#include <bit>
 #include <string>
-#include <type_traits>
-#include <vector>
 
-#include "box_motion.hpp"
-#include "end_walls.hpp"
 #include "event_log.hpp"
-#include "grain_event.hpp"
-#include "hard_sphere_system.hpp"
-#include "held_bonds.hpp"
-#include "impact.hpp"
-#include "open_book.hpp"
-#include "wall_motion.hpp"
+#include "fnv.hpp"
+#include "grain_kicks.hpp"
+#include "impacts.hpp"
 
 namespace shakedown {
 
 template <class Grains, class Motion>
 class EventLoop {
  public:
-  static constexpr bool driven = std::is_same_v<Motion, DrivenBox>;
-  /// Events come from a log: nothing is predicted, so nobody needs news.
-  static constexpr bool scripted = requires { Grains::scripted; };
+  static constexpr bool driven = Scene<Grains, Motion>::driven;
+  static constexpr bool scripted = Scene<Grains, Motion>::scripted;
 
   EventLoop(const State& state, const Physics& physics, const Setup& setup, Grains grains);
+  EventLoop(const EventLoop&) = delete;  // its parts refer to each other
+  EventLoop& operator=(const EventLoop&) = delete;
 
   /// Executes every event before time t; returns false when `stop` was set.
   bool advance_to(double t, const std::atomic<bool>* stop = nullptr);
@@ -42,147 +35,282 @@ class EventLoop {
   /// Executes an event of a log (scripted loops only).
   void execute(const LoggedEvent& event);
   /// Moves the clock on; no event of the log may lie before.
-  void wait_until(double t) { now_ = t; }
-  /// Of everything that the motion goes on from.
+  void wait_until(double t) { scene_.now = t; }
+  /// Of everything that the motion goes on from: FNV-1a over the bits of all flights, spins and the box.
   std::uint64_t digest() const;
 
-  double time() const { return now_; }
+  double time() const { return scene_.now; }
   /// At time().
-  Observation observe();
+  Observation observe() { return accounts_.observe(held()); }
   State state(double t) const;
-  Ledger ledger() const;
+  Ledger ledger() const { return accounts_.ledger(); }
   Health health() const;
-  const std::array<std::int64_t, contact_classes>& collisions() const { return collisions_; }
+  const std::array<std::int64_t, contact_classes>& collisions() const { return accounts_.collisions(); }
   std::int64_t events() const { return events_; }
-  double initial_energy() const { return initial_energy_; }
+  double initial_energy() const { return accounts_.initial_energy(); }
   /// Sum over pair impacts of impulse times distance, N s m: 3 N k T (Z - 1) times the time it was summed
   /// over.
-  double virial() const { return virial_; }
-  double bytes_per_grain() const { return grains_.bytes_per_grain() + end_walls_.bytes_per_grain(); }
+  double virial() const { return impacts_.virial(); }
+  double bytes_per_grain() const { return scene_.grains.bytes_per_grain() + walls_.bytes_per_grain(); }
 
  private:
-  // The loop.
-  void step(double limit);
+  using Parts = Scene<Grains, Motion>;
+
   double next_event_time();
+  void step(double limit);
+  bool step_of_walls(double next_of_grains, double limit);
+  void step_of_motion();
   void grain_event(int i);
-  void wall_event(int axis, EndWalls& walls, const EndWalls::Next& next);
-  void meet_wall(int axis, EndWalls& walls, const EndWalls::Next& next);
-  void after(int i, bool kick_follows = false);
+  void touch_wall(int i, int axis, int side);
+  void meet_wall(int axis, const EndWalls::Next& next);
+  void next_piece();
+  void new_anchor(int i, bool predict);
   void check_progress();
+  typename LoopAccounts<Parts>::Held held() const { return {impacts_.spin(), driven ? wells_.energy() : 0}; }
   void write_down(EventKind kind, int grain = 0, int partner = 0, int side = 1,
                   Meeting meeting = Meeting::touch) {
     if (writer_ != nullptr) [[unlikely]]
-      if (writer_->add({now_, kind, grain, partner, side, meeting})) writer_->add_digest(digest());
+      if (writer_->add({scene_.now, kind, grain, partner, side, meeting})) writer_->add_digest(digest());
   }
 
-  // Impacts.
-  void pair_impact(int i, int j);
-  void pair_well(int i, int j, Meeting meeting);
-  void fixed_side_impact(int i, std::int32_t face);
-  void end_impact(int i, int side);
-  void moving_side_impact(int i, int axis, int side);
-  void wall_well(int i, int axis, int side, Meeting meeting, EndWalls& walls);
-  void refuse(int i, Flight3 flight, EndWalls* walls);
-  double restitution(ContactClass contact, double closing, double elastic_below, std::int64_t& rescues) const;
-  double elastic_below(double limit, int i, int j = -1) const;
-  bool rubs(double closing, double elastic_below, int i, int j = -1);
-  void note_touch(std::uint64_t bond, double momentum, int i, int j = -1);
-  void let_go();
-  void kick_box(double jump);
-  /// Two grains that meet now: both there, from the first to the second the vector r, and how fast they part
-  /// along it.
-  struct Pair {
-    Flight3 a, b;
-    std::array<double, 3> r;
-    double distance, opening;
-    double opening_rate;  ///< opening over distance, 1/s
-  };
-  Pair pair_now(int i, int j) const;
-  void finish_pair(int i, int j, Pair& pair, double impulse_per_length);
-  void finish_wall(int i, const Flight3& flight, double jump);
+  Parts scene_;
+  LoopWalls<Parts> walls_;
+  LoopAccounts<Parts> accounts_;
+  Partings<Parts> partings_;
+  Wells<Parts> wells_;
+  Impacts<Parts> impacts_;
+  GrainKicks<Parts> kicks_;
 
-  // Walls.
-  void open_windows();
-  void renew_walls(double jump);
-  DrivenWalls walls_across(int axis) const;
-  EndWalls::Now end_walls_now();
-  EndWalls& walls(int axis) {
-    return axis == 0 ? end_walls_ : side_walls_[static_cast<std::size_t>(axis - 1)];
-  }
-  /// The box at now_ in the lab; several callers of one event share it.
-  BoxMotion::Point box_now() {
-    if (now_ != box_time_) {
-      if constexpr (driven) {
-        box_point_ = box_.at(now_);
-      } else {
-        const BoxMotion::PointAndImpulse here = box_.at_with_impulse(now_);
-        box_point_ = here.point;
-        spring_impulse_ = here.spring_impulse;
-      }
-      box_time_ = now_;
-    }
-    return box_point_;
-  }
-
-  // Effects between impacts.
-  void kick_grains();
-  void go_on();
-  double air_speed_left(double speed, double mass, double h) const;
-  void account(double t);
-  void press_by_the_swing();
-
-  // The ledger, with Neumaier's compensation: millions of small losses must not cost the closure its digits.
-  void lose(std::size_t contact_class, double energy) {
-    double& sum = ledger_.contact_loss[contact_class];
-    const double next = sum + energy;
-    ledger_rest_[contact_class] +=
-        std::abs(sum) >= std::abs(energy) ? (sum - next) + energy : (energy - next) + sum;
-    sum = next;
-  }
-  double total_loss() const;
-
-  ContactLaw contact_;
-  GrainForces forces_;
-  ElasticLimits limits_, limits_at_release_;
-  Grains grains_;
-  Motion box_;
-  double speed_at_release_;  // box's top speed then, m/s
-  FallingFrame frame_;
-  bool falling_, has_walls_, has_spring_;
-  double arc_curvature_ = 0, release_x_ = 0;
-  EndWalls end_walls_;
-  // across y and z, where they move or attract; empty: fixed, found by Grains
-  std::vector<EndWalls> side_walls_;
-  std::vector<Vec3> spin_;       // empty without friction
-  std::vector<double> touched_;  // latest impact of each grain, s; likewise
-  HeldBonds held_;
-  int attraction_effect_ = -1;  // its line in the ledger
-
-  double now_ = 0, box_time_ = -1;
-  BoxMotion::Point box_point_{};
-  double spring_impulse_ = 0;  // since the last kick, at box_time_
-  double kick_every_ = never, next_kick_ = never;
-
-  Ledger ledger_;
-  std::array<double, contact_classes> ledger_rest_{};
-  std::array<std::int64_t, contact_classes> collisions_{};
-  std::int64_t events_ = 0, refused_ = 0, elastic_walls_ = 0, elastic_pairs_ = 0, wells_ = 0, let_go_ = 0;
-  double initial_energy_ = 0, initial_momentum_ = 0, outer_impulse_ = 0, virial_ = 0;
-  double momentum_scale_;  // M Omega Delta0, or the sum of m |v| at release
-  OpenBook energy_book_, momentum_book_;
-  double grain_mass_ = 0, accounted_ = 0;
-  Vec3 grain_momentum_ = Vec3::Zero();  // in the falling frame
-  std::int64_t events_at_check_ = 0;
+  std::int64_t events_ = 0, events_at_check_ = 0;
   double time_at_check_ = 0;
   EventWriter* writer_ = nullptr;
 };
 
-}  // namespace shakedown
+template <class Grains, class Motion>
+EventLoop<Grains, Motion>::EventLoop(const State& state, const Physics& physics, const Setup& setup,
+                                     Grains grains)
+    : scene_(state, physics, setup, std::move(grains)),
+      walls_(scene_, state, physics, setup),
+      accounts_(scene_, physics, setup),
+      partings_(scene_, walls_, accounts_),
+      wells_(scene_, walls_, accounts_, partings_, physics.contact),
+      impacts_(scene_, walls_, accounts_, partings_, wells_),
+      kicks_(scene_, walls_, accounts_, physics.grains, setup.hard.kick_interval) {
+  impacts_.start(state, physics, setup);
+  scene_.grains.predict_all();
+  wells_.start(state, setup);
+  if (scene_.has_walls) walls_.open_windows(true);
+  accounts_.open(held());
+}
 
-#include "event_loop_effects.hpp"
-#include "event_loop_impacts.hpp"
-#include "event_loop_observe.hpp"
-#include "event_loop_script.hpp"
-#include "event_loop_start.hpp"
-#include "event_loop_steps.hpp"
-#include "event_loop_walls.hpp"
+template <class Grains, class Motion>
+double EventLoop<Grains, Motion>::next_event_time() {
+  const double next = scene_.grains.next().time;
+  if (!scene_.has_walls) return next;
+  const auto first = walls_.first(next);
+  const double of_walls = std::min(first.time, first.window_end);
+  if constexpr (driven) return std::min({of_walls, scene_.box.valid_until(), kicks_.next()});
+  return of_walls;
+}
+
+template <class Grains, class Motion>
+bool EventLoop<Grains, Motion>::advance_to(double t, const std::atomic<bool>* stop) {
+  for (int count = 0; next_event_time() <= t; ++count) {
+    step(t);
+    if ((count & 0xfff) == 0xfff) {
+      if (stop && stop->load(std::memory_order_relaxed)) return false;
+      check_progress();
+    }
+  }
+  scene_.now = t;
+  return true;
+}
+
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::advance_impacts(std::int64_t n) {
+  const auto impacts = [this] { return collisions()[0] + collisions()[1] + collisions()[2]; };
+  const std::int64_t target = impacts() + n;
+  while (impacts() < target) {
+    EXPECT(next_event_time() < never);
+    step(never);
+  }
+}
+
+/// One event: the earliest of the grains' own, the walls', a window's end, and what drives box and grains.
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::step(double limit) {
+  ++events_;
+  const auto next = scene_.grains.next();
+  if (scene_.has_walls && step_of_walls(next.time, limit)) return;
+  scene_.now = next.time;
+  grain_event(next.grain);
+}
+
+/// False when the grains' own next event is the earliest.
+template <class Grains, class Motion>
+bool EventLoop<Grains, Motion>::step_of_walls(double next_of_grains, double limit) {
+  const auto first = walls_.first(next_of_grains);
+  if constexpr (driven) {
+    const double motion = std::min(scene_.box.valid_until(), kicks_.next());
+    if (motion <= std::min(first.time, first.window_end)) {
+      scene_.now = std::max(scene_.now, motion);
+      step_of_motion();
+      return true;
+    }
+    limit = std::min(limit, motion);
+  }
+  if (first.window_end <= first.time) {
+    scene_.now = std::max(scene_.now, first.window_end);
+    walls_.open_windows();
+    return true;
+  }
+  const EndWalls::Next wall = walls_.across(first.axis).next();
+  if (!(wall.time < next_of_grains)) return false;
+  if (wall.meeting == Meeting::none) {
+    walls_.refine(first.axis, std::min(next_of_grains, limit));
+    return true;
+  }
+  scene_.now = wall.time;
+  meet_wall(first.axis, wall);
+  write_down(EventKind::wall, wall.grain, first.axis, wall.side, wall.meeting);
+  return true;
+}
+
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::step_of_motion() {
+  if (kicks_.next() <= scene_.box.valid_until()) {
+    kicks_.act();
+    return write_down(EventKind::grain_kick);
+  }
+  next_piece();
+  write_down(EventKind::next_piece);
+}
+
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::next_piece() {
+  if constexpr (driven) {
+    scene_.next_piece_of_box();
+    walls_.renew(0);
+  }
+}
+
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::meet_wall(int axis, const EndWalls::Next& next) {
+  if constexpr (driven)
+    if (next.meeting != Meeting::touch) return wells_.wall_edge(next.grain, axis, next.side, next.meeting);
+  touch_wall(next.grain, axis, next.side);
+}
+
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::touch_wall(int i, int axis, int side) {
+  if (axis == 0)
+    impacts_.end_wall(i, side);
+  else
+    impacts_.side_wall(i, axis, side);
+}
+
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::grain_event(int i) {
+  const GrainEvent event = scene_.grains.event(i);
+  if (event.partner >= 0 && !scene_.grains.is_stale(event)) {
+    if constexpr (driven)
+      if (event.meeting != Meeting::touch) {
+        wells_.pair_edge(i, event.partner, event.meeting);
+        return write_down(EventKind::pair, i, event.partner, 1, event.meeting);
+      }
+    impacts_.pair(i, event.partner);
+    return write_down(EventKind::pair, i, event.partner);
+  }
+  if (is_side_wall(event.partner)) {
+    const int axis = side_wall_axis(event.partner), side = side_wall_sign(event.partner);
+    impacts_.side_wall(i, axis, side);
+    return write_down(EventKind::wall, i, axis, side);
+  }
+  if (event.partner == leaves_neighbourhood)
+    scene_.grains.leave_neighbourhood(i, scene_.now);
+  else
+    new_anchor(i, true);  // the partner has been deflected
+  write_down(EventKind::new_anchor, i);
+}
+
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::new_anchor(int i, bool predict) {
+  scene_.grains.move_to(i, partings_.flight_now(i));
+  if (predict) scene_.grains.predict(i);
+}
+
+/// Endless collisions in no time are a broken promise, not something to wait for.
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::check_progress() {
+  const std::int64_t patience = 2'000'000 + 20'000 * static_cast<std::int64_t>(scene_.grains.size());
+  if (scene_.now - time_at_check_ > 1e-5) {
+    events_at_check_ = events_;
+    time_at_check_ = scene_.now;
+  } else if (events_ - events_at_check_ > patience) {
+    throw PhysicsError("endless collisions at t = " + std::to_string(scene_.now) + " s (" +
+                       std::to_string(patience) +
+                       " events in 10 us); raise [hard] pair_elastic_speed or wall_elastic_speed");
+  }
+}
+
+/// Executes the impact with the same code that executed it at first; only that it happens, and when, is taken
+/// from the log.
+template <class Grains, class Motion>
+void EventLoop<Grains, Motion>::execute(const LoggedEvent& event) {
+  static_assert(scripted);
+  scene_.now = event.time;
+  ++events_;
+  switch (event.kind) {
+    case EventKind::pair:
+      if (event.meeting != Meeting::touch) return wells_.pair_edge(event.grain, event.partner, event.meeting);
+      return impacts_.pair(event.grain, event.partner);
+    case EventKind::wall:
+      if (event.meeting != Meeting::touch && (event.partner == 0 || walls_.has_sides()))
+        return meet_wall(event.partner, {event.time, event.grain, event.side, event.meeting});
+      return touch_wall(event.grain, event.partner, event.side);
+    case EventKind::new_anchor: return new_anchor(event.grain, false);
+    case EventKind::grain_kick: return kicks_.act();
+    case EventKind::next_piece: return next_piece();
+  }
+}
+
+template <class Grains, class Motion>
+std::uint64_t EventLoop<Grains, Motion>::digest() const {
+  std::uint64_t hash = fnv_start;
+  const auto mix = [&hash](double value) { hash = fnv_step(hash, std::bit_cast<std::uint64_t>(value)); };
+  for (int i = 0; i < scene_.grains.size(); ++i) {
+    const Flight3 flight = scene_.grains.flight(i);
+    for (std::size_t axis = 0; axis < 3; ++axis) mix(flight.x[axis]), mix(flight.v[axis]);
+    mix(flight.time);
+  }
+  for (const Vec3& spin : impacts_.spin())
+    for (const double value : spin) mix(value);
+  mix(scene_.box.x()), mix(scene_.box.v()), mix(scene_.box.time());
+  return hash;
+}
+
+template <class Grains, class Motion>
+State EventLoop<Grains, Motion>::state(double t) const {
+  State state = scene_.state(t);
+  state.spin = impacts_.spin();
+  return state;
+}
+
+template <class Grains, class Motion>
+Health EventLoop<Grains, Motion>::health() const {
+  Health health;
+  health.deepest_overlap = std::max({0.0, scene_.grains.deepest_overlap(), walls_.deepest_overlap()});
+  health.ledger_error = accounts_.ledger_error();
+  health.momentum_error = accounts_.momentum_error();
+  health.elastic_rescues = impacts_.elastic_walls() + impacts_.elastic_pairs();
+  health.elastic_pair_rescues = impacts_.elastic_pairs();
+  health.refused_events = partings_.refused();
+  if (wells_.let_any_go())
+    health.notes.push_back(
+        "bonds of grain_cohesion hung at the edge of their well until they were pulled off with more than "
+        "its force; the energy "
+        "that this leaves unpaid is booked as its work");
+  return health;
+}
+
+}  // namespace shakedown

@@ -13,15 +13,15 @@ namespace shakedown {
 
 class FallingFrame {
  public:
-  explicit FallingFrame(const GrainForces& forces)
-      : constant_(forces.constant), constant_effect_(forces.constant_effect) {
+  explicit FallingFrame(const GrainForces& forces) : constants_(forces.constant) {
     for (const auto& h : forces.harmonics) {
       const double w = 2 * std::numbers::pi * h.frequency;
       if (w > 0)
         harmonics_.push_back({h.amplitude, w, h.phase, h.effect});
       else
-        constant_ += h.amplitude * std::sin(h.phase);
+        constants_.add(h.amplitude * std::sin(h.phase), h.effect);
     }
+    constant_ = constants_.sum();
   }
 
   bool at_rest() const { return constant_.isZero() && harmonics_.empty(); }
@@ -41,7 +41,7 @@ class FallingFrame {
   /// Calls use(effect, acceleration) for each effect's own acceleration at time t.
   template <class Use>
   void each(double t, Use&& use) const {
-    if (constant_effect_ >= 0) use(constant_effect_, constant_);
+    for (const auto& share : constants_.shares()) use(share.effect, share.strength);
     for (const Swing& h : harmonics_) use(h.effect, Vec3(h.amplitude * std::sin(h.w * t + h.phase)));
   }
   /// Bound of the acceleration along an axis, m/s^2.
@@ -63,8 +63,8 @@ class FallingFrame {
     double w, phase;
     int effect;
   };
-  Vec3 constant_;
-  int constant_effect_;
+  Slot<Vec3> constants_;
+  Vec3 constant_;  // their sum
   std::vector<Swing> harmonics_;
 };
 

@@ -11,15 +11,6 @@
 
 namespace shakedown {
 
-/// Below which closing speeds impacts are elastic (the regularisation of inelastic collapse).
-struct ElasticLimits {
-  double wall_fraction = 0.02;  ///< of the box's current top speed, end walls
-  double pair_speed = 1e-3;     ///< m/s
-  double wall_speed = 0;        ///< m/s, end and side walls
-  double pull =
-      -1;  ///< m/s^2, acceleration that presses layers on walls and sets the last two; negative: none does
-};
-
 /// A tangential impulse and the energy that it takes out.
 struct Friction {
   Vec3 impulse = Vec3::Zero();  ///< N s

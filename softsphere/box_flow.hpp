@@ -18,16 +18,23 @@ class BoxFlow {
   double spring_energy(double x) const;
 
  private:
-  struct Phase;
+  struct Phase {
+    double x, v;
+  };
+  struct Work {
+    double joule;
+    int effect;
+  };
   void rotate(double step, double& x, double& v);
-  void advance_with_effects(double time, double step, double& x, double& v, Accounts& accounts) const;
+  void advance_with_effects(double time, double step, Phase& now, Accounts& accounts);
   double force(double t, double x, double v) const;
-  Phase integrate(double time, double step, double x, double v, double sliding) const;
-  double time_of_stop(double time, double step, double x, double v, double sliding) const;
+  Phase integrate(double time, double step, Phase from, double sliding);
+  double time_of_stop(double time, double step, Phase from, double sliding);
 
   double mass_, stiffness_, cubic_;
   BoxForces forces_;
   bool plain_;
+  std::vector<Work> works_;  // of each force in the last call of integrate()
   double prepared_step_ = -1, cosine_less_one_ = 0, sine_over_rate_ = 0, rate_times_sine_ = 0;
 };
 

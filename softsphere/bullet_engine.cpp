@@ -13,9 +13,7 @@ namespace shakedown {
 namespace {
 
 bool has_forces_beside_spring(const Physics& physics) {
-  const BoxForces& box = physics.box;
-  return physics.spring_cubic != 0 || box.viscous != 0 || box.dry_friction != 0 || box.constant != 0 ||
-         !box.harmonics.empty() || !box.free.empty();
+  return physics.spring_cubic != 0 || !physics.box.none();
 }
 
 void check(const Setup& setup, const Physics& physics) {

@@ -69,16 +69,6 @@ double reduced_mass_of(const ContactModel& model, const Bodies& bodies, const Co
   return m;
 }
 
-void begin_touch(const ContactModel& model, double rate, double step, Contact& contact, Accounts& accounts) {
-  contact.touching = true;
-  contact.closing_speed = std::max(rate, 0.0);
-  contact.spring = spring_dashpot(restitution_of(model.law, contact.kind, contact.closing_speed),
-                                  contact.reduced_mass, model.contact_time);
-  contact.dashpot = 2 * part_of_step_inside(contact.overlap, rate, step);
-  contact.stretch.setZero();
-  ++accounts.collisions[static_cast<std::size_t>(contact.kind)];
-}
-
 void set_attraction(const ContactLaw& law, bool fresh, double overlap_before, double rate, double step,
                     Contact& contact) {
   const double depth = contact.overlap + law.attraction_range,
@@ -89,50 +79,24 @@ void set_attraction(const ContactLaw& law, bool fresh, double overlap_before, do
     contact.attraction = fresh ? 2 * part_of_step_inside(depth, rate, step) : 1;
 }
 
-/// Brings a contact to the positions after the drift. `fresh`: it did not exist before.
-void update_contact(const ContactModel& model, const Bodies& bodies, const Geometry& geometry, bool fresh,
-                    double step, Contact& contact, Accounts& accounts) {
-  const double overlap_before = contact.overlap;
-  contact.normal = geometry.normal;
-  contact.overlap = geometry.overlap;
-  const double rate = closing_speed(bodies, contact);
-  double part_touching = 1;
-  if (contact.overlap > 0) {
-    if (!contact.touching) {
-      begin_touch(model, rate, step, contact, accounts);
-      part_touching = contact.dashpot / 2;
-    }
-    accounts.deepest_overlap = std::max(accounts.deepest_overlap, contact.overlap);
-  } else if (contact.touching) {
-    contact.touching = false;
-    contact.dashpot = 2 * part_of_step_before_leaving(overlap_before, contact.overlap) - 1;
-  } else {
-    contact.dashpot = 0;
-  }
-  if (model.law.has_attraction()) set_attraction(model.law, fresh, overlap_before, rate, step, contact);
-  if (rubs(model, contact)) stretch_tangentially(bodies, step * part_touching, contact);
-  const double range = model.law.has_attraction() ? model.law.attraction_range : 0;
-  contact.over = contact.overlap <= -range;
-}
-
 /// Merges the candidates, which come in order of their keys, with the contacts of the step before.
 class Merge {
  public:
   Merge(const ContactModel& model, const Bodies& bodies, double step, const std::vector<Contact>& before,
-        std::vector<Contact>& now, Accounts& accounts)
+        FoundContacts& found)
       : model_(model),
         bodies_(bodies),
         step_(step),
         old_(before.begin()),
         end_(before.end()),
-        now_(now),
-        accounts_(accounts) {}
+        found_(found),
+        now_(found.contacts) {}
 
   void candidate(std::uint64_t key, int i, int j, ContactClass kind, const Geometry& geometry) {
     pass_by_until(key);
     if (old_ != end_ && old_->key == key) {
       now_.push_back(*old_++);
-      update_contact(model_, bodies_, geometry, false, step_, now_.back(), accounts_);
+      update(geometry, false, now_.back());
       return;
     }
     Contact& contact = now_.emplace_back();
@@ -141,7 +105,7 @@ class Merge {
     contact.j = j;
     contact.kind = kind;
     contact.reduced_mass = reduced_mass_of(model_, bodies_, contact);
-    update_contact(model_, bodies_, geometry, true, step_, contact, accounts_);
+    update(geometry, true, contact);
   }
 
   void finish() { pass_by_until(~std::uint64_t{0}); }
@@ -156,16 +120,51 @@ class Merge {
       const auto number = static_cast<int>(contact.key & 0xffffffffu);
       const Geometry geometry = wall ? wall_geometry(model_, bodies_, contact.i, number)
                                      : pair_geometry(bodies_, contact.i, contact.j);
-      update_contact(model_, bodies_, geometry, false, step_, contact, accounts_);
+      update(geometry, false, contact);
     }
+  }
+
+  /// Brings a contact to the positions after the drift. `fresh`: it did not exist before.
+  void update(const Geometry& geometry, bool fresh, Contact& contact) {
+    const double overlap_before = contact.overlap;
+    contact.normal = geometry.normal;
+    contact.overlap = geometry.overlap;
+    const double rate = closing_speed(bodies_, contact);
+    double part_touching = 1;
+    if (contact.overlap > 0) {
+      if (!contact.touching) {
+        begin_touch(rate, contact);
+        part_touching = contact.dashpot / 2;
+      }
+      found_.deepest_overlap = std::max(found_.deepest_overlap, contact.overlap);
+    } else if (contact.touching) {
+      contact.touching = false;
+      contact.dashpot = 2 * part_of_step_before_leaving(overlap_before, contact.overlap) - 1;
+    } else {
+      contact.dashpot = 0;
+    }
+    const bool attracts = model_.law.has_attraction();
+    if (attracts) set_attraction(model_.law, fresh, overlap_before, rate, step_, contact);
+    if (rubs(model_, contact)) stretch_tangentially(bodies_, step_ * part_touching, contact);
+    contact.over = contact.overlap <= -(attracts ? model_.law.attraction_range : 0);
+  }
+
+  void begin_touch(double rate, Contact& contact) {
+    contact.touching = true;
+    contact.closing_speed = std::max(rate, 0.0);
+    contact.spring = spring_dashpot(restitution_of(model_.law, contact.kind, contact.closing_speed),
+                                    contact.reduced_mass, model_.contact_time);
+    contact.dashpot = 2 * part_of_step_inside(contact.overlap, rate, step_);
+    contact.stretch.setZero();
+    ++found_.touches[static_cast<std::size_t>(contact.kind)];
   }
 
   const ContactModel& model_;
   const Bodies& bodies_;
   double step_;
   std::vector<Contact>::const_iterator old_, end_;
+  FoundContacts& found_;
   std::vector<Contact>& now_;
-  Accounts& accounts_;
 };
 
 /// Whether any grain is within `range` of a wall across `axis`: one vector pass, as it is mostly false.
@@ -200,11 +199,12 @@ void wall_candidates(const ContactModel& model, const Bodies& bodies, Merge& mer
 
 }  // namespace
 
-void find_contacts(const ContactModel& model, const Bodies& bodies, const std::vector<Pair>& pairs,
-                   double step, const std::vector<Contact>& before, std::vector<Contact>& now,
-                   Accounts& accounts) {
-  now.clear();
-  Merge merge(model, bodies, step, before, now, accounts);
+FoundContacts find_contacts(const ContactModel& model, const Bodies& bodies, const std::vector<Pair>& pairs,
+                            double step, const std::vector<Contact>& before, FoundContacts memory) {
+  FoundContacts found;
+  found.contacts = std::move(memory.contacts);
+  found.contacts.clear();
+  Merge merge(model, bodies, step, before, found);
   const double* x = bodies.position.data();
   const double* y = x + bodies.position.rows();
   const double* z = y + bodies.position.rows();
@@ -216,6 +216,7 @@ void find_contacts(const ContactModel& model, const Bodies& bodies, const std::v
   }
   if (bodies.grains > 0) wall_candidates(model, bodies, merge);
   merge.finish();
+  return found;
 }
 
 void settle_contacts(std::vector<Contact>& contacts) {

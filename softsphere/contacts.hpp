@@ -42,17 +42,22 @@ struct ContactModel {
   std::array<double, 2> width{};
 };
 
-/// The contacts after a drift of `step` seconds, in order of their keys. `before` are those of the step
-/// before; those that have separated come back marked `over`. Counts first touches and the deepest overlap.
+struct FoundContacts {
+  std::vector<Contact> contacts;                        ///< in order of their keys
+  std::array<std::int64_t, contact_classes> touches{};  ///< first touches among them
+  double deepest_overlap = 0;                           ///< m
+};
+
+/// The contacts after a drift of `step` seconds. `before` are those of the step before; those that have
+/// separated come back marked `over`. `memory` is taken over for the answer.
 ///
 /// Why weights: the dashpot force jumps at touch and at separation, and a Verlet step that samples it in full
 /// makes a random first-order error in the restitution. The trapezoid rule over the part of the step in
 /// contact is second order: with a fraction f of the step in contact the closing half kick counts the dashpot
 /// 2 f times when the contact begins and 2 f - 1 times when it ends (the opening half kick having counted it
 /// once).
-void find_contacts(const ContactModel& model, const Bodies& bodies, const std::vector<Pair>& pairs,
-                   double step, const std::vector<Contact>& before, std::vector<Contact>& now,
-                   Accounts& accounts);
+FoundContacts find_contacts(const ContactModel& model, const Bodies& bodies, const std::vector<Pair>& pairs,
+                            double step, const std::vector<Contact>& before, FoundContacts memory = {});
 
 /// Puts all weights to those of an opening half kick and drops the contacts that are over.
 void settle_contacts(std::vector<Contact>& contacts);

@@ -47,11 +47,10 @@ void add_velocity(const std::vector<Change>& changes, Bodies& bodies, Accounts& 
 void accelerate_grains(const GrainForces& forces, double time, double step, Bodies& bodies,
                        Accounts& accounts) {
   const Eigen::Index n = bodies.grains;
-  const bool constant = !forces.constant.isZero(0);
-  if (!constant && forces.harmonics.empty()) return;
+  if (forces.constant.shares().empty() && forces.harmonics.empty()) return;
   std::vector<Change> changes;
-  if (constant)
-    changes.push_back({forces.constant * step, forces.constant * (step * step / 2), forces.constant_effect});
+  for (const auto& share : forces.constant.shares())
+    changes.push_back({share.strength * step, share.strength * (step * step / 2), share.effect});
   for (const auto& harmonic : forces.harmonics) changes.push_back(by_harmonic(harmonic, time, step));
   for (const Change& change : changes)
     for (int axis = 0; axis < 3; ++axis) bodies.position.col(axis).head(n) += change.position(axis);

@@ -11,24 +11,23 @@ namespace shakedown {
 namespace {
 
 bool acts_on_every_grain(const GrainForces& forces) {
-  return forces.linear_drag != 0 || forces.quadratic_drag != 0 || !forces.free.empty();
+  return !forces.drag.sum().none() || !forces.free.empty();
 }
 
 /// One half kick; the plain path touches only the bodies in contact.
 class HalfKick {
  public:
-  HalfKick(const ContactModel& model, const GrainForces& grain_forces, double time, double half_step,
-           Bodies& bodies, std::vector<Contact>& contacts, KickSpace& space)
-      : model_(model),
-        grain_forces_(grain_forces),
+  HalfKick(const KickedRun& run, double time, double half_step)
+      : model_(run.model),
+        grain_forces_(run.grain_forces),
         time_(time),
         half_step_(half_step),
-        bodies_(bodies),
-        contacts_(contacts),
-        space_(space),
-        friction_(model.law.has_friction()),
-        everywhere_(acts_on_every_grain(grain_forces)),
-        box_is_held_(model.box_mass == 0) {}
+        bodies_(run.bodies),
+        contacts_(run.contacts),
+        space_(run.space),
+        friction_(model_.law.has_friction()),
+        everywhere_(acts_on_every_grain(grain_forces_)),
+        box_is_held_(model_.box_mass == 0) {}
 
   void run(int passes, Accounts& accounts) {
     if (contacts_.empty() && !everywhere_) return;
@@ -144,7 +143,8 @@ class HalfKick {
     const Eigen::Index n = bodies_.grains, box = bodies_.box();
     for (Eigen::Index i = 0; i < n; ++i) {
       const Vec3 wind = bodies_.velocity_of(i) - bodies_.velocity_of(box);
-      const Vec3 drag = -(grain_forces_.linear_drag + grain_forces_.quadratic_drag * wind.norm()) * wind;
+      space_.wind(i) = wind.norm();
+      const Vec3 drag = -grain_forces_.drag.sum().over_speed(space_.wind(i)) * wind;
       for (int axis = 0; axis < 3; ++axis) space_.drag(i, axis) = drag(axis);
       add(space_.force, i, drag);
       add(space_.force, box, -drag);
@@ -158,15 +158,9 @@ class HalfKick {
   }
 
   void enter_field_work(Accounts& accounts) {
-    double drag_power = 0;
     if (box_is_held_) accounts.outer_impulse += half_step_ * space_.drag.col(0).head(bodies_.grains).sum();
-    const double box_speed = mean_velocity(bodies_.box()).x();
-    for (Eigen::Index i = 0; i < bodies_.grains; ++i) {
-      const Vec3 speed = mean_velocity(i);
-      drag_power += space_.drag(i, 0) * (speed.x() - box_speed) + space_.drag(i, 1) * speed.y() +
-                    space_.drag(i, 2) * speed.z();
-    }
-    accounts.add_work(grain_forces_.drag_effect, half_step_ * drag_power);
+    for (const auto& share : grain_forces_.drag.shares())
+      accounts.add_work(share.effect, half_step_ * drag_power(share.strength));
     for (std::size_t k = 0; k < grain_forces_.free.size(); ++k) {
       double power = 0, force = 0;
       for (Eigen::Index i = 0; i < bodies_.grains; ++i) {
@@ -176,6 +170,21 @@ class HalfKick {
       accounts.add_work(grain_forces_.free[k].effect, half_step_ * power);
       accounts.outer_impulse += half_step_ * force;
     }
+  }
+
+  /// Of one effect's drag on all grains, W.
+  double drag_power(const AirDrag& drag) const {
+    const double box_speed = mean_velocity(bodies_.box()).x();
+    double power = 0;
+    for (Eigen::Index i = 0; i < bodies_.grains; ++i) {
+      const double all = grain_forces_.drag.sum().over_speed(space_.wind(i));
+      if (all == 0) continue;
+      const Vec3 speed = mean_velocity(i);
+      power += drag.over_speed(space_.wind(i)) / all *
+               (space_.drag(i, 0) * (speed.x() - box_speed) + space_.drag(i, 1) * speed.y() +
+                space_.drag(i, 2) * speed.z());
+    }
+    return power;
   }
 
   const ContactModel& model_;
@@ -193,16 +202,15 @@ void make_room(const Bodies& bodies, const GrainForces& forces, KickSpace& space
   for (Bodies::Rows* part :
        {&space.velocity_before, &space.spin_before, &space.force, &space.torque, &space.drag})
     part->setZero(rows, 3);
+  space.wind.setZero(rows);
   space.free.assign(forces.free.size(), Bodies::Column::Zero(rows));
 }
 
 }  // namespace
 
-void half_kick(const ContactModel& model, const GrainForces& grain_forces, double time, double half_step,
-               int passes, Bodies& bodies, std::vector<Contact>& contacts, KickSpace& space,
-               Accounts& accounts) {
-  make_room(bodies, grain_forces, space);
-  HalfKick(model, grain_forces, time, half_step, bodies, contacts, space).run(passes, accounts);
+void half_kick(const KickedRun& run, double time, double half_step, int passes) {
+  make_room(run.bodies, run.grain_forces, run.space);
+  HalfKick(run, time, half_step).run(passes, run.accounts);
 }
 
 }  // namespace shakedown

@@ -57,7 +57,7 @@ class SoftRun {
                     search == PairSearch::every_step ? 0.0 : skin_in_diameters * setup.grains.diameter),
         record_(setup, "soft", model_.box_mass, [this](double x) { return box_.spring_energy(x); }) {
     accounts_.effect_work.resize(setup.effects.size());
-    find_contacts(model_, bodies_, neighbours_.pairs(bodies_), longest_step(), {}, contacts_, accounts_);
+    find_contacts_after(longest_step());
     settle_contacts(contacts_);
     record_.begin(setup, bodies_, stored());
   }
@@ -105,15 +105,22 @@ class SoftRun {
       advance_grains(physics_.grains, time, step, bodies_, accounts_);
       if (!held_) box_.advance(time, step, bodies_.x_box(), bodies_.v_box(), accounts_);
     });
-    find_contacts(model_, bodies_, neighbours_.pairs(bodies_), step, contacts_, found_, accounts_);
-    std::swap(contacts_, found_);
+    find_contacts_after(step);
     kick(time + step, step / 2, implicit_passes);
     settle_contacts(contacts_);
   }
 
+  void find_contacts_after(double step) {
+    found_ = find_contacts(model_, bodies_, neighbours_.pairs(bodies_), step, contacts_, std::move(found_));
+    std::swap(contacts_, found_.contacts);
+    for (std::size_t kind = 0; kind < contact_classes; ++kind)
+      accounts_.collisions[kind] += found_.touches[kind];
+    accounts_.deepest_overlap = std::max(accounts_.deepest_overlap, found_.deepest_overlap);
+  }
+
   void kick(double time, double half_step, int passes) {
     with_arc([&] {
-      half_kick(model_, physics_.grains, time, half_step, passes, bodies_, contacts_, space_, accounts_);
+      half_kick({model_, physics_.grains, bodies_, contacts_, space_, accounts_}, time, half_step, passes);
     });
   }
 
@@ -183,7 +190,8 @@ class SoftRun {
   Neighbours neighbours_;
   RunRecord record_;
   Accounts accounts_;
-  std::vector<Contact> contacts_, found_;
+  std::vector<Contact> contacts_;
+  FoundContacts found_;
   KickSpace space_;
   double time_ = 0;
 };

@@ -48,6 +48,7 @@ class Draw {
   void parameters(Random& random, std::vector<Override>& truth) const;
   void hide(Random& random, const Hideable& hideable, double signal, std::vector<Override>& truth,
             BlindCase& drawn) const;
+  void film(Random& random, std::vector<Override>& truth, BlindCase& drawn) const;
   void hide_pair(Random& random, std::vector<Override>& truth, BlindCase& drawn) const;
   void hide_what_the_kind_says(Random& random, int index, std::vector<Override>& truth,
                                BlindCase& drawn) const;
@@ -103,6 +104,35 @@ void Draw::hide(Random& random, const Hideable& hideable, double signal, std::ve
   drawn.signal_to_noise = drawn.signal_to_noise > 0 ? std::min(drawn.signal_to_noise, reached) : reached;
 }
 
+/// From metrology to a phone in a hand: each error drawn log-uniform by itself. The masses are off by as much
+/// as the experimenter says that they may be.
+void Draw::film(Random& random, std::vector<Override>& truth, BlindCase& drawn) const {
+  const auto log_between = [&](double low, double high) {
+    return low * std::pow(high / low, random.uniform());
+  };
+  const auto signed_between = [&](double low, double high) {
+    return log_between(low, high) * (random.uniform() < 0.5 ? -1 : 1);
+  };
+  RecordingSettings& camera = drawn.trial.recording;
+  constexpr std::array<double, 5> rates{120, 240, 300, 500,
+                                        1000};  // Hz: phones, action and laboratory cameras
+  camera.frame_rate = rates[choice(random, rates.size())];
+  camera.lens = signed_between(1e-4, 0.02);
+  camera.shutter = signed_between(5e-5, 0.01);
+  camera.near = signed_between(2e-4, 0.02);
+  camera.wander = log_between(2e-6, 1e-4);
+  camera.wander_time = log_between(0.05, 1);
+  camera.trigger = log_between(1e-4, 5e-3);
+  camera.release = log_between(5e-5, 1e-3);
+  camera.box_noise = log_between(5e-5, 1e-3);
+  camera.centre_noise = camera.box_noise * log_between(1.5, 4);
+  camera.missing = random.uniform() < 0.5 ? 0 : log_between(1e-3, 0.05);
+  drawn.trial.known = usually_known(believed_, camera);
+  for (const KnownValue& known : drawn.trial.known)
+    if (known.key == "box.mass" || known.key == "grains.mass")
+      truth.push_back({known.key, toml_of(known.value + known.error * random.normal(), "kg"), "blind suite"});
+}
+
 /// One from inside the contacts, and one that acts on the box, on everything or in the camera.
 void Draw::hide_pair(Random& random, std::vector<Override>& truth, BlindCase& drawn) const {
   std::vector<const Hideable*> inside, outside;
@@ -138,6 +168,11 @@ void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Overri
     case BlindKind::camera:
       return hide_next(hideable_effects(), 0,
                        [](const Hideable& h) { return h.effect->acts_on == ActsOn::camera; });
+    case BlindKind::films:
+      film(random, truth, drawn);
+      if (number % 4 == 0) return;  // a quarter hides nothing
+      return hide_next(hideable_effects(), 0,
+                       [](const Hideable& h) { return h.effect->acts_on != ActsOn::camera; });
     case BlindKind::pair: return hide_pair(random, truth, drawn);
     case BlindKind::unlisted: return hide_next(hideable_forces(), 12, [](const Hideable&) { return true; });
     case BlindKind::twins: {

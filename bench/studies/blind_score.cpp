@@ -4,16 +4,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 
 #include "blind_suite.hpp"
+#include "effects.hpp"
 #include "force_likeness.hpp"
 #include "json_file.hpp"
+#include "key_unit.hpp"
 #include "known_effects.hpp"
+#include "ledger.hpp"
 #include "opened_case.hpp"
 #include "random.hpp"
+#include "score_table.hpp"
 
 namespace shakedown {
 
@@ -22,49 +28,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 using Kept = BlindFigure::Verdict;
-
-// ---- counting ----
-
-struct Count {
-  int hits = 0, trials = 0;
-  void add(bool hit) { hits += hit, ++trials; }
-};
-
-class Table {
- public:
-  void at_most(const std::string& what, const Count& count, double limit) { add(what, count, limit, 1e9); }
-  void at_least(const std::string& what, const Count& count, double limit) { add(what, count, -1e9, limit); }
-  void between(const std::string& what, const Count& count, double low, double high) {
-    const Share share = share_of(count.hits, count.trials);
-    const bool told = share.trials >= 20;  // fewer cannot come between 90 and 98 %
-    rows.push_back({what, fmt::format("{:.0f} to {:.0f} %", 100 * low, 100 * high), words(share),
-                    told ? verdict(share, share.value >= low && share.value <= high) : Kept::not_measured});
-  }
-  void plain(const std::string& what, const std::string& aim, const std::string& found, Kept kept) {
-    rows.push_back({what, aim, found, kept});
-  }
-  /// Told beside the aims.
-  void beside(const std::string& what, const Count& count) {
-    rows.push_back({what, "-", words(share_of(count.hits, count.trials)), Kept::not_measured});
-  }
-
-  std::vector<BlindFigure> rows;
-
- private:
-  static std::string words(const Share& share) {
-    return share.trials == 0 ? "no such case" : in_words(share);
-  }
-  static Kept verdict(const Share& share, bool good) {
-    return share.trials == 0 ? Kept::not_measured : good ? Kept::met : Kept::missed;
-  }
-  void add(const std::string& what, const Count& count, double most, double least) {
-    const Share share = share_of(count.hits, count.trials);
-    const bool upper = most > -1e8 && least > 1e8;
-    rows.push_back({what,
-                    fmt::format("at {} {:.0f} %", upper ? "most" : "least", 100 * (upper ? most : least)),
-                    words(share), verdict(share, upper ? share.value <= most : share.value >= least)});
-  }
-};
+using Table = ScoreTable;
 
 Count count(const std::vector<OpenedCase>& cases, const std::function<bool(const OpenedCase&)>& counted,
             const std::function<bool(const OpenedCase&)>& hit) {
@@ -85,11 +49,21 @@ auto singles_at(double low, double high) {
   };
 }
 
+/// The angle nearest to `centre` that is the same but for whole turns.
+double same_angle(double angle, double centre) {
+  constexpr double turn = 2 * std::numbers::pi;
+  return angle + turn * std::round((centre - angle) / turn);
+}
+
 /// Of what was fitted: whether the intervals hold the truth.
 void count_covered(const OpenedCase& one, const std::map<std::string, double>& truth, Count& covered) {
   for (const auto& [key, value] : truth)
-    if (const auto found = one.found.find(key); found != one.found.end())
-      covered.add(found->second.low <= value && value <= found->second.high);
+    if (const auto found = one.found.find(key); found != one.found.end()) {
+      const auto [low, high] = found->second;
+      const double here =
+          unit_of_key(key, all_effects()) == "rad" ? same_angle(value, 0.5 * (low + high)) : value;
+      covered.add(low <= here && here <= high);
+    }
 }
 
 /// A strength has a truth only where the effect that it belongs to is hidden.
@@ -145,6 +119,9 @@ void singles(const std::vector<OpenedCase>& cases, Table& table) {
                  count(cases, singles_at(9, 1e9), family), 0.95);
   table.at_least("exact name, signal to noise 12 and more", count(cases, singles_at(9, 1e9), exact), 0.85);
   table.at_least("first suspect's class, signal to noise 6", count(cases, singles_at(4.5, 9), family), 0.80);
+  table.beside(
+      "hidden one among the answers that hold 95 %, signal to noise 12 and more",
+      count(cases, singles_at(9, 1e9), [](const OpenedCase& one) { return one.among_the_answers(); }));
   table.beside("exact name, signal to noise 6", count(cases, singles_at(4.5, 9), exact));
   table.beside("first suspect's class, signal to noise 3", count(cases, singles_at(0, 4.5), family));
 }
@@ -189,6 +166,22 @@ void inventions(const std::vector<OpenedCase>& cases, Table& table) {
               });
             }),
       0.85);
+}
+
+void films(const std::vector<OpenedCase>& cases, Table& table) {
+  const auto of_films = of_kind(BlindKind::films);
+  table.at_most(
+      "films by cameras as they are: physics invented",
+      count(cases, of_films, [](const OpenedCase& one) { return one.lost || one.judgement.invented; }), 0.03);
+  table.at_least("films: physics named exactly, signal to noise 12 and more",
+                 count(
+                     cases, [&](const OpenedCase& one) { return of_films(one) && one.signal >= 9; },
+                     [](const OpenedCase& one) { return one.exact(); }),
+                 0.90);
+  table.beside("films: nothing hidden, nothing named",
+               count(
+                   cases, [&](const OpenedCase& one) { return of_films(one) && one.hidden.empty(); },
+                   [](const OpenedCase& one) { return one.exact(); }));
 }
 
 // ---- forces in no list ----
@@ -328,13 +321,26 @@ void seconds(const std::vector<OpenedCase>& cases, Table& table) {
               Kept::not_measured);
 }
 
+/// Whether somebody had seen this seed before it was answered.
+bool told_to_ledger(const fs::path& file, const LedgerKey& key, bool all_answered) {
+  SeedLedger ledger(file);
+  if (all_answered) ledger.answered(key);
+  ledger.opened(key);
+  return ledger.seen(key);
+}
+
 }  // namespace
 
-BlindScore score_blind_suite(const fs::path& folder, const TrialTools& tools) {
+BlindScore score_blind_suite(const fs::path& folder, const TrialTools& tools, const fs::path& ledger) {
   std::map<std::string, std::string> seals;
+  LedgerKey key{"blind-suite", 0, ""};
   read_json_file(folder / "plan.json", "the plan of a suite",
-                 "put back the one that was there when the suite began",
-                 [&](const std::string& text) { Json::parse(text).at("sealed").get_to(seals); });
+                 "put back the one that was there when the suite began", [&](const std::string& text) {
+                   const Json plan = Json::parse(text);
+                   plan.at("sealed").get_to(seals);
+                   key.seed = plan.at("seed");
+                   key.drawn = plan.value("drawn", "");
+                 });
   BlindScore score;
   std::vector<OpenedCase> cases;
   for (const auto& [name, seal] : seals)
@@ -345,11 +351,13 @@ BlindScore score_blind_suite(const fs::path& folder, const TrialTools& tools) {
     score.lost += one.lost;
     for (const std::string& program : one.programs) ++score.programs[program];
   }
+  score.seen = told_to_ledger(ledger, key, score.answered == score.planned);
   Table table;
   nulls(cases, table);
   singles(cases, table);
   widths(cases, table);
   inventions(cases, table);
+  films(cases, table);
   unlisted(cases, tools, table);
   twins(cases, table);
   baselines(cases, table);
@@ -360,7 +368,8 @@ BlindScore score_blind_suite(const fs::path& folder, const TrialTools& tools) {
 }
 
 std::string blind_score_text(const BlindScore& score) {
-  std::string text = fmt::format("{} of {} cases answered\n", score.answered, score.planned);
+  std::string text = fmt::format("{} of {} cases answered{}\n", score.answered, score.planned,
+                                 score.seen ? " (SEEN: this seed had been opened before)" : "");
   for (const auto& [program, answers] : score.programs) text += fmt::format("  {} by {}\n", answers, program);
   if (score.lost > 0) text += fmt::format("  {} broke down, and count as wrong in every line\n", score.lost);
   for (const BlindFigure& figure : score.figures)
@@ -379,9 +388,9 @@ std::string blind_score_json(const BlindScore& score) {
          {"aim", figure.aim},
          {"found", figure.found},
          {"met", figure.verdict == Kept::not_measured ? Json(nullptr) : Json(figure.verdict == Kept::met)}});
-  return Json{{"schema_version", 1}, {"planned", score.planned},   {"answered", score.answered},
-              {"lost", score.lost},  {"programs", score.programs}, {"figures", figures},
-              {"cases", score.cases}}
+  return Json{{"schema_version", 1},        {"seen", score.seen},  {"planned", score.planned},
+              {"answered", score.answered}, {"lost", score.lost},  {"programs", score.programs},
+              {"figures", figures},         {"cases", score.cases}}
              .dump(2) +
          "\n";
 }

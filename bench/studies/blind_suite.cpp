@@ -9,6 +9,7 @@
 
 #include "fnv.hpp"
 #include "json_file.hpp"
+#include "ledger.hpp"
 #include "naive_answers.hpp"
 #include "opened_case.hpp"
 #include "output_file.hpp"
@@ -90,7 +91,7 @@ class Suite {
             {"believed", digest(believed_)},
             {"laboratory", tools_.laboratory->name()},
             {"budget", tools_.budget},
-            {"fault", method_fault_names[static_cast<std::size_t>(tools_.fault)]}};
+            {"fault", options_.fault}};
   }
 
   /// A folder holds one suite. Its seals, or none of a suite that is to begin.
@@ -201,6 +202,7 @@ class Suite {
     if (!begins) return;
     Json document = plan();
     document["program"] = version_line();
+    document["drawn"] = SeedLedger(options_.ledger).begin("blind-suite", options_.seed, version_line()).drawn;
     document["sealed"] = seals;
     write_file(folder_ / "plan.json", document.dump(2) + "\n");
   }
@@ -258,7 +260,9 @@ class Suite {
 
   void put_naive_answers(const Trial& trial, Json& document) const {
     const Workshop workshop{tools_.model, tools_.known, tools_.threads, tools_.stop, {}, nullptr};
-    const NaiveAnswers naive = naive_answers(trial.hidden.believed, measured_in(trial, tools_), workshop);
+    const NaiveAnswers naive = naive_answers(
+        trial.hidden.believed,
+        measurement_of(trial.hidden.believed, measured_in(trial, tools_), tools_.known), workshop);
     document["naive"] = {
         {"least_error", naive.least_error}, {"white_noise", naive.white_noise}, {"one_seed", naive.one_seed}};
   }

@@ -25,9 +25,11 @@ struct BlindSuiteOptions {
   std::vector<double> signals;  ///< signal to noise of what is hidden; empty: as designed
   std::string variant;          ///< a worse experiment, one of variant_names; empty: as designed
   std::uint64_t seed = 1;
-  bool baselines = false;  ///< asks simpler methods as well (naive_answers.hpp), of singles and nulls
-  bool resume = false;     ///< go on in a folder that has a plan
+  bool baselines = false;      ///< asks simpler methods as well (naive_answers.hpp), of singles and nulls
+  std::string fault = "none";  ///< put into the diagnosis (faulty_parts.hpp)
+  bool resume = false;         ///< go on in a folder that has a plan
   std::filesystem::path strengths;  ///< a table of an earlier suite instead of measuring one
+  std::filesystem::path ledger;     ///< ledger.hpp; empty: none is kept
   std::function<void(const std::string& line)> told;  ///< of each thing done; may be empty
 };
 
@@ -49,13 +51,15 @@ struct BlindScore {
   std::vector<BlindFigure> figures;
   std::vector<std::string> cases;  ///< a line a case: what was hidden, what was answered, right or wrong
   int answered = 0, planned = 0;
-  int lost = 0;                         ///< of the answered ones: no diagnosis, wrong in every figure
+  bool seen = false;  ///< somebody had opened this seed before it was answered here (ledger.hpp)
+  int lost = 0;       ///< of the answered ones: no diagnosis, wrong in every figure
   std::map<std::string, int> programs;  ///< that answered, and how many cases each
 };
 
-/// Opens the answers. Throws FileError; InputError when a sealed answer is not what it was when the suite
-/// began, or a file of the suite is damaged.
-BlindScore score_blind_suite(const std::filesystem::path& folder, const TrialTools& tools);
+/// Opens the answers, which the ledger is told. Throws FileError; InputError when a sealed answer is not what
+/// it was when the suite began, or a file of the suite is damaged.
+BlindScore score_blind_suite(const std::filesystem::path& folder, const TrialTools& tools,
+                             const std::filesystem::path& ledger = {});
 
 std::string blind_score_text(const BlindScore& score);
 std::string blind_score_json(const BlindScore& score);

@@ -11,6 +11,7 @@
 #include "engine_differences.hpp"
 #include "engines.hpp"
 #include "ensemble_options.hpp"
+#include "faulty_parts.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
@@ -27,13 +28,9 @@ struct BlindSuiteArguments {
   std::uint64_t seed = 1;
   std::int64_t budget = 14000;
   int threads = 0;
+  std::string ledger = STUDIES_LEDGER;
   JsonOutput json;
 };
-
-MethodFault fault_named(const std::string& name) {
-  return static_cast<MethodFault>(std::find(method_fault_names.begin(), method_fault_names.end(), name) -
-                                  method_fault_names.begin());
-}
 
 /// Before the folder is made: a name mistyped must not leave one behind.
 void expect_suite(const std::filesystem::path& folder) {
@@ -51,21 +48,28 @@ int blind_suite(const BlindSuiteArguments& arguments) {
   arguments.json.check();
   const std::unique_ptr<Engine> laboratory = engine_named(arguments.engine), model = engine_named("hard");
   EnsembleCache ensembles;
-  const TrialTools tools{
-      laboratory.get(),  model.get(),          all_effects(),         arguments.budget,
-      arguments.threads, catch_interruption(), &strength_uncertainty, fault_named(arguments.mutation),
-      &ensembles};
+  TrialTools tools{.laboratory = laboratory.get(),
+                   .model = model.get(),
+                   .known = all_effects(),
+                   .budget = arguments.budget,
+                   .threads = arguments.threads,
+                   .stop = catch_interruption(),
+                   .strength_uncertainty = &strength_uncertainty,
+                   .ensembles = &ensembles};
+  const FaultyParts faulty(arguments.mutation, believed, tools);
   BlindSuiteOptions options;
   options.counts = !arguments.cases.empty() ? parse_counts(arguments.cases)
                    : arguments.small        ? small_counts
                                             : full_counts;
   options.small = arguments.small;
+  options.fault = arguments.mutation;
   options.signals = arguments.signals;
   options.variant = arguments.variant;
   options.seed = arguments.seed;
   options.baselines = arguments.baselines;
   options.resume = arguments.resume;
   options.strengths = arguments.strengths;
+  options.ledger = arguments.ledger;
   options.told = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
   bool interrupted = false;
   if (!arguments.score_only) {
@@ -77,7 +81,7 @@ int blind_suite(const BlindSuiteArguments& arguments) {
       if (!std::filesystem::exists(folder.path() / "plan.json")) return exit_interrupted;
     }
   }
-  const BlindScore score = score_blind_suite(folder.path(), tools);
+  const BlindScore score = score_blind_suite(folder.path(), tools, arguments.ledger);
   std::string lines;
   for (const std::string& line : score.cases) lines += line + "\n";
   folder.write("score.txt", blind_score_text(score) + "\n" + lines);
@@ -100,9 +104,9 @@ Command add_blind_suite_command(CLI::App& program) {
       ->type_name("DIR")
       ->required();
   command
-      .add_option(
-          "--cases", a->cases,
-          "how many of each kind: nulls=60,parameters=60,singles=120,camera=30,pairs=30,unlisted=24,twins=20")
+      .add_option("--cases", a->cases,
+                  "how many of each kind: "
+                  "nulls=60,parameters=60,singles=120,camera=30,pairs=30,unlisted=24,twins=20,films=60")
       ->type_name("KIND=N,...");
   command
       .add_option("--signals", a->signals,
@@ -121,15 +125,19 @@ Command add_blind_suite_command(CLI::App& program) {
       "ask simpler methods the same: smallest error, Akaike's criterion with white noise, one seed");
   command
       .add_option("--mutation", a->mutation,
-                  "a mistake put into the diagnosis, to see which figures notice: in-sample, no-refit, "
-                  "no-centre, wrong-sign, noise-tenfold")
-      ->check(CLI::IsMember(std::vector<std::string>(method_fault_names.begin(), method_fault_names.end())))
+                  "a faulty part given to the diagnosis, to see which figures notice: no-refit, no-centre, "
+                  "wrong-sign, smoothed")
+      ->check(CLI::IsMember(std::vector<std::string>(fault_names.begin(), fault_names.end())))
       ->type_name("NAME");
   command.add_flag("--resume", a->resume, "go on where an interrupted suite stopped");
   command.add_flag("--score", a->score_only, "only open and score what is there");
   command
       .add_option("--strengths", a->strengths,
                   "strengths.json of an earlier suite of the same design, instead of measuring")
+      ->type_name("FILE");
+  command
+      .add_option("--ledger", a->ledger,
+                  "table of seeds drawn, answered and opened (CSV), kept by the suite; \"\": none")
       ->type_name("FILE");
   command.add_option("--engine", a->engine, "the laboratory's")->type_name("NAME")->capture_default_str();
   command.add_option("--seed", a->seed, "of the draw")->capture_default_str();

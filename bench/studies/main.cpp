@@ -5,8 +5,8 @@ int main(int count, char** words) {
   return shakedown::run_program(
       "shakedown", "Puts the method on trial, and the paper's statements.",
       [](CLI::App& program) {
-        return std::vector{shakedown::add_paper_command(program),
-                           shakedown::add_blind_suite_command(program)};
+        return std::vector{shakedown::add_paper_command(program), shakedown::add_blind_suite_command(program),
+                           shakedown::add_ring_down_command(program)};
       },
       count, words);
 }

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "audit.hpp"
-#include "experiment_file.hpp"
 #include "linear_model.hpp"
 #include "parameter_knobs.hpp"
 #include "refit.hpp"
@@ -135,9 +133,8 @@ class Naive {
 
 }  // namespace
 
-NaiveAnswers naive_answers(const Setup& setup, const Experiment& experiment, const Workshop& workshop) {
-  const std::vector<MeasuredFeatures> measured =
-      features_of(experiment, audit(experiment), setups_of_runs(setup, experiment, workshop.known));
+NaiveAnswers naive_answers(const Setup& setup, const Measurement& measurement, const Workshop& workshop) {
+  const std::vector<MeasuredFeatures> measured = features_of(measurement);
   std::vector<Knob> theta = free_parameters(setup);
   RefitOptions options;
   options.count = 96;

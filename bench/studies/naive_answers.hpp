@@ -17,6 +17,6 @@ struct NaiveAnswers {
 
 /// Refits the parameters to the experiment, then every known effect beside them, linearly. Throws InputError
 /// when the setup does not fit the experiment, Interrupted.
-NaiveAnswers naive_answers(const Setup& setup, const Experiment& experiment, const Workshop& workshop);
+NaiveAnswers naive_answers(const Setup& setup, const Measurement& measurement, const Workshop& workshop);
 
 }  // namespace shakedown

@@ -24,7 +24,8 @@ std::optional<double> number_at(const Json& object, const char* key) {
 }
 
 Verdict verdict_of(const std::string& name) {
-  for (const Verdict verdict : {Verdict::adequate, Verdict::refit, Verdict::missing, Verdict::unknown})
+  for (const Verdict verdict :
+       {Verdict::adequate, Verdict::refit, Verdict::measurement, Verdict::missing, Verdict::unknown})
     if (name_of(verdict) == name) return verdict;
   return Verdict::unknown;
 }
@@ -62,7 +63,22 @@ std::set<std::string> with_look_alikes(const Json& diagnosis, const Names& missi
   return names;
 }
 
+/// Of a camera as it is nobody can be asked for the camera's errors: physics alone is judged.
+TrialJudgement judgement_of_physics(const std::string& verdict, const Names& missing, const Names& hidden) {
+  Names truth = hidden;
+  std::sort(truth.begin(), truth.end());
+  const Names named = physics_among(missing, all_effects());
+  const bool unknown = verdict == name_of(Verdict::unknown);
+  TrialJudgement judgement;
+  judgement.detected = unknown || !named.empty();
+  judgement.invented = unknown || !std::includes(truth.begin(), truth.end(), named.begin(), named.end());
+  judgement.named = !unknown && named == truth;
+  return judgement;
+}
+
 TrialJudgement judgement_of(const Json& diagnosis, const OpenedCase& one) {
+  if (one.kind == BlindKind::films)
+    return judgement_of_physics(diagnosis.at("verdict"), diagnosis.at("missing").get<Names>(), one.hidden);
   return judge(one.hidden, !one.laboratory.empty(), verdict_of(diagnosis.at("verdict")),
                diagnosis.at("missing").get<Names>());
 }
@@ -71,6 +87,9 @@ void read_diagnosis(const Json& diagnosis, OpenedCase& one) {
   one.verdict = diagnosis.at("verdict");
   one.missing = diagnosis.at("missing").get<Names>();
   one.look_alikes = with_look_alikes(diagnosis, one.missing);
+  one.answers = {one.missing};
+  for (const Json& answer : diagnosis.value("answer_set", Json::array()))
+    one.answers.push_back(answer.at("effects").get<Names>());
   for (const auto& [key, parameter] : diagnosis.at("parameters").items()) {
     const auto low = number_at(parameter, "low"), high = number_at(parameter, "high");
     if (low && high) one.found[key] = {*low, *high};
@@ -116,6 +135,16 @@ void open_answer(const fs::path& file, OpenedCase& one, void (*read)(const Json&
   });
 }
 
+/// Sorted, without what is no part of an answer (a packing).
+Names physics_and_camera(Names effects) {
+  std::erase_if(effects, [](const std::string& effect) {
+    const EffectRecord* record = find_effect(effect);
+    return record != nullptr && record->nuisance;
+  });
+  std::sort(effects.begin(), effects.end());
+  return effects;
+}
+
 }  // namespace
 
 bool OpenedCase::first_suspects_family_is_right() const {
@@ -128,12 +157,14 @@ bool OpenedCase::first_suspects_family_is_right() const {
   });
 }
 
-bool OpenedCase::names_physics() const {
-  return std::any_of(missing.begin(), missing.end(), [](const std::string& effect) {
-    const EffectRecord* record = find_effect(effect);
-    return record != nullptr && record->acts_on != ActsOn::camera;
-  });
+bool OpenedCase::among_the_answers() const {
+  if (exact()) return true;
+  const Names truth = physics_and_camera(hidden);
+  return std::any_of(answers.begin(), answers.end(),
+                     [&](const Names& answer) { return physics_and_camera(answer) == truth; });
 }
+
+bool OpenedCase::names_physics() const { return !physics_among(missing, all_effects()).empty(); }
 
 void read_answer_file(const fs::path& file, const std::function<void(const std::string& text)>& read) {
   read_json_file(file, "an answer of this suite", "remove it; --resume diagnoses the case again", read);

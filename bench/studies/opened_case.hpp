@@ -42,6 +42,7 @@ struct OpenedCase {
   bool lost = false;  ///< nothing: it broke down
   std::string verdict = "no answer";
   std::vector<std::string> missing;
+  std::vector<std::vector<std::string>> answers;  ///< hypotheses that hold 95 %, the named one among them
   std::set<std::string> look_alikes;  ///< of what is missing, as it says itself, with what is missing
   std::map<std::string, FoundInterval> found;  ///< fitted parameters with an interval
   std::optional<double> p_as_given, p_of_balance;
@@ -58,6 +59,8 @@ struct OpenedCase {
 
   bool exact() const { return judgement.named; }
   bool first_suspects_family_is_right() const;
+  /// One of the answers is what is hidden: a tie that is told counts as right here.
+  bool among_the_answers() const;
   /// Something that is not the camera's is called missing.
   bool names_physics() const;
 };

@@ -8,7 +8,6 @@
 #include "effects.hpp"
 #include "engine_differences.hpp"
 #include "engines.hpp"
-#include "experiment_file.hpp"
 #include "free_parameters.hpp"
 #include "measurements.hpp"
 #include "setup_file.hpp"
@@ -47,8 +46,8 @@ Fit fitted(const Setup& start, const Experiment& experiment, const std::string& 
   how.threads = options.threads;
   how.known = all_effects();
   how.stop = options.stop;
-  return fit_parameters(start, experiment, free_parameters(free, start, all_effects()), *engine_named("hard"),
-                        how);
+  return fit_parameters(start, measurement_of(start, experiment, all_effects()),
+                        free_parameters(free, start, all_effects()), *engine_named("hard"), how);
 }
 
 PuzzleModel model_of(std::string name, const std::vector<RunComparison>& runs) {
@@ -70,15 +69,13 @@ Experiment part_of(const Experiment& whole, bool fitted) {
 /// The model as it stands on the lengths that nobody fitted.
 PuzzleModel unfitted(const std::string& name, const Setup& setup, const Experiment& experiment,
                      const PuzzleOptions& options) {
-  const Experiment others = part_of(experiment, false);
   const std::unique_ptr<Engine> hard = engine_named("hard");
   const Workshop workshop{hard.get(), all_effects(), options.threads, options.stop, {}, nullptr};
   RefitOptions how;
   how.count = options.quick ? 48 : 128;
-  return model_of(name,
-                  refit(features_of(others, audit(others), setups_of_runs(setup, others, all_effects())), {},
-                        workshop, how)
-                      .runs);
+  return model_of(name, refit(features_of(measurement_of(setup, part_of(experiment, false), all_effects())),
+                              {}, workshop, how)
+                            .runs);
 }
 
 /// What is missing, if the drop test is believed and nothing but L = 40 mm was filmed?
@@ -89,7 +86,8 @@ Diagnosis diagnosed(const Experiment& experiment, const PuzzleOptions& options) 
   how.stop = options.stop;
   how.fixed = {"restitution.grain_grain"};
   how.strength_uncertainty = &strength_uncertainty;
-  return diagnose(believed(), part_of(experiment, true), *engine_named("hard"), how);
+  return diagnose(believed(), measurement_of(believed(), part_of(experiment, true), all_effects()),
+                  *engine_named("hard"), how);
 }
 
 /// From the laboratory with friction back to the model, both ways: restitution fitted, and 0.95 with

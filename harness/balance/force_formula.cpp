@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "term_prices.hpp"
+
 namespace shakedown {
 
 namespace {
 
-constexpr double price_of_a_term = 6, price_of_being_unlisted = 6;
+constexpr double price_of_being_unlisted = 6;
 
 double log_size(const SelectionProblem& p) { return std::log(static_cast<double>(p.problem.size())); }
 
@@ -226,11 +228,11 @@ BestShape best_shape(const SelectionProblem& p, const ForceMap& map) {
 }
 
 /// One step of the selection; false when nothing is worth its price.
-bool add_best(SelectionProblem& p, ForceMap& map, Selection& selection, const MomentumOptions& options) {
+bool add_best(SelectionProblem& p, ForceMap& map, Selection& selection) {
   const Eigen::MatrixXd basis = orthonormal_basis(columns_of(p, selection.chosen));
   map.project_out(selection.fit.residual, basis);
   const BestShape shape = best_shape(p, map);
-  const std::optional<KnownCandidate> known = best_known(p, selection, options);
+  const std::optional<KnownCandidate> known = best_known(p, selection);
   std::vector<ChosenTerm> chosen = selection.chosen;
   if (known && known->surplus >= shape.surplus) {
     if (known->surplus <= 0) return false;
@@ -267,7 +269,7 @@ std::vector<std::vector<std::string>> formulas_like_known_terms(const SelectionP
   return found;
 }
 
-FormulaFit fit_formulas(SelectionProblem problem, const MomentumOptions& options) {
+FormulaFit fit_formulas(SelectionProblem problem) {
   FormulaFit fit{{}, std::move(problem), {}, {}, 0};
   SelectionProblem& p = fit.problem;
   Selection selection = fit_terms(p, {{0, 0}});
@@ -277,8 +279,7 @@ FormulaFit fit_formulas(SelectionProblem problem, const MomentumOptions& options
   std::stable_sort(fit.curves.begin(), fit.curves.end(),
                    [](const ForceCurve& a, const ForceCurve& b) { return a.gain > b.gain; });
   constexpr int most_steps = 4;
-  for (int step = 0; step < most_steps && add_best(p, map, selection, options); ++step)
-    drop_needless(p, selection);
+  for (int step = 0; step < most_steps && add_best(p, map, selection); ++step) drop_needless(p, selection);
   for (std::size_t which = 1; which < selection.chosen.size() && has_formula(p, selection); ++which) {
     const int term = selection.chosen[which].term;
     if (term < 0 || !p.terms[static_cast<std::size_t>(term)].shape) continue;

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "balance_evidence.hpp"
 #include "force_map.hpp"
-#include "momentum_selection.hpp"
 
 namespace shakedown {
 
 /// The balance explained with formulas among its terms.
 struct FormulaFit {
-  Selection selection;  ///< lines of `problem.terms` beyond momentum_terms() are formulas
+  Selection selection;  ///< lines of `problem.terms` beyond the known ones are formulas
   SelectionProblem problem;
   std::vector<ForceFormula> formulas;  ///< in the order of the selection
   std::vector<ForceCurve>
@@ -22,7 +22,7 @@ struct FormulaFit {
 
 /// Forward selection over known terms and formulas together. A formula costs more than a known term, and its
 /// shape parameters too.
-FormulaFit fit_formulas(SelectionProblem problem, const MomentumOptions& options);
+FormulaFit fit_formulas(SelectionProblem problem);
 
 /// For each term of a selection: formulas that would do as well in its place, chi2 at most as_good higher.
 std::vector<std::vector<std::string>> formulas_like_known_terms(const SelectionProblem& problem,

@@ -74,7 +74,7 @@ ForceMap::ForceMap(const MomentumProblem& problem, const std::vector<MomentumRun
            grid(earliest, scales_.duration, 61),
            grid(earliest, scales_.duration, 121)};
   for (std::size_t kind = 0; kind < shape_kinds; ++kind) {
-    columns_[kind].resize(problem.size(), grid_[kind].nodes);
+    columns_[kind] = Eigen::MatrixXd::Zero(problem.size(), grid_[kind].nodes);
     for (std::size_t run = 0; run < problem.runs(); ++run) {
       const Arguments a = arguments_of(static_cast<ShapeOf>(kind), problem.form(run).run());
       const Eigen::ArrayXd place = ((a.argument - grid_[kind].low) / grid_[kind].step)

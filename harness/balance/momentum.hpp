@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "experiment.hpp"
 #include "force_shapes.hpp"
-#include "momentum_run.hpp"
+#include "measurement.hpp"
 #include "momentum_terms.hpp"
 
 namespace shakedown {
@@ -24,9 +23,11 @@ struct BalanceFit {
 struct FoundTerm {
   std::string effect, parameter, unit;
   TermKind kind = TermKind::physics;
-  double value = 0, low = 0, high = 0;     ///< of the parameter, SI, 95 % interval
-  double gain = 0;                         ///< what chi2 loses without it
-  double frequency = 0, phase = 0;         ///< Hz, rad; oscillating_acceleration only
+  std::string key() const { return effect + "." + parameter; }
+  double value = 0, low = 0, high = 0;  ///< of the parameter, SI, 95 % interval; what the setup has included
+  double gain = 0;                      ///< what chi2 loses without it
+  double frequency = 0, phase = 0;      ///< Hz, rad; of a sine only
+  std::vector<std::pair<std::string, double>> besides{};  ///< keys that its presence needs besides, SI
   std::vector<std::string> look_alikes{};  ///< terms whose columns differ by less than the noise can tell
 };
 
@@ -68,6 +69,19 @@ struct RunBalance {
 /// and "unknown" is a grave word.
 constexpr double balance_rejected = 1e-3;
 
+/// A set of effects that may be missing, and how probable it is among all sets compared.
+struct WeighedSet {
+  std::vector<std::string> effects;  ///< empty: nothing is
+  double probability = 0;
+};
+
+/// What the fit says of something of the camera or of what was weighed.
+struct NuisanceFound {
+  std::string name, unit;
+  double deviation = 0;         ///< standard deviation beforehand
+  double value = 0, error = 0;  ///< afterwards
+};
+
 struct MomentumAudit {
   bool possible = false;
   std::string why_not;                                          ///< when there is no run with both positions
@@ -82,10 +96,16 @@ struct MomentumAudit {
   /// `terms` what else.
   bool unlisted = false;
   std::vector<ForceFormula> formulas;
-  std::vector<ForceCurve> curves;     ///< where something is unlisted or unexplained, best first
-  bool unexplained = false;           ///< no set of known terms brings the balance into order
-  bool only_moving = false;           ///< windows at rest left out, because a dry friction sticks there
-  double reference_displacement = 0;  ///< m, of spring_cubic, where runs have releases of their own; else 0
+  std::vector<ForceCurve> curves;  ///< where something is unlisted or unexplained, best first
+  bool unexplained = false;        ///< no set of known terms brings the balance into order
+  std::vector<std::string> seen;   ///< keys of all strengths that leave a trace in the balance
+  std::vector<WeighedSet> sets;    ///< most probable first, those that hold 99 % together
+  std::vector<NuisanceFound> nuisances;
+  Wander wander;             ///< of the track, as the balance shows it
+  double rest = 0;           ///< m, rms of what remains, as a displacement of the spring
+  double rest_as_given = 0;  ///< m, the same of the setup as it is
+  double explained = 0;      ///< share of chi2 as given that the final fit takes away
+  bool only_moving = false;  ///< windows at rest left out, because a dry friction sticks there
   /// The setup's own balance is in order, or there is none.
   bool holds() const { return !possible || as_given.p_value > balance_rejected; }
 };
@@ -94,17 +114,13 @@ struct MomentumOptions {
   double window_periods = 0.6;  ///< length of a window in periods of the empty box (0.5 s at 1.23 Hz)
   double hop = 0.25;            ///< of a window
   double accept_p = 0.01;       ///< below: formulas are looked for
-  int most_terms = 6;
   int most_sines = 2;
   bool formulas = true;                                   ///< false: known terms alone
   double lowest_frequency = 0.1, highest_frequency = 10;  ///< Hz, scan for forcing
 };
 
-/// `setups`: one for each run of the experiment. The audit's packed layer tells a wrong mass from a wrong
-/// scale of x_com - x_box, which are the same thing to the balance.
-MomentumAudit audit_momentum(const Experiment& experiment, const Audit& audit,
-                             const std::vector<Setup>& setups, const MomentumOptions& options = {});
-MomentumAudit audit_momentum(const std::vector<MomentumRun>& runs, const PlateauSlope& plateau,
-                             double frequency, const MomentumOptions& options = {});
+/// `known`: the effects that may be missing.
+MomentumAudit audit_momentum(const Measurement& measurement, std::span<const EffectRecord* const> known,
+                             const MomentumOptions& options = {});
 
 }  // namespace shakedown

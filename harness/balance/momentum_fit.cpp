@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "robust_statistics.hpp"
-
 namespace shakedown {
 
 BandFactor::BandFactor(const Eigen::MatrixXd& covariance) {
@@ -70,15 +68,13 @@ void MomentumProblem::set_covariance(const std::vector<ForceSamples>& fitted) {
   factor_.clear();
   for (std::size_t run = 0; run < forms_.size(); ++run) {
     Eigen::MatrixXd covariance =
-        forms_[run].covariance(fitted.empty() ? ForceSamples{} : fitted[source_[run]]);
+        forms_[run].covariance(fitted.empty() ? ForceSamples{} : fitted[source_[run]], wander_);
     // Windows that overlap by three quarters are nearly dependent; a part in 1e9 keeps the factor defined.
     if (covariance.rows() > 0) covariance.diagonal() *= 1 + 1e-9;
     factor_.emplace_back(covariance);
   }
-  if (fitted.empty()) {
-    log_determinant_at_start_ = 0;
-    log_determinant_at_start_ = noise_penalty();
-  }
+  if (!started_) log_determinant_at_start_ = noise_penalty();
+  started_ = true;
   restack();
 }
 
@@ -88,24 +84,59 @@ double MomentumProblem::noise_penalty() const {
   return sum;
 }
 
-void MomentumProblem::restack() {
-  begin_.clear();
+Eigen::Index MomentumProblem::windows() const {
   Eigen::Index total = 0;
-  for (const WeakForm& form : forms_) begin_.push_back(total), total += form.windows();
-  impulse_.resize(total);
-  for (std::size_t run = 0; run < forms_.size(); ++run)
-    impulse_.segment(begin_[run], rows(run)) = whiten(run, forms_[run].impulse());
+  for (const WeakForm& form : forms_) total += form.windows();
+  return total;
 }
 
-Eigen::VectorXd MomentumProblem::column(const PreparedTerm& term) const {
-  Eigen::VectorXd out(size());
+double MomentumProblem::longest() const {
+  double longest = 0;
+  for (const WeakForm& form : forms_)
+    longest = std::max(longest, form.run().time.tail(1)[0] - form.run().time[0]);
+  return longest;
+}
+
+void MomentumProblem::set_plateau(const PlateauSlope& plateau, double gain) {
+  plateau_error_ = std::isfinite(plateau.slope) && plateau.error > 0 ? plateau.error : 0;
+  plateau_ = plateau_error_ > 0 ? plateau.slope - gain / 2 : 0;
+  restack();
+}
+
+void MomentumProblem::set_nuisances(std::vector<BalanceNuisance> nuisances) {
+  nuisances_ = std::move(nuisances);
+  restack();
+}
+
+void MomentumProblem::restack() {
+  begin_.clear();
+  for (Eigen::Index total = 0; const WeakForm& form : forms_)
+    begin_.push_back(total), total += form.windows();
+  const Eigen::Index rows_of_runs = windows(), rows_known = 1 + std::ssize(nuisances_);
+  impulse_ = Eigen::VectorXd::Zero(rows_of_runs + rows_known);
   for (std::size_t run = 0; run < forms_.size(); ++run)
-    out.segment(begin_[run], rows(run)) = whiten(run, forms_[run].column(term.samples[source_[run]]));
+    impulse_.segment(begin_[run], rows(run)) = whiten(run, forms_[run].impulse());
+  if (plateau_error_ > 0) impulse_[rows_of_runs] = plateau_ / plateau_error_;
+  nuisance_columns_ = Eigen::MatrixXd(impulse_.size(), std::ssize(nuisances_));
+  for (Eigen::Index k = 0; k < nuisance_columns_.cols(); ++k) {
+    const BalanceNuisance& nuisance = nuisances_[static_cast<std::size_t>(k)];
+    nuisance_columns_.col(k) = nuisance.deviation * column(nuisance.samples);
+    nuisance_columns_(rows_of_runs + 1 + k, k) = 1;
+  }
+}
+
+Eigen::VectorXd MomentumProblem::column(const std::vector<ForceSamples>& samples) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(size());
+  for (std::size_t run = 0; run < forms_.size(); ++run) {
+    const ForceSamples& of_run = samples[source_[run]];
+    out.segment(begin_[run], rows(run)) = whiten(run, forms_[run].column(of_run));
+    if (plateau_error_ > 0 && of_run.plateau != 0) out[windows()] = of_run.plateau / plateau_error_;
+  }
   return out;
 }
 
 Eigen::MatrixXd MomentumProblem::harmonic(double frequency) const {
-  Eigen::MatrixXd out(size(), 2);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size(), 2);
   for (std::size_t run = 0; run < forms_.size(); ++run) {
     const MomentumRun& r = forms_[run].run();
     const Eigen::MatrixXd pair = forms_[run].harmonic(frequency) * (r.box_mass + r.grain_mass);
@@ -114,9 +145,14 @@ Eigen::MatrixXd MomentumProblem::harmonic(double frequency) const {
   return out;
 }
 
-Eigen::VectorXd MomentumProblem::raw_deviation(std::size_t run) const { return factor_[run].deviations(); }
+Eigen::MatrixXd MomentumProblem::raw_columns(std::size_t run, const std::vector<ForceSamples>* samples,
+                                             double frequency) const {
+  if (samples) return forms_[run].column((*samples)[source_[run]]);
+  const MomentumRun& r = forms_[run].run();
+  return forms_[run].harmonic(frequency) * (r.box_mass + r.grain_mass);
+}
 
-double Regression::p_value() const { return chi_squared_tail(chi2, degrees); }
+Eigen::VectorXd MomentumProblem::raw_deviation(std::size_t run) const { return factor_[run].deviations(); }
 
 Regression regress(const Eigen::VectorXd& impulse, const Eigen::MatrixXd& columns) {
   Regression fit;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Weighted regression of the weak momentum balance over several runs, and forward selection of its terms.
+// Weighted regression of the weak momentum balance over several runs.
 #pragma once
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
 #include "force_shapes.hpp"
+#include "measurement.hpp"
 #include "weak_form.hpp"
 
 namespace shakedown {
@@ -34,11 +35,30 @@ class BandFactor {
   Eigen::MatrixXd rows_;  ///< row i holds L(i, i - band ... i)
 };
 
-/// All runs' impulses with their noise covariance, whitened.
+/// Something of the camera or of what was weighed that is known to an error: always in the fit, held by that.
+struct BalanceNuisance {
+  std::string name;                   ///< "camera.lens", "origin of L040"
+  std::string unit;                   ///< of the deviation
+  double deviation = 0;               ///< standard deviation beforehand
+  std::vector<ForceSamples> samples;  ///< of each run, for unit strength; empty parts: not in that run
+};
+
+/// All runs' impulses with their noise covariance, whitened. Below them one row for the packed layer, which
+/// tells a wrong mass from a wrong scale of x_com - x_box, and one for each nuisance: what is known of it.
 class MomentumProblem {
  public:
   /// The runs must outlive the problem. Runs without frames take no part.
   MomentumProblem(const std::vector<MomentumRun>& runs, double window, double hop);
+
+  void set_plateau(const PlateauSlope& plateau, double gain);
+  void set_nuisances(std::vector<BalanceNuisance> nuisances);
+  const std::vector<BalanceNuisance>& nuisances() const { return nuisances_; }
+  /// One column a nuisance, by its standard deviation.
+  const Eigen::MatrixXd& nuisance_columns() const { return nuisance_columns_; }
+  void set_wander(const Wander& wander) { wander_ = wander; }
+  const Wander& wander() const { return wander_; }
+  Eigen::Index windows() const;
+  double longest() const;  ///< s, of a run
 
   std::size_t runs() const { return forms_.size(); }
   const WeakForm& form(std::size_t run) const { return forms_[run]; }
@@ -57,8 +77,9 @@ class MomentumProblem {
   /// -2 ln likelihood is chi2 plus this: to compare fits whose noise differs. Relative to the covariance
   /// without fitted forces.
   double noise_penalty() const;
-  const Eigen::VectorXd& impulse() const { return impulse_; }  ///< whitened
-  Eigen::VectorXd column(const PreparedTerm& term) const;      ///< whitened
+  const Eigen::VectorXd& impulse() const { return impulse_; }              ///< whitened
+  Eigen::VectorXd column(const std::vector<ForceSamples>& samples) const;  ///< whitened; one entry a run
+  Eigen::VectorXd column(const PreparedTerm& term) const { return column(term.samples); }
   Eigen::MatrixXd harmonic(
       double frequency) const;  ///< whitened, two columns, acceleration of box and grains
   Eigen::MatrixXd whiten(std::size_t run, const Eigen::MatrixXd& values) const {
@@ -67,6 +88,9 @@ class MomentumProblem {
   /// The impulses as they are, N s.
   Eigen::VectorXd raw_impulse(std::size_t run) const { return forms_[run].impulse(); }
   Eigen::VectorXd raw_deviation(std::size_t run) const;  ///< N s, standard deviation of each impulse
+  /// One column of a force's samples (one entry a run), or two of a sine.
+  Eigen::MatrixXd raw_columns(std::size_t run, const std::vector<ForceSamples>* samples,
+                              double frequency) const;
 
  private:
   std::vector<WeakForm> forms_;
@@ -75,6 +99,12 @@ class MomentumProblem {
   std::vector<Eigen::Index> begin_;
   double log_determinant_at_start_ = 0;
   Eigen::VectorXd impulse_;
+  Wander wander_;
+  bool started_ = false;
+  std::vector<BalanceNuisance> nuisances_;
+  Eigen::MatrixXd nuisance_columns_;
+  double plateau_ = 0,
+         plateau_error_ = 0;  ///< what the layer shows beyond the setup, per m; error 0: nothing
 
   void restack();
 };
@@ -86,7 +116,6 @@ struct Regression {
   double chi2 = 0;
   double degrees = 0;
   Eigen::VectorXd residual;
-  double p_value() const;
 };
 Regression regress(const Eigen::VectorXd& impulse, const Eigen::MatrixXd& columns);
 

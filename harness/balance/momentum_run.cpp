@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "camera.hpp"
+#include "experiment_file.hpp"
 #include "known_effects.hpp"
 
 namespace shakedown {
@@ -49,6 +50,14 @@ void fill(const std::vector<double>& place, const std::vector<double>& value, Ei
   }
 }
 
+/// Before the release something holds the box: those frames are no motion of the model's.
+std::size_t first_of_the_motion(const Measurement::Run& run) {
+  const double found = run.audit.release.start;
+  const double start = starts_anywhere(run.recorded, run.setup) ? found : std::max(0.0, found);
+  const std::vector<double>& time = run.recorded.time;
+  return static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), start) - time.begin());
+}
+
 void smooth(MomentumRun& run) {
   const int half = smoothing_half_width(run.interval);
   const LocalCubic weights = local_cubic(half);
@@ -72,24 +81,24 @@ void add_model_forces(const Physics& physics, int grains, MomentumRun& run) {
   const Eigen::Index n = run.time.size();
   run.model_force = run.model_force_dx = run.model_force_dv = Eigen::ArrayXd::Zero(n);
   const BoxForces& box = physics.box;
-  const double constant = box.constant + run.grain_mass * physics.grains.constant.x();
+  const double on_grains = run.grain_mass * physics.grains.constant.sum().x();
   const auto smooth_force = [&](double x, double v, double t) {
-    double force = constant - box.viscous * v - run.stiffness * physics.spring_cubic * x * x * x;
-    for (const Harmonic& h : box.harmonics)
-      force += h.amplitude * std::sin(2 * std::numbers::pi * h.frequency * t + h.phase);
+    // The viscous drag is left out: its impulse needs no velocity.
+    double force = box.newton(x, v, t, on_grains - run.stiffness * physics.spring_cubic * x * x * x) +
+                   box.viscous.sum() * v;
     for (const auto& h : physics.grains.harmonics)
-      force += run.grain_mass * h.amplitude.x() * std::sin(2 * std::numbers::pi * h.frequency * t + h.phase);
-    for (const FreeForce& f : box.free) force += f.newton(x, v, t);
+      force += run.grain_mass * Harmonic{h.amplitude.x(), h.frequency, h.phase, h.effect}.at(t);
     for (const FreeForce& f : physics.grains.free)
       force += grains * f.newton(x, v, t);  // each grain near the box: no better known
     return force;
   };
-  run.dry_friction = box.dry_friction > 0;
+  run.dry_friction = box.dry_friction.sum() > 0;
+  run.viscous = box.viscous.sum();
   const Eigen::ArrayXd sign = known_sign(run).sign;
   constexpr double dx = 1e-5, dv = 1e-4;  // below the noise of x and v, far above rounding
   for (Eigen::Index i = 0; i < n; ++i) {
     const double x = run.x_box[i], v = run.v_smooth[i], t = run.time[i];
-    run.model_force[i] = smooth_force(x, v, t) - box.dry_friction * sign[i];
+    run.model_force[i] = smooth_force(x, v, t) - box.dry_friction.sum() * sign[i];
     run.model_force_dx[i] = (smooth_force(x + dx, v, t) - smooth_force(x - dx, v, t)) / (2 * dx);
     run.model_force_dv[i] = (smooth_force(x, v + dv, t) - smooth_force(x, v - dv, t)) / (2 * dv);
   }
@@ -132,7 +141,8 @@ LocalCubic local_cubic(int half) {
   return {fit.row(0).transpose(), fit.row(1).transpose() / half};
 }
 
-MomentumRun momentum_run(const RunAudit& audit, const MeasuredRun& measured, const Setup& setup) {
+MomentumRun momentum_run(const Measurement::Run& measurement) {
+  const auto& [measured, audit, setup] = measurement;
   const Physics physics = physics_of(setup);
   MomentumRun run;
   run.name = measured.name;
@@ -140,22 +150,29 @@ MomentumRun momentum_run(const RunAudit& audit, const MeasuredRun& measured, con
   run.grain_mass = setup.grains.count * setup.grains.mass;
   run.stiffness = physics.stiffness;
   run.displacement = setup.release.displacement;
-  if (const EffectChoice* cubic = find_choice(setup, "spring_cubic"); cubic && cubic->number("reference") > 0)
-    run.displacement = cubic->number("reference");
   for (const EffectChoice& choice : setup.effects) run.effects.emplace_back(choice.record->name);
   run.interval = audit.frame_interval;
   run.box_noise = audit.box;
   run.com_noise = audit.com;
   run.com_gain = 1 / (1 - physics.camera.centre_bias);
+  // A scale of the whole picture is left out: it scales the balance too, which would take up whatever is
+  // there.
+  run.plateau_gain = (1 - physics.camera.centre_bias) * (1 + physics.camera.depth);
   const bool empty = setup.grains.count == 0;
   if (measured.time.size() < 8 || (!empty && !measured.has_com())) return run;
 
-  const Recording truth =
+  const Recording motion =
       undone(physics.camera, {measured.time, audit.x_box, empty ? audit.x_box : audit.x_com});
+  const std::size_t first = first_of_the_motion(measurement);
+  if (measured.time.size() < first + 8) return run;
   std::vector<double> place;
-  for (const double time : measured.time) place.push_back((time - measured.time[0]) / run.interval);
+  for (std::size_t i = first; i < measured.time.size(); ++i)
+    place.push_back((measured.time[i] - measured.time[first]) / run.interval);
+  const std::vector<double> x_box(motion.x_box.begin() + static_cast<std::ptrdiff_t>(first),
+                                  motion.x_box.end()),
+      x_com(motion.x_com.begin() + static_cast<std::ptrdiff_t>(first), motion.x_com.end());
   const Eigen::Index n = static_cast<Eigen::Index>(std::lround(place.back())) + 1;
-  run.time = measured.time[0] - physics.camera.time_offset +
+  run.time = measured.time[first] - physics.camera.time_offset +
              run.interval * Eigen::ArrayXd::LinSpaced(n, 0, static_cast<double>(n - 1));
   run.usable.assign(static_cast<std::size_t>(n), 1);
   run.box_filled.assign(static_cast<std::size_t>(n), 0);
@@ -163,8 +180,8 @@ MomentumRun momentum_run(const RunAudit& audit, const MeasuredRun& measured, con
   run.x_box.resize(n);
   run.x_com.resize(n);
   const double longest = std::max(longest_filled_gap / run.interval, 2.5);
-  fill(place, truth.x_box, run.x_box, run.usable, run.box_filled, longest);
-  fill(place, truth.x_com, run.x_com, run.usable, run.com_filled, longest);
+  fill(place, x_box, run.x_box, run.usable, run.box_filled, longest);
+  fill(place, x_com, run.x_com, run.usable, run.com_filled, longest);
   smooth(run);
   add_model_forces(physics, setup.grains.count, run);
   return run;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "audit.hpp"
+#include "measurement.hpp"
 #include "physics.hpp"
 
 namespace shakedown {
@@ -26,19 +26,23 @@ struct MomentumRun {
   /// Of the box, local cubic, m and m/s; forces take x_box itself, whose noise has no bias.
   Eigen::ArrayXd x_smooth, v_smooth;
   double v_noise = 0;  ///< m/s, standard deviation of v_smooth
-  /// N, on box and grains from the setup's own effects; drag between box and air cancels.
+  /// N, on box and grains from the setup's own effects; drag between box and air cancels. A viscous drag -c v
+  /// is minus d/dt of `viscous` times x_box: no velocity is needed.
   Eigen::ArrayXd model_force;
+  double viscous = 0;         ///< N s/m
   bool dry_friction = false;  ///< model_force has one: it is no force -F sgn v while the box sticks
   Eigen::ArrayXd model_force_dx, model_force_dv;  ///< N/m, N s/m, by the box's position and velocity
   std::vector<char> usable;                       ///< frame measured or well interpolated
   std::vector<char> box_filled, com_filled;       ///< position interpolated
-  double com_gain = 1;              ///< true (x_com - x_box) over recorded, by the setup's camera
+  double com_gain = 1;  ///< true (x_com - x_box) over recorded, by the setup's camera
+  double plateau_gain =
+      1;  ///< recorded (x_com - x_box) of a packed layer over true, in the middle of the track
   NoiseFound box_noise, com_noise;  ///< of the recorded series
 };
 
-/// `setup` is this run's setup: its camera effects are taken out of the data, its forces go into model_force.
-/// Without x_com (and with grains) there is no balance: returns a run without frames.
-MomentumRun momentum_run(const RunAudit& audit, const MeasuredRun& run, const Setup& setup);
+/// The camera effects of the run's setup are taken out of the data, its forces go into model_force. Without
+/// x_com (and with grains) there is no balance: returns a run without frames.
+MomentumRun momentum_run(const Measurement::Run& measurement);
 
 /// The sign of the box's velocity, frame by frame, as far as it is known: its mean over the noise of v and
 /// over the frame's length, erf(v / (sqrt(2) width)); and the derivative by v.

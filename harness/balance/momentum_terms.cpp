@@ -3,108 +3,132 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "effect_strength.hpp"
+#include "physics.hpp"
+#include "setup_file.hpp"
 
 namespace shakedown {
 
 namespace {
 
-Eigen::ArrayXd constant(const MomentumRun& run, double value) {
-  return Eigen::ArrayXd::Constant(run.time.size(), value);
+/// Empty where nothing differs, so that what an effect does not touch costs nothing.
+Eigen::ArrayXd difference(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b, double by) {
+  Eigen::ArrayXd d = (a - b) / by;
+  return (d != 0).any() ? d : Eigen::ArrayXd();
 }
 
-/// The spring's stiffness larger by the fraction `strength`.
-ForceSamples spring_samples(const MomentumRun& run, double) {
-  ForceSamples s;
-  s.force = -run.stiffness * run.x_box;
-  s.force_dx = constant(run, -run.stiffness);
-  return s;
+Eigen::ArrayXd constant_unless_zero(Eigen::Index frames, double value) {
+  return value == 0 ? Eigen::ArrayXd() : Eigen::ArrayXd::Constant(frames, value);
 }
 
-ForceSamples acceleration_samples(const MomentumRun& run, double) {
-  ForceSamples s;
-  s.force = constant(run, run.box_mass + run.grain_mass);
-  return s;
+double as_strength(double parameter, bool inverse) {
+  return inverse ? 1 / (parameter * parameter) : parameter;
 }
 
-ForceSamples viscous_samples(const MomentumRun& run, double) {
-  ForceSamples s;
-  s.potential = run.x_box;
-  s.potential_dx = constant(run, 1);
-  return s;
+/// A length whose default stands for the release displacement (of a cubic spring's coefficient) would be
+/// another one in every run that has its own: it is fixed to the first run's. Known by doing nothing when it
+/// is set to that.
+void fix_scale_of_release(const EffectRecord& record, const Setup& setup,
+                          std::span<const EffectRecord* const> known, MomentumTerm& term) {
+  const double release = std::abs(setup.release.displacement);
+  if (release == 0) return;
+  const double there = physics_of(with_strength(setup, term, term.typical, known)).spring_cubic;
+  for (const Parameter& parameter : record.parameters) {
+    if (there == 0 || parameter.unit != "m" || parameter.kind != ParameterKind::number) continue;
+    MomentumTerm fixed = term;
+    fixed.besides.emplace_back(std::string(record.name) + "." + std::string(parameter.name), release);
+    if (physics_of(with_strength(setup, fixed, term.typical, known)).spring_cubic == there) term = fixed;
+  }
 }
 
-ForceSamples quadratic_samples(const MomentumRun& run, double) {
-  ForceSamples s;
-  s.force = -run.v_smooth * run.v_smooth.abs();
-  s.force_dv = -2 * run.v_smooth.abs();
-  return s;
-}
-
-/// The noise of the moment of change enters through force_dv.
-ForceSamples dry_samples(const MomentumRun& run, double) {
-  const KnownSign known = known_sign(run);
-  ForceSamples s;
-  s.force = -known.sign;
-  s.force_dv = -known.slope;
-  return s;
-}
-
-ForceSamples cubic_samples(const MomentumRun& run, double) {
-  const double scale = run.stiffness / (run.displacement * run.displacement);
-  ForceSamples s;
-  s.force = -scale * run.x_box.cube();
-  s.force_dx = -3 * scale * run.x_box.square();
-  return s;
-}
-
-ForceSamples blade_mass_samples(const MomentumRun& run, double) {
-  ForceSamples s;
-  s.inertia_box = constant(run, 1);
-  return s;
-}
-
-/// x_com = x_box + (1 + strength)(recorded difference): the balance lacks strength N m (x_com - x_box)''.
-ForceSamples com_bias_samples(const MomentumRun& run, double) {
-  ForceSamples s;
-  s.inertia_com = constant(run, run.grain_mass);
-  s.inertia_box = constant(run, -run.grain_mass);
-  return s;
-}
-
-/// The balance lacks N m (1/cos(1.5 x/l) - 1) (x_com - x_box)''; strength 1/l^2.
-ForceSamples camera_arc_samples(const MomentumRun& run, double strength) {
-  const Eigen::ArrayXd angle2 = (1.5 * run.x_box).square() * std::max(strength, 1e-6);
-  ForceSamples s;
-  s.inertia_com = run.grain_mass * (1 / angle2.min(1.0).sqrt().cos() - 1) / std::max(strength, 1e-6);
-  s.inertia_box = -s.inertia_com;
-  return s;
-}
-
-/// Recorded x_box = x + d t: the spring seems to lack the force k d t.
-ForceSamples drift_samples(const MomentumRun& run, double) {
-  ForceSamples s;
-  s.force = run.stiffness * run.time;
-  return s;
+MomentumTerm term_of(const EffectRecord& record, const Search& search, const SearchedStrength& searched,
+                     const Setup& setup, std::span<const EffectRecord* const> known) {
+  MomentumTerm term;
+  term.effect = record.name;
+  term.parameter = searched.parameters;
+  term.unit = record.find(term.parameter.substr(0, term.parameter.find('.')))->unit;
+  term.kind = record.acts_on == ActsOn::camera ? TermKind::camera : TermKind::physics;
+  term.inverse = searched.inverse;
+  const bool there = find_choice(setup, record.name) != nullptr;
+  term.present = there ? as_strength(get_number(setup, term.key(), known), term.inverse) : 0;
+  term.never_negative = (searched.low >= 0 || term.inverse) && !there;
+  term.typical = as_strength(searched.typical, term.inverse);
+  term.least = searched.low, term.most = searched.high;
+  term.odds = search.odds;
+  if (!there)
+    for (const auto& [parameter, value] : search.besides)
+      term.besides.emplace_back(std::string(record.name) + "." + std::string(parameter), value);
+  if (!there) fix_scale_of_release(record, setup, known, term);
+  const auto dry = [](const Setup& of) { return physics_of(of).box.dry_friction.sum() > 0; };
+  term.dry = !dry(setup) && dry(with_strength(setup, term, term.typical, known));
+  return term;
 }
 
 }  // namespace
 
-const std::vector<MomentumTerm>& momentum_terms() {
-  static const std::vector<MomentumTerm> terms{
-      {"spring.frequency", "spring.frequency", "", TermKind::refit, false, spring_samples},
-      {"constant_acceleration", "acceleration", "m/s^2", TermKind::physics, false, acceleration_samples},
-      {"blade_viscous_damping", "damping", "N s/m", TermKind::physics, true, viscous_samples},
-      {"blade_quadratic_drag", "drag", "N s^2/m^2", TermKind::physics, true, quadratic_samples},
-      {"clamp_dry_friction", "force", "N", TermKind::physics, true, dry_samples},
-      {"spring_cubic", "coefficient", "", TermKind::physics, false, cubic_samples},
-      {"blade_mass", "mass", "kg", TermKind::physics, true, blade_mass_samples},
-      {"camera_com_bias", "bias", "", TermKind::camera, false, com_bias_samples, true,
-       [](double strength) { return strength / (1 + strength); }},
-      {"camera_arc", "blade_length", "m", TermKind::camera, true, camera_arc_samples, false,
-       [](double strength) { return strength > 0 ? 1 / std::sqrt(strength) : 0.0; }},
-      {"camera_drift", "drift", "m/s", TermKind::camera, false, drift_samples},
-  };
+double MomentumTerm::parameter_at(double strength) const {
+  const double whole = present + strength;
+  if (inverse) return whole > 0 ? std::clamp(1 / std::sqrt(whole), least, most) : most;
+  return std::clamp(whole, least, most);
+}
+
+bool MomentumTerm::possible(double strength) const {
+  const double whole = present + strength;
+  if (inverse) return whole > 0 && 1 / std::sqrt(whole) >= least;
+  return whole >= least && whole <= most;
+}
+
+Setup with_strength(Setup setup, const MomentumTerm& term, double strength,
+                    std::span<const EffectRecord* const> known) {
+  for (const auto& [key, value] : term.besides) set_number(setup, key, value, known);
+  set_number(setup, term.key(), term.parameter_at(strength), known);
+  return setup;
+}
+
+std::vector<MomentumTerm> momentum_terms(const Setup& setup, std::span<const EffectRecord* const> known) {
+  std::vector<MomentumTerm> terms(1);
+  terms[0].effect = terms[0].parameter = "spring.frequency";
+  terms[0].kind = TermKind::refit;
+  for (const EffectRecord* record : known) {
+    const Search search = search_of(*record);
+    // A sine is searched by its frequency.
+    if (record->nuisance || search.harmonic || !search.not_searched.empty()) continue;
+    for (const SearchedStrength& searched : search.strengths) {
+      // What moves several parameters at once, or replaces a key of the setup, lies inside the contacts.
+      if (searched.parameters.find('&') != std::string_view::npos || !searched.absent_key.empty()) continue;
+      terms.push_back(term_of(*record, search, searched, setup, known));
+    }
+  }
   return terms;
+}
+
+ForceSamples samples_of_change(const MomentumRun& a, const MomentumRun& b, double by) {
+  const Eigen::Index n = a.time.size();
+  ForceSamples s;
+  if (n == 0) return s;
+  s.momentum = difference(b.box_mass * b.x_box + b.grain_mass * b.x_com,
+                          a.box_mass * a.x_box + a.grain_mass * a.x_com, by);
+  s.force = difference(a.stiffness * a.x_box - a.model_force, b.stiffness * b.x_box - b.model_force, by);
+  s.force_dx = difference(b.model_force_dx - b.stiffness, a.model_force_dx - a.stiffness, by);
+  s.force_dv = difference(b.model_force_dv, a.model_force_dv, by);
+  s.potential = difference(b.viscous * b.x_box, a.viscous * a.x_box, by);
+  s.potential_dx = constant_unless_zero(n, (b.viscous - a.viscous) / by);
+  const auto on_box = [](const MomentumRun& run) {
+    return run.box_mass + run.grain_mass * (1 - run.com_gain);
+  };
+  s.inertia_box = constant_unless_zero(n, (on_box(b) - on_box(a)) / by);
+  s.inertia_com = constant_unless_zero(n, (b.grain_mass * b.com_gain - a.grain_mass * a.com_gain) / by);
+  s.plateau = (b.plateau_gain - a.plateau_gain) / (2 * by);
+  return s;
+}
+
+ForceSamples spring_samples(const MomentumRun& run) {
+  ForceSamples s;
+  s.force = -run.stiffness * run.x_box;
+  s.force_dx = Eigen::ArrayXd::Constant(run.time.size(), -run.stiffness);
+  return s;
 }
 
 }  // namespace shakedown

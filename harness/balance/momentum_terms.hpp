@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The forces and camera errors of the effects library that the momentum balance can see, each linear in its
-// strength.
+// What may be missing in the momentum balance, each a strength of an effect of the library. The column of a
+// strength is derived: the balance of the setup less that of the setup with the effect, by its strength. An
+// effect whose column is nothing (all that happens between grains) is not seen here.
 #pragma once
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "known_effects.hpp"
+#include "measurement.hpp"
 #include "weak_form.hpp"
 
 namespace shakedown {
@@ -16,23 +21,39 @@ enum class TermKind {
   camera,   ///< what the camera does to the positions
 };
 
-/// One term of the balance. Strength times samples is the force.
+/// One strength, counted from what the setup has of it. A length that goes to infinity when the effect is
+/// absent counts as 1/length^2.
 struct MomentumTerm {
   std::string effect;     ///< id of the effect; "spring.frequency" for the refit
-  std::string parameter;  ///< its parameter, as in the setup
-  std::string unit;       ///< SI unit of the strength
+  std::string parameter;  ///< "damping", "acceleration.x"
+  std::string unit;       ///< SI unit of the parameter
   TermKind kind = TermKind::physics;
   bool never_negative = false;  ///< a drag cannot push
-  /// Force of unit strength; of terms that are not quite linear, the force of `strength` divided by it.
-  ForceSamples (*samples)(const MomentumRun& run, double strength) = nullptr;
-  bool linear = true;
-  /// The effect's parameter from the fitted strength; nullptr: the strength itself.
-  double (*parameter_of)(double strength) = nullptr;
+  bool inverse = false;         ///< the strength is 1/parameter^2
+  bool dry = false;             ///< a friction: a box that sticks does not feel it as a force -F sgn v
+  double present = 0;           ///< of the setup, as a strength
+  double typical = 0;           ///< scale of the prior, as a strength
+  double least = 0, most = 0;   ///< of the parameter
+  double odds = 1;              ///< how likely beside a usual effect
+  std::vector<std::pair<std::string, double>> besides{};  ///< keys that its presence needs besides, SI
+
+  std::string key() const { return effect + "." + parameter; }
+  /// The parameter at this strength beyond the setup's, within its bounds.
+  double parameter_at(double strength) const;
+  bool possible(double strength) const;
 };
 
-/// Spring frequency first. Effects that balance themselves (friction between grains, drag on the grains,
-/// restitution, a scale or time offset of the camera, a velocity at release) leave no trace here and are not
-/// in the list.
-const std::vector<MomentumTerm>& momentum_terms();
+/// The setup with the term's strength beyond its own.
+Setup with_strength(Setup setup, const MomentumTerm& term, double strength,
+                    std::span<const EffectRecord* const> known);
+
+/// The spring's frequency first, then every strength of `known` that a diagnosis may look for.
+std::vector<MomentumTerm> momentum_terms(const Setup& setup, std::span<const EffectRecord* const> known);
+
+/// The column of a change of the setup: (as it is - changed) / by, for one run.
+ForceSamples samples_of_change(const MomentumRun& as_it_is, const MomentumRun& changed, double by);
+
+/// The relative change of the spring's stiffness.
+ForceSamples spring_samples(const MomentumRun& run);
 
 }  // namespace shakedown

@@ -68,6 +68,22 @@ Eigen::VectorXd coloured(const NoiseFound& noise, const Eigen::VectorXd& weight)
   return out * noise.standard_deviation * noise.standard_deviation;
 }
 
+/// R w for a wandering track, on a stretch that `reach` frames make longer at both ends.
+Stretch wandered(const Wander& wander, double interval, const Stretch& stretch, Eigen::Index reach) {
+  const double keep = std::exp(-interval / wander.time);
+  const Eigen::Index n = stretch.weight.size() + 2 * reach;
+  Eigen::VectorXd given = Eigen::VectorXd::Zero(n), out(n);
+  given.segment(reach, stretch.weight.size()) = stretch.weight;
+  double sum = 0;
+  for (Eigen::Index i = 0; i < n; ++i) out[i] = sum = keep * sum + given[i];
+  sum = 0;
+  for (Eigen::Index i = n - 1; i >= 0; --i) {
+    out[i] += sum;
+    sum = keep * (sum + given[i]);
+  }
+  return {stretch.first - reach, out * wander.deviation * wander.deviation};
+}
+
 double overlap_product(const Stretch& a, const Eigen::VectorXd& b, Eigen::Index b_first) {
   const Eigen::Index begin = std::max(a.first, b_first);
   const Eigen::Index end = std::min(a.first + a.weight.size(), b_first + b.size());
@@ -83,8 +99,10 @@ void add_samples(ForceSamples& samples, const ForceSamples& added, double streng
   add_part(samples.force_dv, added.force_dv, strength);
   add_part(samples.potential, added.potential, strength);
   add_part(samples.potential_dx, added.potential_dx, strength);
+  add_part(samples.momentum, added.momentum, strength);
   add_part(samples.inertia_box, added.inertia_box, strength);
   add_part(samples.inertia_com, added.inertia_com, strength);
+  samples.plateau += strength * added.plateau;
 }
 
 WeakForm::WeakForm(const MomentumRun& run, double length, double hop) : run_(&run) {
@@ -143,20 +161,18 @@ Eigen::VectorXd WeakForm::impulse() const {
   for (Eigen::Index w = 0; w < windows(); ++w) {
     const Eigen::Index at = first_[static_cast<std::size_t>(w)];
     out[w] = (curvature_ * momentum.segment(at, frames_)).sum() + (phi_ * force.segment(at, frames_)).sum();
+    if (r.viscous != 0) out[w] -= r.viscous * (slope_ * r.x_box.segment(at, frames_)).sum();
   }
   return out;
 }
 
 Eigen::VectorXd WeakForm::column(const ForceSamples& samples) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(windows());
-  Eigen::ArrayXd momentum;
-  if (samples.inertia_box.size()) momentum = samples.inertia_box * run_->x_box;
-  if (samples.inertia_com.size()) add_part(momentum, samples.inertia_com * run_->x_com, 1);
   for (Eigen::Index w = 0; w < windows(); ++w) {
     const Eigen::Index at = first_[static_cast<std::size_t>(w)];
     if (samples.force.size()) out[w] += (phi_ * samples.force.segment(at, frames_)).sum();
     if (samples.potential.size()) out[w] += (slope_ * samples.potential.segment(at, frames_)).sum();
-    if (momentum.size()) out[w] -= (curvature_ * momentum.segment(at, frames_)).sum();
+    if (samples.momentum.size()) out[w] -= (curvature_ * samples.momentum.segment(at, frames_)).sum();
   }
   return out;
 }
@@ -190,7 +206,7 @@ Eigen::MatrixXd WeakForm::harmonic(double frequency) const {
   return out;
 }
 
-Eigen::MatrixXd WeakForm::covariance(const ForceSamples& fitted) const {
+Eigen::MatrixXd WeakForm::covariance(const ForceSamples& fitted, const Wander& wander) const {
   const MomentumRun& r = *run_;
   const bool has_grains = r.grain_mass > 0;
   const Eigen::Index half = smoothing_half_width(r.interval), margin = half + 4, n = r.time.size();
@@ -199,7 +215,7 @@ Eigen::MatrixXd WeakForm::covariance(const ForceSamples& fitted) const {
   std::vector<Stretch> box(first_.size()), com(first_.size());
   for (std::size_t w = 0; w < first_.size(); ++w) {
     const Eigen::Index at = first_[w];
-    Eigen::ArrayXd direct = box_mass * curvature_ + r.stiffness * phi_;  // on x_box
+    Eigen::ArrayXd direct = box_mass * curvature_ + r.stiffness * phi_ - r.viscous * slope_;  // on x_box
     Eigen::ArrayXd on_com = com_mass * curvature_;
     direct -= phi_ * r.model_force_dx.segment(at, frames_);
     if (fitted.force_dx.size()) direct -= phi_ * fitted.force_dx.segment(at, frames_);
@@ -224,13 +240,21 @@ Eigen::MatrixXd WeakForm::covariance(const ForceSamples& fitted) const {
     move_to_measured(r.box_filled, box[w]);
     move_to_measured(r.com_filled, com[w]);
   }
+  // Cut where exp(-8) of the track's covariance is left, so that the matrix stays positive.
+  const Eigen::Index reach =
+      wander.deviation > 0 ? static_cast<Eigen::Index>(std::lround(8 * wander.time / r.interval)) : 0;
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(windows(), windows());
   for (std::size_t w = 0; w < first_.size(); ++w) {
-    const Eigen::VectorXd box_side = coloured(r.box_noise, box[w].weight);
-    const Eigen::VectorXd com_side = coloured(r.com_noise, com[w].weight);
-    for (std::size_t o = w; o < first_.size() && first_[o] < first_[w] + frames_ + 2 * margin; ++o) {
-      double sum = overlap_product(box[o], box_side, box[w].first);
-      if (has_grains) sum += overlap_product(com[o], com_side, com[w].first);
+    const Stretch box_side{box[w].first, coloured(r.box_noise, box[w].weight)};
+    const Stretch com_side{com[w].first, coloured(r.com_noise, com[w].weight)};
+    Stretch box_wander, com_wander;
+    if (reach > 0) box_wander = wandered(wander, r.interval, box[w], reach);
+    if (reach > 0 && has_grains) com_wander = wandered(wander, r.interval, com[w], reach);
+    for (std::size_t o = w; o < first_.size() && first_[o] < first_[w] + frames_ + 2 * margin + reach; ++o) {
+      double sum = overlap_product(box[o], box_side.weight, box_side.first);
+      if (has_grains) sum += overlap_product(com[o], com_side.weight, com_side.first);
+      if (reach > 0) sum += overlap_product(box[o], box_wander.weight, box_wander.first);
+      if (reach > 0 && has_grains) sum += overlap_product(com[o], com_wander.weight, com_wander.first);
       out(static_cast<Eigen::Index>(w), static_cast<Eigen::Index>(o)) = sum;
       out(static_cast<Eigen::Index>(o), static_cast<Eigen::Index>(w)) = sum;
     }

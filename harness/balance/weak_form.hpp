@@ -13,14 +13,23 @@
 namespace shakedown {
 
 /// A force of unit strength, frame by frame, as the sum of whichever parts are present:
-/// force, N; minus d/dt of `potential` (a force -g(x) v has potential G, dG/dx = g: no velocity needed); and
-/// a wrong inertia,
-/// -(inertia_box x_box'' + inertia_com x_com'').
+/// force, N; minus d/dt of `potential` (a force -g(x) v has potential G, dG/dx = g: no velocity needed);
+/// minus the second derivative of `momentum`, which a wrong mass or camera adds to M x_box + N m x_com.
 struct ForceSamples {
   Eigen::ArrayXd force, force_dx, force_dv;  ///< N, N/m, N s/m
   Eigen::ArrayXd potential, potential_dx;    ///< N s, N s/m
-  Eigen::ArrayXd inertia_box, inertia_com;   ///< kg
+  Eigen::ArrayXd momentum;                   ///< kg m
+  Eigen::ArrayXd inertia_box, inertia_com;   ///< kg, what noise of x_box and x_com enters `momentum` with
+  double plateau =
+      0;  ///< change of the slope of the packed layer's distance against the box length (PlateauSlope)
 };
+/// A track that wanders: an error of the recorded position with a memory, exp(-|t|/time) (Ornstein and
+/// Uhlenbeck), of box and grains apart.
+struct Wander {
+  double deviation = 0;  ///< m, standard deviation; 0: none
+  double time = 0.3;     ///< s
+};
+
 /// samples += strength * added, part by part.
 void add_samples(ForceSamples& samples, const ForceSamples& added, double strength);
 
@@ -40,6 +49,7 @@ class WeakForm {
 
   /// Left side: the impulse, N s, that no force of the setup explains.
   Eigen::VectorXd impulse() const;
+  bool has_windows() const { return !first_.empty(); }
   /// Right side for one force of unit strength.
   Eigen::VectorXd column(const ForceSamples& samples) const;
   /// A column for each node of a grid: hats at `place` (in nodes, frame by frame), times `factor`, as force
@@ -50,8 +60,9 @@ class WeakForm {
   Eigen::MatrixXd harmonic(double frequency) const;
   /// Integral of phi, s: turns an impulse into a mean force.
   double weight() const;
-  /// Covariance of the impulse from camera noise, when the forces of the fit so far are `fitted`.
-  Eigen::MatrixXd covariance(const ForceSamples& fitted) const;
+  /// Covariance of the impulse from camera noise and a track that wanders, when the forces of the fit so far
+  /// are `fitted`.
+  Eigen::MatrixXd covariance(const ForceSamples& fitted, const Wander& wander = {}) const;
 
  private:
   const MomentumRun* run_;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "camera_features.hpp"
 #include "command.hpp"
 #include "compare_report.hpp"
 #include "decay_comparison.hpp"
@@ -15,6 +16,7 @@
 #include "experiment_file.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
+#include "measured_data.hpp"
 #include "momentum.hpp"
 #include "output_file.hpp"
 #include "parameter_knobs.hpp"
@@ -162,13 +164,11 @@ nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum,
 
 int compare(const CompareArguments& arguments) {
   const Setup setup = arguments.setup.read();
-  const Experiment experiment = read_experiment(arguments.data);
+  const Measurement measurement = measurement_of(setup, read_measured(arguments.data, setup), all_effects());
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
   if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
-  const std::vector<Setup> setups = setups_of_runs(setup, experiment, all_effects());
-  const Audit found = audit(experiment);
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
   RefitOptions options;
   options.count = arguments.runs;
@@ -179,17 +179,19 @@ int compare(const CompareArguments& arguments) {
     ProgressDisplay display(
         fmt::format("{}: comparing with {} runs of each setup", arguments.data, arguments.runs));
     std::int64_t done = 0;
-    const double all = static_cast<double>(arguments.runs) * static_cast<double>(experiment.runs.size());
+    const double all = static_cast<double>(arguments.runs) * static_cast<double>(measurement.runs.size());
     const Workshop workshop{engine.get(),
                             all_effects(),
                             arguments.threads,
                             catch_interruption(),
                             [&](int n) { display.show(std::min(1.0, static_cast<double>(done += n) / all)); },
                             nullptr};
-    fit = refit(features_of(experiment, found, setups), as_given(setup), workshop, options);
-    decays = compare_decay(experiment, found, setups, workshop, std::min(32, arguments.runs), 1);
+    std::vector<Knob> knobs = as_given(setup);
+    for (Knob& knob : camera_knobs(setup, measurement, all_effects())) knobs.push_back(std::move(knob));
+    fit = refit(features_with_camera(measurement, all_effects()), knobs, workshop, options);
+    decays = compare_decay(measurement, workshop, std::min(32, arguments.runs), 1);
   }
-  const MomentumAudit momentum = audit_momentum(experiment, found, setups);
+  const MomentumAudit momentum = audit_momentum(measurement, all_effects());
   const bool holds = fit.p_value > rejected && momentum.holds();
   const std::string document = json_of(fit, momentum, decays, holds).dump(2) + "\n";
   fmt::print(arguments.json.for_people(), "{}", readable(fit, momentum, decays, holds));
@@ -200,10 +202,10 @@ int compare(const CompareArguments& arguments) {
     drawn.known = all_effects();
     drawn.stop = catch_interruption();
     const std::vector<MeasuredAgainstModel> curves =
-        measured_against_model(experiment, found, nullptr, setup, *engine, drawn);
+        measured_against_model(measurement, nullptr, setup, *engine, drawn);
     fmt::print(
         arguments.json.for_people(), "{}",
-        arguments.report.write(report_of(fit, momentum, holds, experiment, setup, curves), arguments.out));
+        arguments.report.write(report_of(fit, momentum, holds, measurement, setup, curves), arguments.out));
   }
   arguments.json.write(document);
   return holds ? exit_done : exit_model_rejected;

@@ -20,6 +20,7 @@
 #include "in_order.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
+#include "measured_data.hpp"
 #include "output_file.hpp"
 #include "parameter_knobs.hpp"
 #include "progress_display.hpp"
@@ -72,22 +73,21 @@ std::string amended_setup(const Diagnosis& diagnosis) {
 
 /// Simulations that fit into the seconds: chosen once, before the start, so that the answer depends on this
 /// number alone.
-std::int64_t budget_for(double seconds, const Setup& setup, const Experiment& experiment,
-                        const Engine& engine, int threads) {
+std::int64_t budget_for(double seconds, const Measurement& measurement, const Engine& engine, int threads) {
   constexpr double dearer = 1.6;  // with effects and low restitutions, on average of whole diagnoses
-  std::vector<Setup> setups = setups_of_runs(setup, experiment, all_effects());
   const auto start = std::chrono::steady_clock::now();
-  for (std::size_t r = 0; r < setups.size(); ++r) {
-    setups[r].run.duration =
-        experiment.runs[r].time.empty() ? 1.0 : std::max(0.5, experiment.runs[r].time.back());
+  for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
+    const std::vector<double>& time = measurement.runs[r].recorded.time;
+    Setup setup = measurement.runs[r].setup;
+    setup.run.duration = time.empty() ? 1.0 : std::max(0.5, time.back());
     RunOptions options;
     options.run = static_cast<int>(r);
     options.stop = catch_interruption();
-    engine.run(setups[r], options);
+    engine.run(setup, options);
   }
   const double each = dearer *
                       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
-                      static_cast<double>(setups.size());
+                      static_cast<double>(measurement.runs.size());
   return std::max<std::int64_t>(
       1000, static_cast<std::int64_t>(seconds * threads_or_all(threads) / each) / 1000 * 1000);
 }
@@ -121,17 +121,17 @@ std::string what_is_kept(const SimulationJournal* journal) {
 
 int diagnose_data(const DiagnoseArguments& arguments) {
   const Setup setup = arguments.setup.read();
-  const Experiment experiment = read_experiment(arguments.data);
+  const Experiment experiment = read_measured(arguments.data, setup);
+  const Measurement measurement = measurement_of(setup, experiment, all_effects());
   check_names(arguments);
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
   if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
   const std::unique_ptr<Engine> engine = engine_named("hard");
-  std::int64_t budget =
-      arguments.budget > 0 ? arguments.budget : usual_budget(setup, experiment, all_effects());
+  std::int64_t budget = arguments.budget > 0 ? arguments.budget : usual_budget(measurement);
   if (arguments.seconds > 0) {
-    budget = budget_for(arguments.seconds, setup, experiment, *engine, arguments.threads);
+    budget = budget_for(arguments.seconds, measurement, *engine, arguments.threads);
     fmt::print(stderr, "about {:g} s: --budget {}\n", arguments.seconds, budget);
   }
   const std::unique_ptr<SimulationJournal> journal = journal_in(folder.get(), experiment, arguments.resume);
@@ -147,7 +147,7 @@ int diagnose_data(const DiagnoseArguments& arguments) {
       display.show(fraction);
     };
     options.journal = journal.get();
-    diagnosis = diagnose(setup, experiment, *engine, options);
+    diagnosis = diagnose(setup, measurement, *engine, options);
   } catch (const Interrupted&) {
     throw Interrupted(what_is_kept(journal.get()));
   }
@@ -165,9 +165,9 @@ int diagnose_data(const DiagnoseArguments& arguments) {
     drawn.known = all_effects();
     drawn.stop = catch_interruption();
     const std::vector<MeasuredAgainstModel> curves =
-        measured_against_model(experiment, audit(experiment), &setup, diagnosis.amended, *engine, drawn);
+        measured_against_model(measurement, &setup, diagnosis.amended, *engine, drawn);
     fmt::print(arguments.json.for_people(), "{}",
-               arguments.report.write(report_of(diagnosis, experiment, setup, curves), arguments.out));
+               arguments.report.write(report_of(diagnosis, measurement, setup, curves), arguments.out));
   }
   arguments.json.write(document);
   return diagnosis.verdict == Verdict::adequate ? exit_done : exit_model_rejected;

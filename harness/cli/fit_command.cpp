@@ -12,11 +12,11 @@
 #include "effects.hpp"
 #include "engines.hpp"
 #include "ensemble_options.hpp"
-#include "experiment_file.hpp"
 #include "fit_report.hpp"
 #include "free_parameters.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
+#include "measured_data.hpp"
 #include "output_file.hpp"
 #include "progress_display.hpp"
 #include "report_output.hpp"
@@ -37,7 +37,7 @@ struct FitArguments {
 
 int fit(const FitArguments& arguments) {
   const Setup setup = arguments.setup.read();
-  const Experiment experiment = read_experiment(arguments.data);
+  const Measurement measurement = measurement_of(setup, read_measured(arguments.data, setup), all_effects());
   const std::vector<Knob> knobs = free_parameters(arguments.free, setup, all_effects());
   arguments.json.check();
   arguments.report.check();
@@ -57,7 +57,7 @@ int fit(const FitArguments& arguments) {
       display.rename(stage);
       display.show(std::min(0.99, static_cast<double>(runs) / about));
     };
-    found = fit_parameters(setup, experiment, knobs, *engine_named("hard"), options);
+    found = fit_parameters(setup, measurement, knobs, *engine_named("hard"), options);
   }
   fmt::print(arguments.json.for_people(), "{}", fit_text(found));
   if (folder) {
@@ -70,10 +70,10 @@ int fit(const FitArguments& arguments) {
     drawn.threads = arguments.threads;
     drawn.known = all_effects();
     drawn.stop = catch_interruption();
-    const std::vector<MeasuredAgainstModel> curves = measured_against_model(
-        experiment, audit(experiment), &setup, found.fitted, *engine_named("hard"), drawn);
+    const std::vector<MeasuredAgainstModel> curves =
+        measured_against_model(measurement, &setup, found.fitted, *engine_named("hard"), drawn);
     fmt::print(arguments.json.for_people(), "{}",
-               arguments.report.write(report_of(found, experiment, curves), arguments.out));
+               arguments.report.write(report_of(found, measurement, curves), arguments.out));
   }
   arguments.json.write(fit_json(found));
   return exit_done;

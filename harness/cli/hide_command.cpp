@@ -26,7 +26,7 @@ namespace {
 
 struct HideArguments {
   std::string setup, out, truth, engine = "soft", lengths = "40mm,40mm,65mm,85mm,104mm", duration, title;
-  std::vector<std::string> effects, parameters, camera, runs;
+  std::vector<std::string> effects, parameters, camera, runs, known;
   std::uint64_t seed = 1;
   int threads = 0;
   bool power = false;
@@ -107,6 +107,9 @@ Trial trial_of(const HideArguments& arguments) {
   collect(found, [&] { trial.hidden = hidden_case(arguments); });
   collect(found, [&] { trial.runs = planned_runs(arguments); });
   collect(found, [&] { trial.recording = recording_of(arguments); });
+  collect(found, [&] {
+    trial.known = with_known(usually_known(trial.hidden.believed, trial.recording), arguments.known);
+  });
   if (!arguments.power && arguments.out.empty())
     found.push_back({{"--out", 0, 0},
                      "",
@@ -124,6 +127,7 @@ Experiment measured(const HideArguments& arguments, const Trial& trial) {
                               arguments.seed,       arguments.threads,
                               catch_interruption(), [&](double fraction) { display.show(fraction); }};
   Experiment experiment = make_measurements(trial.hidden.truth, trial.runs, trial.recording, laboratory);
+  experiment.known = trial.known;
   experiment.title = arguments.title.empty() ? "granular damper, synthetic" : arguments.title;
   return experiment;
 }
@@ -230,8 +234,14 @@ Command add_hide_command(CLI::App& program) {
   command.add_option("--engine", a->engine, "the laboratory's")->type_name("NAME")->capture_default_str();
   many("--camera", a->camera,
        "noise.box, noise.centre (0.2 mm, 0.5 mm), fps (500), missing, outliers (0), jump (20 mm), "
-       "centre=false",
+       "centre=false; a camera as it is: lens=0.5%, shutter=1ms, near=0.5%, wander=20um/0.3s, and by run "
+       "trigger=1ms, release=0.3mm; a table as it is: rounding=0.1mm, jitter=1ms, stamped=true, start=0.2s, "
+       "origin=2mm, declared=false",
        "KEY=VALUE,...");
+  many("--known", a->known,
+       "what its experimenter knows, e.g. \"box.mass=434 g +- 2 g\", in the place of or beside the usual "
+       "errors of masses, release, scale and trigger; may be repeated",
+       "KEY=VALUE +- ERROR");
   command.add_option("--duration", a->duration, "of each run, e.g. \"20 s\"; default: the setup's")
       ->type_name("TIME");
   command.add_option("--title", a->title, "of the experiment");

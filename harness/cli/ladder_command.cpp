@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "camera_features.hpp"
 #include "command.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
@@ -14,6 +15,7 @@
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "ladder_report.hpp"
+#include "measured_data.hpp"
 #include "momentum.hpp"
 #include "output_file.hpp"
 #include "parameter_knobs.hpp"
@@ -42,32 +44,34 @@ std::string effects_of(const Setup& setup) {
   return names.empty() ? "plain" : names;
 }
 
-Rung climb(const std::string& file, const Setup& setup, const Experiment& experiment, const Audit& found,
+Rung climb(const std::string& file, const Setup& setup, const Measurement& measurement,
            const Workshop& workshop, const LadderArguments& arguments) {
-  const std::vector<Setup> setups = setups_of_runs(setup, experiment, all_effects());
   RefitOptions options;
   options.count = arguments.runs;
   // Refitted, so that a rung with few effects does not lose because its parameters were chosen worse.
-  const std::vector<Knob> knobs = arguments.refit ? free_parameters(setup) : as_given(setup);
+  std::vector<Knob> knobs = arguments.refit ? free_parameters(setup) : as_given(setup);
+  for (Knob& knob : camera_knobs(setup, measurement, all_effects())) knobs.push_back(std::move(knob));
   if (!arguments.refit) options.rounds = options.most_rounds = 1;
-  Rung rung{
-      file, effects_of(setup), refit(features_of(experiment, found, setups), knobs, workshop, options), {}};
+  Rung rung{file,
+            effects_of(setup),
+            refit(features_with_camera(with_setup(measurement, setup, all_effects()), all_effects()), knobs,
+                  workshop, options),
+            {}};
   // The balance is judged at the frequency of this rung.
   Setup fitted = setup;
   for (const FittedValue& value : rung.fit.values) set_number(fitted, value.key, value.value, all_effects());
-  rung.momentum = audit_momentum(experiment, found, setups_of_runs(fitted, experiment, all_effects()));
+  rung.momentum = audit_momentum(with_setup(measurement, fitted, all_effects()), all_effects());
   return rung;
 }
 
 std::vector<Rung> climb_all(const LadderArguments& arguments, const std::vector<Setup>& setups,
-                            const Experiment& experiment) {
-  const Audit found = audit(experiment);
+                            const Measurement& measurement) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   ProgressDisplay display(fmt::format("{}: {} setups", arguments.data, setups.size()));
   std::int64_t done = 0;
   const double rounds = arguments.refit ? 2 : 1;
   const double all = static_cast<double>(arguments.runs) *
-                     static_cast<double>(experiment.runs.size() * setups.size()) * rounds;
+                     static_cast<double>(measurement.runs.size() * setups.size()) * rounds;
   const Workshop workshop{engine.get(),
                           all_effects(),
                           arguments.threads,
@@ -76,7 +80,7 @@ std::vector<Rung> climb_all(const LadderArguments& arguments, const std::vector<
                           nullptr};
   std::vector<Rung> rungs;
   for (std::size_t i = 0; i < setups.size(); ++i)
-    rungs.push_back(climb(arguments.setups[i], setups[i], experiment, found, workshop, arguments));
+    rungs.push_back(climb(arguments.setups[i], setups[i], measurement, workshop, arguments));
   return rungs;
 }
 
@@ -143,19 +147,20 @@ int ladder(const LadderArguments& arguments) {
     }
   }
   if (!wrong.empty()) throw InputError(std::move(wrong));
-  const Experiment experiment = read_experiment(arguments.data);
+  const Measurement measurement =
+      measurement_of(setups.front(), read_measured(arguments.data, setups.front()), all_effects());
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
   if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
-  const std::vector<Rung> rungs = climb_all(arguments, setups, experiment);
+  const std::vector<Rung> rungs = climb_all(arguments, setups, measurement);
   fmt::print(arguments.json.for_people(), "{}", readable(rungs, arguments.refit));
   const std::string document = json_of(rungs, arguments.refit);
   if (folder) folder->write("ladder.json", document);
   if (arguments.report.wanted(arguments.out))
     fmt::print(
         arguments.json.for_people(), "{}",
-        arguments.report.write(report_of(rungs, arguments.refit, experiment, setups.back()), arguments.out));
+        arguments.report.write(report_of(rungs, arguments.refit, measurement, setups.back()), arguments.out));
   arguments.json.write(document);
   const bool any = std::any_of(rungs.begin(), rungs.end(), [](const Rung& rung) { return rung.holds(); });
   return any ? exit_done : exit_model_rejected;

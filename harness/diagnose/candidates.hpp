@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "emulator.hpp"
+#include "evidence.hpp"
 
 namespace shakedown {
 
@@ -14,10 +15,8 @@ struct Candidate {
                             ///< the centre; empty: on or off
   std::vector<std::pair<std::string, double>>
       fixed;  ///< setup paths and values (SI) that its presence needs besides, e.g. the length of the blade
-  bool seen_by_momentum =
-      false;          ///< a force from outside or a camera error that the momentum balance judges better
-  double doubt = 0;   ///< chi2 that it must bring beyond a rival: how unlikely it is in such an experiment
-  bool dear = false;  ///< a run costs some ten times a plain one: screened by itself, with few runs
+  StrengthSeen prior{};  ///< what is typical of its strength; gain, value and error are not set
+  bool dear = false;     ///< a run costs some ten times a plain one: screened by itself, with few runs
   /// Tried whatever the linear estimate says: inside the contacts a refit hides most of what is linear, and
   /// at full strength it is not.
   bool always = false;

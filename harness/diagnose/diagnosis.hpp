@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: MIT
-// From measurements to the missing effect. Two channels: the momentum balance (no simulation) convicts forces
-// from outside, ensembles of the hard engine judge everything inside the contacts. Then: is the model as
-// given within its spread? Does refitting suffice? Which effect, added and fitted, brings the error down, and
-// does anything remain?
+// From measurements to the missing effect. Two likelihoods: the momentum balance (no simulation) sees forces
+// on the box, ensembles of the hard engine see everything else. Each hypothesis (nothing, an effect, several,
+// the camera, a force of no list) gets a probability; the most probable one is fitted, and what remains is
+// tested.
 #pragma once
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "candidates.hpp"
+#include "evidence.hpp"
 #include "momentum.hpp"
 #include "refit.hpp"
 
 namespace shakedown {
 
-enum class Verdict { adequate, refit, missing, unknown };
+/// adequate: the model holds as given. refit: with other values of its parameters. measurement: with errors
+/// of camera or clock within what is known of them. missing: effects are missing. unknown: none that is known
+/// explains the data.
+enum class Verdict { adequate, refit, measurement, missing, unknown };
 
 struct DiagnosedParameter {
   std::string name;  ///< setup path
@@ -42,10 +46,20 @@ struct LadderStep {
   double p_value = 1, scatter = 1;
 };
 
+/// What explains the data nearly as well as the effect that was added, as it was fitted.
+struct RunnerUp {
+  std::string added, effect;  ///< empty: none
+  Setup setup;
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::adequate;
   std::string sentence;
-  std::vector<std::string> missing;  ///< effect ids in the order added
+  std::vector<std::string> missing;    ///< effect ids in the order added
+  std::vector<Hypothesis> hypotheses;  ///< most probable first, those that hold 99 % together
+  std::vector<Hypothesis> answers;     ///< the fewest of them that hold 95 %
+  double explained = 0;                ///< share of chi2 as given that the final model takes away
+  std::vector<NuisanceFound> camera;   ///< what the data say of camera and weights
   std::vector<DiagnosedParameter> parameters;
   std::vector<RankedEffect> ranking;
   std::vector<LadderStep> ladder;
@@ -54,6 +68,7 @@ struct Diagnosis {
   MomentumAudit momentum;
   std::string force_formula;  ///< for unknown forces: a user_force ready to try
   std::vector<std::string> next_experiments;
+  RunnerUp runner_up;
   std::vector<std::string> notes;
   Setup amended;  ///< the user's setup with effects and refitted values
   double seconds = 0;
@@ -73,18 +88,16 @@ struct DiagnoseOptions {
   /// Relative uncertainty of an effect's strength because data may be of the other engine's kind
   /// (effects/engine_differences.hpp); null: none.
   double (*strength_uncertainty)(std::string_view effect) = nullptr;
-  MethodFault fault = MethodFault::none;
   EnsembleCache* ensembles = nullptr;    ///< shared by diagnoses of one setup; may be null
   SimulationJournal* journal = nullptr;  ///< of this diagnosis, begun before or not; may be null
 };
 
 /// Simulations that a diagnosis may make unless told otherwise: 3500 for each different setup among the runs,
 /// for four at least.
-std::int64_t usual_budget(const Setup& setup, const Experiment& experiment,
-                          std::span<const EffectRecord* const> known);
+std::int64_t usual_budget(const Measurement& measurement);
 
 /// Throws InputError when the setup does not fit the experiment, Interrupted when stopped.
-Diagnosis diagnose(const Setup& setup, const Experiment& experiment, const Engine& engine,
+Diagnosis diagnose(const Setup& setup, const Measurement& measurement, const Engine& engine,
                    const DiagnoseOptions& options);
 
 std::string_view name_of(Verdict verdict);

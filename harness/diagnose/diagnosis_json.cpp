@@ -13,6 +13,24 @@ using Json = nlohmann::ordered_json;
 /// Numbers that are none become null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+Json sets_json(const std::vector<Hypothesis>& hypotheses) {
+  Json list = Json::array();
+  for (const Hypothesis& h : hypotheses)
+    list.push_back({{"effects", h.effects}, {"probability", number(h.probability)}});
+  return list;
+}
+
+Json camera_json(const std::vector<NuisanceFound>& camera) {
+  Json list = Json::array();
+  for (const NuisanceFound& n : camera)
+    list.push_back({{"name", n.name},
+                    {"value", number(n.value)},
+                    {"error", number(n.error)},
+                    {"known_to", number(n.deviation)},
+                    {"unit", n.unit}});
+  return list;
+}
+
 Json momentum_json(const MomentumAudit& audit) {
   Json terms = Json::array();
   for (const FoundTerm& term : audit.terms)
@@ -30,6 +48,10 @@ Json momentum_json(const MomentumAudit& audit) {
           {"chi2_per_dof_final", number(audit.final_fit.chi2_per_degree())},
           {"p_value_final", number(audit.final_fit.p_value)},
           {"unexplained", audit.unexplained},
+          {"explained", number(audit.explained)},
+          {"rest_mm", number(audit.rest * 1e3)},
+          {"wander",
+           {{"deviation_mm", number(audit.wander.deviation * 1e3)}, {"time_s", number(audit.wander.time)}}},
           {"terms", terms}};
 }
 
@@ -68,10 +90,14 @@ std::string diagnosis_json(const Diagnosis& d) {
                      {"sigmas", number(c.sigmas)},
                      {"p_value", number(c.p_value)}});
   const LadderStep last = d.ladder.empty() ? LadderStep{} : d.ladder.back();
-  const Json all{{"schema_version", 1},
+  const Json all{{"schema_version", 2},
                  {"verdict", std::string(name_of(d.verdict))},
                  {"sentence", d.sentence},
                  {"missing", d.missing},
+                 {"hypotheses", sets_json(d.hypotheses)},
+                 {"answer_set", sets_json(d.answers)},
+                 {"explained", number(d.explained)},
+                 {"camera", camera_json(d.camera)},
                  {"parameters", parameters},
                  {"ranking", ranking},
                  {"ladder", ladder},

@@ -14,8 +14,33 @@ std::string line_of(const FailureCell& cell) {
                      cell.error * 1e3, cell.sigmas, cell.p_value);
 }
 
+namespace {
+
+std::string hypotheses_text(const Diagnosis& d) {
+  std::string text;
+  constexpr double shown = 0.01;
+  for (const Hypothesis& h : d.hypotheses) {
+    if (h.probability < shown) continue;
+    std::string names;
+    for (const std::string& effect : h.effects) names += (names.empty() ? "" : " + ") + effect;
+    text +=
+        fmt::format("  {:>5.1f} %  {}\n", 100 * h.probability, names.empty() ? "nothing is missing" : names);
+  }
+  return text.empty() ? "" : "  probability of what is missing\n" + text + "\n";
+}
+
+std::string camera_text(const Diagnosis& d) {
+  std::string text;
+  for (const NuisanceFound& n : d.camera)
+    text += fmt::format("    {:<44} {:>10.3g} +- {:<8.2g} {:<5} (known to {:.2g})\n", n.name, n.value,
+                        n.error, n.unit, n.deviation);
+  return text.empty() ? "" : "\n  camera and weights, as the data show them\n" + text;
+}
+
+}  // namespace
+
 std::string diagnosis_text(const Diagnosis& d) {
-  std::string text = d.sentence + "\n\n";
+  std::string text = d.sentence + "\n\n" + hypotheses_text(d);
   text +=
       fmt::format("  {:<58} {:>10} {:>10} {:>12} {:>8}\n", "error, mm", "box", "centre", "box held out", "p");
   for (const LadderStep& s : d.ladder)
@@ -31,6 +56,10 @@ std::string diagnosis_text(const Diagnosis& d) {
                                            p.low, p.high, p.unit)
                              : fmt::format("    {:<44} {}\n", p.name, p.word);
   }
+  text += camera_text(d);
+  if (d.momentum.possible && d.momentum.wander.deviation > 0)
+    text += fmt::format("  the track wanders by {:.2g} mm over {:.2g} s\n", d.momentum.wander.deviation * 1e3,
+                        d.momentum.wander.time);
   if (d.momentum.possible)
     text += fmt::format(
         "\n  momentum balance: chi2 per degree of freedom {:.3g} as given, {:.3g} with what was found\n",

@@ -18,15 +18,32 @@ using Roots = std::vector<Eigen::LLT<Eigen::MatrixXd>>;
 /// Of each run's chaos and camera noise.
 Roots roots_of(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators) {
   Roots roots;
-  for (std::size_t r = 0; r < measured.size(); ++r)
-    roots.emplace_back(feature_covariance(emulators[r].residuals, measured[r].plan, 0));
+  for (std::size_t r = 0; r < measured.size(); ++r) {
+    Eigen::MatrixXd covariance = feature_covariance(emulators[r].residuals, measured[r].plan, 0);
+    if (measured[r].own.cols() > 0) covariance += measured[r].own * measured[r].own.transpose();
+    roots.emplace_back(covariance);
+  }
   return roots;
 }
 
+/// Below the features a row for each of the first `fitted` knobs: what is known of it beforehand.
 LinearModel whitened(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators,
-                     std::size_t knobs, const Roots& roots) {
-  return linear_model(measured, emulators, knobs,
-                      [&](std::size_t r, Eigen::MatrixXd& block) { roots[r].matrixL().solveInPlace(block); });
+                     const std::vector<Knob>& knobs, std::size_t fitted, const Roots& roots) {
+  LinearModel model =
+      linear_model(measured, emulators, knobs.size(),
+                   [&](std::size_t r, Eigen::MatrixXd& block) { roots[r].matrixL().solveInPlace(block); });
+  const Eigen::Index features = model.residual.size(), count = static_cast<Eigen::Index>(fitted);
+  model.columns.conservativeResize(features + count, Eigen::NoChange);
+  model.residual.conservativeResize(features + count);
+  model.columns.bottomRows(count).setZero();
+  model.residual.tail(count).setZero();
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Knob& knob = knobs[static_cast<std::size_t>(k)];
+    if (!(knob.believed_error > 0)) continue;
+    model.columns(features + k, k) = knob.width / knob.believed_error;
+    model.residual[features + k] = (knob.believed - knob.centre) / knob.believed_error;
+  }
+  return model;
 }
 
 /// What the regression's own error adds to a whitened square: a term's share of each feature.
@@ -85,7 +102,7 @@ Scattered scattered(const std::vector<MeasuredFeatures>& measured, const std::ve
   auto [knobs, candidate_of, with] = beside_fitted(measured, fitted, candidates, members, workshop.known);
   const std::vector<Emulator> emulators = emulate(with, knobs, count, first_run, workshop);
   if (roots.empty()) roots = roots_of(with, emulators);
-  LinearModel linear = whitened(with, emulators, knobs.size(), roots);
+  LinearModel linear = whitened(with, emulators, knobs, fitted.size(), roots);
   return {std::move(knobs), std::move(candidate_of), std::move(linear),
           static_cast<Eigen::Index>(fitted.size())};
 }
@@ -102,11 +119,13 @@ void judge_scattered(const Scattered& s, const std::vector<Candidate>& candidate
     const double square = signature.squaredNorm(), by = square > 0 ? signature.dot(residual) / square : 0;
     const double z = knob.z_of(when_absent(knob)) + by;
     const bool allowed = by == 0 || knob.at(z) != when_absent(knob);  // a drag cannot push
-    screening.list.push_back({s.candidate_of[k],
-                              candidates[s.candidate_of[k]].effect,
-                              allowed ? by * by * square : 0,
-                              knob.at(z),
-                              {}});
+    const Candidate& candidate = candidates[s.candidate_of[k]];
+    StrengthSeen seen = candidate.prior;
+    seen.gain = allowed ? by * by * square : 0;
+    seen.value = knob.at(z) - when_absent(knob);
+    if (seen.one_sided) seen.value = std::abs(seen.value);
+    seen.error = square > 0 ? knob.width / std::sqrt(square) : 0;
+    screening.list.push_back({s.candidate_of[k], candidate.effect, seen.gain, knob.at(z), seen, {}});
     screening.signatures.push_back(signature);
   }
 }
@@ -118,17 +137,20 @@ void screen_switch(const std::vector<MeasuredFeatures>& measured, const std::vec
                    int count, int first_run, const Left& without, Screening& screening) {
   std::vector<MeasuredFeatures> with = measured;
   for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidates[c], workshop.known);
-  const std::vector<Emulator> emulators = emulate(with, straight(fitted, 0.5), count, first_run, workshop);
+  const std::vector<Knob> beside = straight(fitted, 0.5);
+  const std::vector<Emulator> emulators = emulate(with, beside, count, first_run, workshop);
   const Eigen::VectorXd signature =
-      without.residual - without.outside(whitened(with, emulators, fitted.size(), screening.roots).residual);
+      without.residual -
+      without.outside(whitened(with, emulators, beside, fitted.size(), screening.roots).residual);
   const double square = std::max(0.0, signature.squaredNorm() - own_error(emulators)),
                along = signature.dot(without.residual);
-  const bool seen = square > 0 && along > 0;
-  screening.list.push_back({c,
-                            candidates[c].effect,
-                            seen ? along * along / signature.squaredNorm() : 0,
-                            candidates[c].fixed.front().second * (seen ? square / along : 1),
-                            {}});
+  const bool is_seen = square > 0 && along > 0;
+  const double length = candidates[c].fixed.back().second * (is_seen ? std::sqrt(square / along) : 1);
+  StrengthSeen seen = candidates[c].prior;
+  seen.gain = is_seen ? along * along / signature.squaredNorm() : 0;
+  seen.value = 1 / (length * length);
+  seen.error = seen.gain > 0 ? seen.value / std::sqrt(seen.gain) : 0;
+  screening.list.push_back({c, candidates[c].effect, seen.gain, length, seen, {}});
   screening.signatures.push_back(signature);
 }
 
@@ -156,7 +178,8 @@ std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured
   for (const std::vector<std::size_t>& members : groups.dear) {
     const Candidate& candidate = candidates[members.front()];
     if (candidate.always) {
-      screening.list.push_back({members.front(), candidate.effect, 0, candidate.knobs.front().centre, {}});
+      screening.list.push_back(
+          {members.front(), candidate.effect, 0, candidate.knobs.front().centre, candidate.prior, {}});
       screening.signatures.emplace_back();
     } else {  // what is dear has a strong signature
       judge_scattered(together(measured, members, fewest), candidates, without, screening);

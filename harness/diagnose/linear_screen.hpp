@@ -13,8 +13,9 @@ namespace shakedown {
 struct ScreenedEffect {
   std::size_t candidate = 0;  ///< index among the candidates
   std::string effect;
-  double gain = 0;   ///< of chi2
-  double value = 0;  ///< linear estimate of the strength, SI
+  double gain = 0;    ///< of chi2
+  double value = 0;   ///< linear estimate of the parameter, SI
+  StrengthSeen seen;  ///< the strength from its absence, with its error and prior
   std::vector<std::string>
       look_alikes;  ///< candidates whose signature after refitting has a cosine above 0.9 with its own
 };

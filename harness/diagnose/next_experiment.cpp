@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "audit.hpp"
 #include "feature_covariance.hpp"
 #include "quantity.hpp"
 
@@ -35,8 +34,9 @@ MeasuredFeatures seen(Setup setup, double noise_box, double noise_centre, const 
   found.com.standard_deviation = noise_centre;
   found.x_box = run.x_box;
   found.x_com = run.x_com;
-  MeasuredFeatures m{run.name, setup, plan_features(run, found), {}};
-  m.values = measured_features(m.plan, found, run);
+  const Measurement::Run measured{std::move(run), std::move(found), setup};
+  MeasuredFeatures m{measured.recorded.name, setup, plan_features(measured), {}};
+  m.values = measured_features(m.plan, measured);
   m.setup.run.duration = std::max(0.5, m.plan.end + 0.05);
   return m;
 }

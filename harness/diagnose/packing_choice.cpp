@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiment_file.hpp"
 #include "initial_state.hpp"
 
 namespace shakedown {
@@ -51,18 +50,16 @@ struct ReleasedCentre {
   double error;  ///< m, of the camera's noise
 };
 
-std::vector<ReleasedCentre> released_centres(const Experiment& experiment, const Audit& audit) {
+std::vector<ReleasedCentre> released_centres(const Measurement& measurement) {
   constexpr double still = 0.03;  // s
   std::vector<ReleasedCentre> list;
-  for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
-    const MeasuredRun& run = experiment.runs[r];
+  for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
+    const auto& [run, audit, setup] = measurement.runs[r];
     if (!run.has_com()) continue;
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < run.time.size() && run.time[i] < still; ++i)
-      if (const double apart = audit.runs[r].x_com[i] - audit.runs[r].x_box[i]; std::isfinite(apart))
-        sum += apart, ++count;
-    const double noise =
-        std::hypot(audit.runs[r].com.standard_deviation, audit.runs[r].box.standard_deviation);
+      if (const double apart = audit.x_com[i] - audit.x_box[i]; std::isfinite(apart)) sum += apart, ++count;
+    const double noise = std::hypot(audit.com.standard_deviation, audit.box.standard_deviation);
     if (count >= 3) list.push_back({r, sum / count, noise / std::sqrt(count)});
   }
   return list;
@@ -104,18 +101,18 @@ Misfit misfit_up_to_scale(const std::vector<ReleasedCentre>& measured,
 
 }  // namespace
 
-PackingChoice packing_before_release(const Setup& given, const Experiment& experiment, const Audit& audit,
+PackingChoice packing_before_release(const Setup& given, const Measurement& measurement,
                                      std::span<const EffectRecord* const> known) {
   PackingChoice best{given.release.packing};
   if (!given.release.initial_grains.empty() || given.grains.count == 0) return best;
-  const std::vector<ReleasedCentre> measured = released_centres(experiment, audit);
+  const std::vector<ReleasedCentre> measured = released_centres(measurement);
   if (measured.empty()) return best;
   const auto misfit_of = [&](Packing packing) {
     Setup setup = given;
     setup.release.packing = packing;
     std::vector<LaidCentre> modelled;
-    const std::vector<Setup> setups = setups_of_runs(setup, experiment, known);
-    for (const ReleasedCentre& centre : measured) modelled.push_back(laid_centre(setups[centre.run]));
+    for (const ReleasedCentre& centre : measured)
+      modelled.push_back(laid_centre(setup_of_run(setup, measurement.runs[centre.run].recorded, known)));
     return misfit_up_to_scale(measured, modelled);
   };
   const auto fits = [](const Misfit& misfit) { return misfit.rms < 2 * misfit.within; };

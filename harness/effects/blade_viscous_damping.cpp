@@ -6,8 +6,7 @@ namespace shakedown::effect {
 
 namespace {
 void apply(const EffectChoice& choice, int index, Physics& physics) {
-  physics.box.viscous = choice.number("damping");
-  physics.box.viscous_effect = index;
+  physics.box.viscous.add(choice.number("damping"), index);
 }
 }  // namespace
 

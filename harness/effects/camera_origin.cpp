@@ -12,7 +12,7 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 
 extern const EffectRecord camera_origin{
     .name = "camera_origin",
-    .label = "origin of recorded positions",
+    .label = "origin of the recorded positions",
     .acts_on = ActsOn::camera,
     .sentence = "All recorded positions are shifted.",
     .formula = "x_recorded = x + x0",
@@ -27,10 +27,12 @@ extern const EffectRecord camera_origin{
                     .high = 1,
                     .neutral = 0,
                     .typical = 0.0005,
-                    .sentence = "Recorded position of the place where the spring is relaxed.",
-                    .unit_shown = "mm"}},
+                    .sentence = "Recorded position of the place where the spring is relaxed."}},
     .engines = {{every_engine, {Fidelity::exact}}},
-    .search = {.strengths = {{.parameters = "origin", .strongest = 0.02}}},
+    .camera_error = {.known_as = "camera.origin",
+                     .usual = 0.0003,
+                     .each_run = true,
+                     .unknown = 0.1},  // m; a pixel or two
     .apply = &apply};
 
 }  // namespace shakedown::effect

@@ -29,6 +29,7 @@ extern const EffectRecord camera_scale{
                     .sentence = "Relative error of recorded lengths."}},
     .engines = {{every_engine, {Fidelity::exact}}},
     .search = {.strengths = {{.parameters = "scale", .strongest = 0.2}}},
+    .camera_error = {.known_as = "camera.scale", .usual = 0.005},  // a ruler filmed by eye
     .apply = &apply};
 
 }  // namespace shakedown::effect

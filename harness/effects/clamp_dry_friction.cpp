@@ -6,8 +6,7 @@ namespace shakedown::effect {
 
 namespace {
 void apply(const EffectChoice& choice, int index, Physics& physics) {
-  physics.box.dry_friction = choice.number("force");
-  physics.box.dry_friction_effect = index;
+  physics.box.dry_friction.add(choice.number("force"), index);
 }
 }  // namespace
 

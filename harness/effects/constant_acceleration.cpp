@@ -7,10 +7,8 @@ namespace shakedown::effect {
 namespace {
 void apply(const EffectChoice& choice, int index, Physics& physics) {
   const Vec3& acceleration = choice.vector("acceleration");
-  physics.grains.constant = acceleration;
-  physics.grains.constant_effect = index;
-  physics.box.constant = physics.box_mass * acceleration.x();
-  physics.box.constant_effect = index;
+  physics.grains.constant.add(acceleration, index);
+  physics.box.constant.add(physics.box_mass * acceleration.x(), index);
 }
 }  // namespace
 

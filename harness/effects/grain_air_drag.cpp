@@ -6,9 +6,7 @@ namespace shakedown::effect {
 
 namespace {
 void apply(const EffectChoice& choice, int index, Physics& physics) {
-  physics.grains.linear_drag = choice.number("linear");
-  physics.grains.quadratic_drag = choice.number("quadratic");
-  physics.grains.drag_effect = index;
+  physics.grains.drag.add({choice.number("linear"), choice.number("quadratic")}, index);
 }
 }  // namespace
 

@@ -5,9 +5,10 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply(const EffectChoice& choice, int index, Physics& physics) {
   physics.contact.attraction_force = choice.number("force");
   physics.contact.attraction_range = choice.number("range");
+  physics.contact.attraction_effect = index;
 }
 }  // namespace
 

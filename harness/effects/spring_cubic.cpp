@@ -5,14 +5,13 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply(const EffectChoice& choice, int, Physics& physics) {
   const double given = choice.number("reference"),
                displacement = given > 0 ? given : physics.release_displacement;
   if (displacement == 0)
     throw InputError({{choice.place, "spring_cubic", "has no scale (release.displacement is 0)",
                        "give spring_cubic.reference"}});
   physics.spring_cubic = choice.number("coefficient") / (displacement * displacement);
-  physics.spring_cubic_effect = index;
 }
 }  // namespace
 

@@ -103,13 +103,33 @@ struct RecordingKey {
   double RecordingSettings::*field;
   double low, high;
 };
-constexpr std::array<RecordingKey, 6> recording_keys{
+constexpr std::array<RecordingKey, 16> recording_keys{
     {{"noise.box", "mm", &RecordingSettings::box_noise, 0, 1},
      {"noise.centre", "mm", &RecordingSettings::centre_noise, 0, 1},
-     {"fps", "Hz", &RecordingSettings::frame_rate, 20, 1e5},
+     {"fps", "Hz", &RecordingSettings::frame_rate, 5, 1e5},
      {"missing", "", &RecordingSettings::missing, 0, 0.9},
      {"outliers", "", &RecordingSettings::outliers, 0, 0.5},
-     {"jump", "mm", &RecordingSettings::jump, 0, 10}}};
+     {"jump", "mm", &RecordingSettings::jump, 0, 10},
+     {"lens", "", &RecordingSettings::lens, -0.3, 0.3},
+     {"shutter", "ms", &RecordingSettings::shutter, -0.05, 0.05},
+     {"near", "", &RecordingSettings::near, -0.5, 0.5},
+     {"wander", "mm", &RecordingSettings::wander, 0, 0.1},
+     {"trigger", "ms", &RecordingSettings::trigger, 0, 1},
+     {"release", "mm", &RecordingSettings::release, 0, 0.1},
+     {"rounding", "mm", &RecordingSettings::rounding, 1e-9, 0.1},
+     {"jitter", "ms", &RecordingSettings::jitter, 0, 1},
+     {"start", "s", &RecordingSettings::start, 0, 1e4},
+     {"origin", "mm", &RecordingSettings::origin, -10, 10}}};
+
+struct RecordingFlag {
+  std::string_view name;
+  bool RecordingSettings::*field;
+  std::string_view remedy;
+};
+constexpr std::array<RecordingFlag, 3> recording_flags{
+    {{"centre", &RecordingSettings::centre, "centre=false when the grains are not tracked"},
+     {"stamped", &RecordingSettings::stamped, "stamped=true when the table has each frame's true instant"},
+     {"declared", &RecordingSettings::declared, "declared=false when nobody knows the noise"}}};
 
 /// A bare number of frames per second, a quantity, or what is wrong.
 ValueOrProblem<double> recording_value(const RecordingKey& key, std::string text) {
@@ -126,18 +146,37 @@ ValueOrProblem<double> recording_value(const RecordingKey& key, std::string text
   return read;
 }
 
+ValueOrProblem<double> memory_of(const std::string& text) {
+  TomlValue value;
+  value.kind = TomlValue::Kind::text;
+  value.text = stripped(text);
+  const ValueOrProblem<double> read = number_in(value, "s");
+  if (const double* seconds = std::get_if<double>(&read); seconds && !(*seconds > 0))
+    return Problem{"has no memory of " + value.text, "write size/memory, e.g. wander=20um/0.3s"};
+  return read;
+}
+
 void take_recording(const std::string& part, const std::string& origin, RecordingSettings& settings) {
   const auto [key, value, place] = parse_override(part, origin);
   const auto refuse = [&](const std::string& problem, const std::string& remedy) {
     throw InputError({{{origin, 0, 0}, key, problem, remedy}});
   };
-  if (key == "centre") {
+  const auto flag = std::find_if(recording_flags.begin(), recording_flags.end(),
+                                 [&](const RecordingFlag& one) { return one.name == key; });
+  if (flag != recording_flags.end()) {
     if (value != "true" && value != "false")
-      refuse("is neither true nor false", "write centre=false when the grains are not tracked");
-    settings.centre = value == "true";
+      refuse("is neither true nor false", "write " + std::string(flag->remedy));
+    settings.*flag->field = value == "true";
     return;
   }
-  std::vector<std::string_view> names{"centre"};
+  if (const std::size_t slash = value.find('/'); key == "wander" && slash != value.npos) {  // 20um/0.3s
+    const ValueOrProblem<double> memory = memory_of(value.substr(slash + 1));
+    if (const Problem* wrong = std::get_if<Problem>(&memory)) refuse(wrong->problem, wrong->remedy);
+    settings.wander_time = std::get<double>(memory);
+    return take_recording("wander=" + value.substr(0, slash), origin, settings);
+  }
+  std::vector<std::string_view> names;
+  for (const RecordingFlag& one : recording_flags) names.push_back(one.name);
   for (const RecordingKey& known : recording_keys) {
     names.push_back(known.name);
     if (known.name != key) continue;
@@ -146,9 +185,9 @@ void take_recording(const std::string& part, const std::string& origin, Recordin
     settings.*known.field = std::get<double>(read);
     return;
   }
-  refuse("is not a property of the camera",
-         "known: " + listed(names) +
-             "; errors such as a scale or a bias are effects: `shakedown effects` lists them");
+  refuse(
+      "is not a property of the camera",
+      "known: " + listed(names) + "; a scale, a bias, a drift are effects: `shakedown effects` lists them");
 }
 
 }  // namespace
@@ -211,6 +250,32 @@ RecordingSettings parse_recording(const std::vector<std::string>& parts, const s
   return settings;
 }
 
+std::vector<KnownValue> with_known(std::vector<KnownValue> usual, const std::vector<std::string>& texts,
+                                   const std::string& origin) {
+  TomlValue table;
+  std::vector<Violation> wrong;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == text.npos || equals == 0) {
+      wrong.push_back({{origin, 0, 0},
+                       "",
+                       "\"" + text + "\" says nothing of a quantity",
+                       "write KEY=VALUE +- ERROR, e.g. \"box.mass=434 g +- 2 g\""});
+      continue;
+    }
+    TomlEntry entry{stripped(text.substr(0, equals)), {origin, 0, 0}, {}};
+    entry.value.kind = TomlValue::Kind::text;
+    entry.value.text = stripped(text.substr(equals + 1));
+    entry.value.place = entry.place;
+    table.entries.push_back(std::move(entry));
+  }
+  const std::vector<KnownValue> told = read_known(table, "", wrong);
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+  std::erase_if(usual, [&](const KnownValue& one) { return find_known(told, one.key) != nullptr; });
+  usual.insert(usual.end(), told.begin(), told.end());
+  return usual;
+}
+
 std::vector<std::string> hidden_effects(const HiddenCase& hidden) {
   std::vector<std::string> names;
   for (const EffectChoice& choice : hidden.truth.effects) {
@@ -243,7 +308,20 @@ std::string truth_json(const HiddenCase& hidden, const RecordingSettings& record
                                           {"missing", recording.missing},
                                           {"outliers", recording.outliers},
                                           {"jump_mm", recording.jump * 1e3},
-                                          {"centre", recording.centre}}},
+                                          {"centre", recording.centre},
+                                          {"lens", recording.lens},
+                                          {"shutter_ms", recording.shutter * 1e3},
+                                          {"near", recording.near},
+                                          {"wander_mm", recording.wander * 1e3},
+                                          {"wander_time_s", recording.wander_time},
+                                          {"trigger_ms", recording.trigger * 1e3},
+                                          {"release_mm", recording.release * 1e3},
+                                          {"rounding_mm", recording.rounding * 1e3},
+                                          {"jitter_ms", recording.jitter * 1e3},
+                                          {"stamped", recording.stamped},
+                                          {"start_s", recording.start},
+                                          {"origin_mm", recording.origin * 1e3},
+                                          {"declared", recording.declared}}},
                                         {"setup", write_setup(hidden.truth)}};
   return document.dump(2) + "\n";
 }

@@ -26,10 +26,16 @@ std::vector<Override> overrides_of_strength(const EffectRecord& record, const Se
 /// The effect of the list whose law is written in the setup.
 const EffectRecord& formula_effect();
 
-/// noise.box, noise.centre, fps, missing, outliers, jump, centre (true, false), as "key=value" parts. Throws
-/// InputError with everything that is wrong.
+/// noise.box, noise.centre, fps, missing, outliers, jump, centre (true, false), lens, shutter, near, wander
+/// (size/memory, "20um/0.3s"), trigger, release, as "key=value" parts. Throws InputError with everything that
+/// is wrong.
 RecordingSettings parse_recording(const std::vector<std::string>& parts,
                                   const std::string& origin = "--camera");
+
+/// "box.mass=434 g +- 2 g" in the place of what is usually known, or beside it. Throws InputError with
+/// everything that is wrong.
+std::vector<KnownValue> with_known(std::vector<KnownValue> usual, const std::vector<std::string>& texts,
+                                   const std::string& origin = "--known");
 
 struct HiddenCase {
   Setup believed, truth;

@@ -6,10 +6,11 @@
 #include <limits>
 #include <map>
 
-#include "camera.hpp"
 #include "experiment_file.hpp"
+#include "film.hpp"
 #include "in_order.hpp"
 #include "measured_file.hpp"
+#include "measurement.hpp"
 #include "quantity.hpp"
 #include "random.hpp"
 #include "toml_document.hpp"
@@ -34,7 +35,7 @@ class Tracker {
     const double error = noise * random_.normal();
     const bool jumps = random_.uniform() < settings_.outliers;
     const double jump = settings_.jump * (2 * random_.uniform() - 1);
-    return lost_ ? nothing : rounded(truth + error + (jumps ? jump : 0), 1e-6);
+    return lost_ ? nothing : rounded(truth + error + (jumps ? jump : 0), settings_.rounding);
   }
 
  private:
@@ -43,14 +44,39 @@ class Tracker {
   bool lost_ = false;
 };
 
+/// A slow error of tracking that forgets itself, frame by frame.
+class Wander {
+ public:
+  Wander(const RecordingSettings& settings, std::uint64_t seed, std::uint64_t run)
+      : size_(settings.wander),
+        kept_(std::exp(-1 / (settings.frame_rate * settings.wander_time))),
+        random_(seed, run, Stream::wander),
+        box_(size_ * random_.normal()),
+        centre_(size_ * random_.normal()) {}
+
+  void next_frame() {
+    const double fresh = size_ * std::sqrt(1 - kept_ * kept_);
+    box_ = kept_ * box_ + fresh * random_.normal();
+    centre_ = kept_ * centre_ + fresh * random_.normal();
+  }
+  double box() const { return box_; }
+  double centre() const { return centre_; }
+
+ private:
+  double size_, kept_;
+  Random random_;
+  double box_, centre_;
+};
+
 /// Frames before the release, which a clock that is behind would give a negative time, are not recorded.
 void record(const Recording& seen, const RecordingSettings& settings, bool has_grains, Tracker tracker,
-            MeasuredRun& run) {
+            Wander wander, MeasuredRun& run) {
   for (std::size_t i = 0; i < seen.time.size(); ++i) {
     tracker.next_frame();
-    const double box = tracker.position(seen.x_box[i], settings.box_noise);
-    const double centre = tracker.position(seen.x_com[i], settings.centre_noise);
-    const double time = rounded(seen.time[i], 1e-4);
+    const double box = tracker.position(seen.x_box[i] + wander.box(), settings.box_noise);
+    const double centre = tracker.position(seen.x_com[i] + wander.centre(), settings.centre_noise);
+    wander.next_frame();
+    const double time = rounded(seen.time[i], 1e-6);
     if (time < 0) continue;
     run.time.push_back(time);
     run.x_box.push_back(box);
@@ -64,12 +90,75 @@ MeasuredRun planned(const PlannedRun& plan, const RecordingSettings& recording) 
   run.file = plan.name + ".csv";
   run.overrides = plan.overrides;
   run.frame_rate = recording.frame_rate;
-  if (recording.box_noise > 0) run.box_uncertainty = recording.box_noise;
-  if (recording.centre_noise > 0 && recording.centre) run.com_uncertainty = recording.centre_noise;
+  if (recording.declared && recording.box_noise > 0) run.box_uncertainty = recording.box_noise;
+  if (recording.declared && recording.centre_noise > 0 && recording.centre)
+    run.com_uncertainty = recording.centre_noise;
   return run;
 }
 
+/// What changes from run to run: how far the box was drawn, how late the clock was.
+struct ByRun {
+  double release, trigger;
+};
+ByRun of_run(const RecordingSettings& settings, std::uint64_t seed, std::uint64_t run) {
+  Random random(seed, run, Stream::by_run);
+  const double release = settings.release * random.normal();
+  return {release, settings.trigger * random.normal()};
+}
+
+Camera camera_of(const Setup& truth, const RecordingSettings& settings) {
+  Camera camera = physics_of(truth).camera;
+  camera.lens += settings.lens;
+  camera.shutter += settings.shutter;
+  camera.depth += settings.near;
+  camera.origin += settings.origin;
+  return camera;
+}
+
+/// Frames of one run, to the end of its motion.
+Frames frames_of(const RecordingSettings& settings, std::uint64_t seed, std::uint64_t run, double end) {
+  Frames frames = even_frames(settings.frame_rate, settings.start + of_run(settings, seed, run).trigger, end);
+  Random random(seed, run, Stream::jitter);
+  for (std::size_t k = 0; k < frames.instant.size(); ++k) {
+    const double late = settings.jitter * random.normal();
+    // A frame never comes before the one before it.
+    const double earliest = k == 0 ? frames.instant[0] : frames.instant[k - 1] + 1e-5;
+    const double instant = std::max(frames.instant[k] + late, earliest);
+    if (settings.stamped) frames.stamp[k] += instant - frames.instant[k];
+    frames.instant[k] = instant;
+  }
+  return frames;
+}
+
+/// Instants between the frames are needed where the shutter or an uneven or late clock asks for them.
+double sample_rate_for(const Camera& camera, const RecordingSettings& settings) {
+  constexpr double enough = 1000;  // Hz; a grain's kick bends the cubics by 1 um
+  if (camera.shutter == 0 && settings.trigger == 0 && settings.start == 0 && settings.jitter == 0)
+    return settings.frame_rate;
+  return settings.frame_rate * std::max(1.0, std::ceil(enough / settings.frame_rate));
+}
+
+Setup setup_filmed(const Setup& truth, const MeasuredRun& run, std::uint64_t number,
+                   const RecordingSettings& recording, const Laboratory& laboratory) {
+  Setup setup = setup_of_run(truth, run, laboratory.known);
+  setup.run.seed = laboratory.seed;
+  setup.run.sample_rate = sample_rate_for(camera_of(setup, recording), recording);
+  setup.release.displacement += of_run(recording, laboratory.seed, number).release;
+  return setup;
+}
+
 }  // namespace
+
+std::vector<KnownValue> usually_known(const Setup& believed, const RecordingSettings& recording) {
+  std::vector<KnownValue> known{{"box.mass", believed.box.mass, 0.005 * believed.box.mass, {}}};
+  if (believed.grains.count > 0)
+    known.push_back({"grains.mass", believed.grains.mass, 0.0025 * believed.grains.mass, {}});
+  known.push_back(
+      {"release.displacement", believed.release.displacement, std::max(0.5e-3, recording.release), {}});
+  known.push_back({"camera.scale", 0, 0.005, {}});
+  known.push_back({"camera.trigger", 0, std::max(2e-3, recording.trigger), {}});
+  return known;
+}
 
 std::vector<PlannedRun> runs_of_lengths(const std::vector<double>& lengths) {
   std::vector<PlannedRun> runs;
@@ -100,9 +189,7 @@ Experiment make_measurements(const Setup& truth, const std::vector<PlannedRun>& 
   std::vector<Setup> setups;
   for (const PlannedRun& plan : runs) {
     MeasuredRun run = planned(plan, recording);
-    setups.push_back(setup_of_run(truth, run, laboratory.known));
-    setups.back().run.seed = laboratory.seed;
-    setups.back().run.sample_rate = recording.frame_rate;
+    setups.push_back(setup_filmed(truth, run, setups.size(), recording, laboratory));
     refuse_what_is_not_modelled(*laboratory.engine, setups.back());
     run.box_length = setups.back().box.length;
     experiment.runs.push_back(std::move(run));
@@ -116,9 +203,10 @@ Experiment make_measurements(const Setup& truth, const std::vector<PlannedRun>& 
         options.stop = laboratory.stop;
         const Trajectory trajectory = laboratory.engine->run(setups[i], options);
         if (trajectory.interrupted) throw Interrupted("no run had finished, nothing was kept");
-        const Recording seen = recorded_by(physics_of(setups[i]).camera, trajectory);
-        record(seen, recording, setups[i].grains.count > 0,
-               Tracker(recording, laboratory.seed, static_cast<std::uint64_t>(r)), experiment.runs[i]);
+        const Frames frames = frames_of(recording, laboratory.seed, i, trajectory.time.back());
+        record(filmed(camera_of(setups[i], recording), frames, trajectory), recording,
+               setups[i].grains.count > 0, Tracker(recording, laboratory.seed, i),
+               Wander(recording, laboratory.seed, i), experiment.runs[i]);
         return [&laboratory, r, count] {
           if (laboratory.progress) laboratory.progress(static_cast<double>(r + 1) / count);
         };

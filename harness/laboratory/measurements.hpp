@@ -15,8 +15,8 @@
 
 namespace shakedown {
 
-/// How the camera and its tracking program record; what the camera gets systematically wrong is an effect of
-/// the setup.
+/// How the camera and its tracking program record. A camera's errors may be effects of the setup instead;
+/// both add up.
 struct RecordingSettings {
   double box_noise = 0.2e-3;     ///< m, standard deviation of one frame (normal, white)
   double centre_noise = 0.5e-3;  ///< m
@@ -25,7 +25,29 @@ struct RecordingSettings {
   double outliers = 0;           ///< fraction of positions that jump
   double jump = 20e-3;           ///< m, a jump is uniform within +- this
   bool centre = true;            ///< false: the grains are not tracked
+
+  // Cameras as they are (Physics::Camera says what the first three do).
+  double lens = 0;           ///< relative distortion 0.2 m from the optical axis
+  double shutter = 0;        ///< s to read 0.4 m of track
+  double near = 0;           ///< the grains are so much nearer to the lens than the marker, relative
+  double wander = 0;         ///< m, standard deviation of a slow error of tracking, box and centre apart,
+  double wander_time = 0.3;  ///< s, and its memory (Ornstein and Uhlenbeck)
+  double trigger = 0;        ///< s, standard deviation by run of how late the clock starts
+  double release = 0;        ///< m, standard deviation by run of the release displacement
+
+  double rounding = 1e-6;  ///< m, step of the positions in the table
+  double jitter = 0;       ///< s, standard deviation of a frame's instant about an even clock
+  bool stamped = false;    ///< the table has the frames' true instants; else those of the even clock
+  double start = 0;        ///< s, the clock of each run starts so long after the release
+  double origin = 0;       ///< m, what the table says where the spring is relaxed
+  bool declared = true;    ///< the noise stands in the experiment file
 };
+
+/// What whoever made the experiment knows of it, and how well: the box weighed to half a per cent, the grains
+/// to a quarter, the release read on a ruler to half a millimetre, the scale from a ruler in the picture to
+/// half a per cent, the clock started within two milliseconds; worse where the laboratory is worse. Values
+/// are those that the user believes.
+std::vector<KnownValue> usually_known(const Setup& believed, const RecordingSettings& recording);
 
 /// One run to record.
 struct PlannedRun {
@@ -46,7 +68,7 @@ struct Laboratory {
   std::function<void(double fraction)> progress{};  ///< may be empty
 };
 
-/// Runs `truth` once for each planned run and records it: positions to 1 um and times to 0.1 ms, as they will
+/// Runs `truth` once for each planned run and films it: positions to 1 um and times to 1 us, as they will
 /// stand in a table. Throws InputError for a run that does not fit or an effect that the engine does not
 /// model, Interrupted.
 Experiment make_measurements(const Setup& truth, const std::vector<PlannedRun>& runs,

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "audit.hpp"
 #include "candidates.hpp"
-#include "experiment_file.hpp"
 #include "momentum.hpp"
 #include "parameter_knobs.hpp"
 #include "refit.hpp"
@@ -19,22 +17,19 @@ double kept(double chi2, double degrees) { return std::sqrt(std::max(chi2 - degr
 
 /// The hidden case as a camera of the default noise sees it, and what of it needs no ensembles.
 struct Sight {
-  Experiment experiment;
-  Audit found;
-  std::vector<Setup> setups;
+  Measurement measurement;
   MomentumAudit momentum;
 };
 
 Sight sight_of(const HiddenCase& hidden, std::uint64_t seed, const std::vector<PlannedRun>& runs,
                const TrialTools& tools) {
   Sight sight;
-  sight.experiment = make_measurements(hidden.truth, runs, {},
-                                       {tools.laboratory, tools.known, seed, tools.threads, tools.stop});
-  sight.found = audit(sight.experiment);
-  sight.setups = setups_of_runs(hidden.believed, sight.experiment, tools.known);
+  const Laboratory laboratory{tools.laboratory, tools.known, seed, tools.threads, tools.stop};
+  sight.measurement =
+      measurement_of(hidden.believed, make_measurements(hidden.truth, runs, {}, laboratory), tools.known);
   MomentumOptions options;
   options.formulas = false;
-  sight.momentum = audit_momentum(sight.experiment, sight.found, sight.setups, options);
+  sight.momentum = audit_momentum(sight.measurement, tools.known, options);
   return sight;
 }
 
@@ -45,13 +40,13 @@ Refit refit_of(const Sight& sight, const Setup& believed, const std::vector<Cand
   const bool told = momentum.possible && momentum.refitted.degrees > 0;
   const double frequency = told ? momentum.frequency : believed.spring.frequency;
   std::vector<Knob> knobs = free_parameters(believed, frequency, 0.01 * frequency);
-  std::vector<Setup> setups = sight.setups;
+  Measurement measurement = sight.measurement;
   for (const Candidate& effect : effects) {
     knobs.insert(knobs.end(), effect.fitted_knobs().begin(), effect.fitted_knobs().end());
-    for (Setup& setup : setups) setup = prepared(setup, effect, tools.known);
+    for (Measurement::Run& run : measurement.runs) run.setup = prepared(run.setup, effect, tools.known);
   }
   const Workshop workshop{tools.model, tools.known, tools.threads, tools.stop, {}, nullptr};
-  return refit(features_of(sight.experiment, sight.found, setups), knobs, workshop, options);
+  return refit(features_of(measurement), knobs, workshop, options);
 }
 
 }  // namespace

@@ -5,14 +5,16 @@
 #include <set>
 
 #include "effects.hpp"
+#include "known_effects.hpp"
 
 namespace shakedown {
 
 Experiment measured_in(const Trial& trial, const TrialTools& tools) {
   const Laboratory laboratory{tools.laboratory, tools.known, trial.seed, tools.threads, tools.stop};
-  RecordingSettings recording = trial.recording;
-  if (tools.fault == MethodFault::no_centre) recording.centre = false;
-  return make_measurements(trial.hidden.truth, trial.runs, recording, laboratory);
+  Experiment experiment = make_measurements(trial.hidden.truth, trial.runs, trial.recording, laboratory);
+  experiment.known = trial.known;
+  if (tools.damage) tools.damage(experiment);
+  return experiment;
 }
 
 Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools) {
@@ -22,9 +24,11 @@ Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools) {
   options.known = tools.known;
   options.stop = tools.stop;
   options.strength_uncertainty = tools.strength_uncertainty;
-  options.fault = tools.fault;
+  options.fixed = tools.fixed;
   options.ensembles = tools.ensembles;
-  return diagnose(trial.hidden.believed, measured_in(trial, tools), *tools.model, options);
+  return diagnose(trial.hidden.believed,
+                  measurement_of(trial.hidden.believed, measured_in(trial, tools), tools.known), *tools.model,
+                  options);
 }
 
 TrialJudgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict,
@@ -45,6 +49,18 @@ TrialJudgement judge(const std::vector<std::string>& hidden, bool other_paramete
   else
     judgement.named = verdict == Verdict::missing && found == truth;
   return judgement;
+}
+
+std::vector<std::string> physics_among(const std::vector<std::string>& effects,
+                                       std::span<const EffectRecord* const> known) {
+  std::vector<std::string> physics;
+  for (const std::string& effect : effects) {
+    const EffectRecord* record = find_record(known, effect);
+    if (record == nullptr || (record->acts_on != ActsOn::camera && !record->nuisance))
+      physics.push_back(effect);
+  }
+  std::sort(physics.begin(), physics.end());
+  return physics;
 }
 
 Power power_of(Trial trial, int repeats, const TrialTools& tools,

@@ -16,6 +16,7 @@ struct Trial {
   std::vector<PlannedRun> runs;
   RecordingSettings recording;
   std::uint64_t seed = 1;
+  std::vector<KnownValue> known{};  ///< what the experimenter weighed and measured
 };
 
 struct TrialTools {
@@ -26,8 +27,9 @@ struct TrialTools {
   int threads = 0;
   const std::atomic<bool>* stop = nullptr;
   double (*strength_uncertainty)(std::string_view effect) = nullptr;  ///< DiagnoseOptions
-  MethodFault fault = MethodFault::none;                              ///< put into the diagnosis
-  EnsembleCache* ensembles = nullptr;  ///< shared by the diagnoses; may be null
+  EnsembleCache* ensembles = nullptr;                ///< shared by the diagnoses; may be null
+  std::vector<std::string> fixed{};                  ///< DiagnoseOptions
+  void (*damage)(Experiment& experiment) = nullptr;  ///< done to what was measured before it is diagnosed
 };
 
 /// The trial's measurements, in memory. Throws what make_measurements() throws.
@@ -46,6 +48,11 @@ struct TrialJudgement {
 /// With nothing hidden "adequate" and "refit" are right, with other parameters "refit" alone.
 TrialJudgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict,
                      const std::vector<std::string>& missing);
+
+/// Those that act on box and grains: without errors of camera, clock and origin and without nuisances. What
+/// is no effect of the list counts as physics. Sorted.
+std::vector<std::string> physics_among(const std::vector<std::string>& effects,
+                                       std::span<const EffectRecord* const> known);
 
 /// What repeated trials of one hidden case come to.
 struct Power {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "experiment_file.hpp"
+#include "frame_motion.hpp"
 #include "in_order.hpp"
 #include "observables.hpp"
 
@@ -13,25 +15,46 @@ namespace {
 struct Numbers {
   double frequency = absent, slope = absent;
   std::vector<double> peaks;
+  std::string why_not;
 };
 
-Numbers numbers_of(const FeaturePlan& plan, const Eigen::VectorXd& values, const Setup& setup,
-                   int most_peaks) {
-  std::vector<double> time, position;
-  for (std::size_t f = 0; f < plan.features.size(); ++f) {
-    if (plan.features[f].observable != Observable::box) continue;
-    time.push_back(plan.features[f].time);
-    position.push_back(values[static_cast<Eigen::Index>(f)]);
+/// Frames of one run that take part: right ones, from its start to the end of what still moves.
+struct UsedFrames {
+  std::vector<double> time, x;  ///< s, m
+  double middle = 0;            ///< m, about which the recorded box swings
+};
+
+UsedFrames used_frames(const Measurement::Run& run, double end) {
+  const auto& [recorded, audit, setup] = run;
+  const bool anywhere = starts_anywhere(recorded, setup);
+  const double start = anywhere ? audit.release.start : std::max(0.0, audit.release.start);
+  UsedFrames used;
+  for (std::size_t i = 0; i < recorded.time.size(); ++i)
+    if (std::isfinite(audit.x_box[i]) && recorded.time[i] >= start && recorded.time[i] <= end)
+      used.time.push_back(recorded.time[i]), used.x.push_back(audit.x_box[i]);
+  if (anywhere && std::isfinite(audit.release.centre)) used.middle = audit.release.centre;
+  return used;
+}
+
+/// What a simulation shows at these times; 500 Hz, so that a straight line between two samples is off by less
+/// than a micrometre for each centimetre of amplitude.
+std::vector<double> simulated_at(const std::vector<double>& times, const Recording& seen) {
+  std::vector<double> x;
+  std::size_t after = 1;
+  for (const double t : times) {
+    while (after + 1 < seen.time.size() && seen.time[after] < t) ++after;
+    const double share = (t - seen.time[after - 1]) / (seen.time[after] - seen.time[after - 1]);
+    x.push_back(seen.x_box[after - 1] + share * (seen.x_box[after] - seen.x_box[after - 1]));
   }
-  Numbers numbers;
-  if (time.size() < 8) return numbers;
-  const SampledMotion motion{time, position, {}};
-  const std::vector<double> crossings = zero_crossings(motion, 4 * shortest_half_period(setup));
-  const std::vector<Peak> peaks = largest_extrema(motion, crossings);
-  numbers.frequency = frequency_of(crossings);
-  numbers.slope = decay_of(peaks).linear.slope;
-  for (std::size_t i = 0; i < peaks.size() && i < static_cast<std::size_t>(most_peaks); ++i)
-    numbers.peaks.push_back(peaks[i].position);
+  return x;
+}
+
+Numbers numbers_of(const std::vector<double>& time, const std::vector<double>& x, double middle,
+                   const Setup& setup, int most_peaks) {
+  const FrameMotion motion = frame_motion(time, x, middle, 4 * shortest_half_period(setup));
+  Numbers numbers{motion.frequency, decay_of(motion.peaks).linear.slope, {}, motion.why_not};
+  for (std::size_t i = 0; i < motion.peaks.size() && i < static_cast<std::size_t>(most_peaks); ++i)
+    numbers.peaks.push_back(motion.peaks[i].position);
   return numbers;
 }
 
@@ -54,40 +77,39 @@ MeasuredNumber number(const Numbers& measured, const std::vector<Numbers>& simul
 
 }  // namespace
 
-std::vector<DecayComparison> compare_decay(const Experiment& experiment, const Audit& audit,
-                                           const std::vector<Setup>& setups, const Workshop& workshop,
-                                           int runs, int first_run, int most_peaks) {
-  constexpr double rest = 4e-3, level = 0.05;  // m, s
-  std::vector<FeaturePlan> plans;
-  for (std::size_t r = 0; r < experiment.runs.size(); ++r)
-    plans.push_back(plan_features(experiment.runs[r], audit.runs[r], Observed::all, rest, level));
-  std::vector<std::vector<Numbers>> simulated(plans.size());
-  const int all = static_cast<int>(plans.size()) * runs;
+std::vector<DecayComparison> compare_decay(const Measurement& measurement, const Workshop& workshop, int runs,
+                                           int first_run, int most_peaks) {
+  std::vector<UsedFrames> frames;
+  for (const Measurement::Run& run : measurement.runs)
+    frames.push_back(used_frames(run, plan_features(run, Observed::box_only).end));
+  std::vector<std::vector<Numbers>> simulated(frames.size());
+  const int all = static_cast<int>(frames.size()) * runs;
   work_in_parallel_deliver_in_order(
       all, threads_or_all(workshop.threads), [&](int job) -> std::function<void()> {
         const auto r = static_cast<std::size_t>(job / runs);
         if (workshop.stop && *workshop.stop) throw Interrupted("interrupted");
-        Setup setup = setups[r];
-        setup.run.duration = std::max(0.5, plans[r].end + level);
+        Setup setup = measurement.runs[r].setup;
+        setup.run.duration = std::max(0.5, frames[r].time.empty() ? 0.0 : frames[r].time.back() + 0.05);
         setup.run.sample_rate = 500;
         RunOptions options;
         options.run = first_run + job;
         options.stop = workshop.stop;
         const Trajectory trajectory = workshop.engine->run(setup, options);
         if (trajectory.interrupted) throw Interrupted("interrupted");
-        Numbers numbers = numbers_of(
-            plans[r], simulated_features(plans[r], recorded_by(physics_of(setup).camera, trajectory)), setup,
-            most_peaks);
+        const Recording seen = recorded_by(physics_of(setup).camera, trajectory);
+        Numbers numbers =
+            numbers_of(frames[r].time, simulated_at(frames[r].time, seen), 0, setup, most_peaks);
         return [&, r, numbers = std::move(numbers)] { simulated[r].push_back(numbers); };
       });
   std::vector<DecayComparison> list;
-  for (std::size_t r = 0; r < plans.size(); ++r) {
-    const Numbers measured = numbers_of(
-        plans[r], measured_features(plans[r], audit.runs[r], experiment.runs[r]), setups[r], most_peaks);
-    DecayComparison one{experiment.runs[r].name,
+  for (std::size_t r = 0; r < frames.size(); ++r) {
+    const Measurement::Run& run = measurement.runs[r];
+    const Numbers measured = numbers_of(frames[r].time, frames[r].x, frames[r].middle, run.setup, most_peaks);
+    DecayComparison one{run.recorded.name,
                         number(measured, simulated[r], [](const Numbers& n) { return n.frequency; }),
                         number(measured, simulated[r], [](const Numbers& n) { return n.slope; }),
-                        {}};
+                        {},
+                        measured.why_not};
     for (std::size_t p = 0; p < measured.peaks.size(); ++p)
       one.peaks.push_back(number(measured, simulated[r],
                                  [p](const Numbers& n) { return p < n.peaks.size() ? n.peaks[p] : absent; }));

@@ -19,12 +19,12 @@ struct DecayComparison {
   MeasuredNumber frequency;           ///< Hz, of the first ten zero crossings (physics.md, 5)
   MeasuredNumber slope;               ///< m/s, of |peaks| until 10 mm
   std::vector<MeasuredNumber> peaks;  ///< m, signed: the first ones
+  std::string why_not;                ///< why there are no peaks; empty where there are
 };
 
-/// Measured and simulated motion are both read as levels of 50 ms, so that camera noise and smoothing tell on
-/// both alike. `runs` simulations for each measured run, numbered from first_run.
-std::vector<DecayComparison> compare_decay(const Experiment& experiment, const Audit& audit,
-                                           const std::vector<Setup>& setups, const Workshop& workshop,
-                                           int runs, int first_run, int peaks = 4);
+/// Simulated motion is read at the very frames of the measured one and by the same fits, so that a slow
+/// camera tells on both alike. `runs` simulations for each measured run, numbered from first_run.
+std::vector<DecayComparison> compare_decay(const Measurement& measurement, const Workshop& workshop, int runs,
+                                           int first_run, int peaks = 4);
 
 }  // namespace shakedown

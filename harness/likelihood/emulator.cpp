@@ -17,22 +17,20 @@ namespace shakedown {
 
 double Knob::at(double z) const { return std::clamp(centre + width * z, low, high); }
 
-std::vector<MeasuredFeatures> features_of(const Experiment& experiment, const Audit& audit,
-                                          const std::vector<Setup>& setups) {
+std::vector<MeasuredFeatures> features_of(const Measurement& measurement) {
   std::vector<MeasuredFeatures> measured;
   Eigen::Index features = 0;
-  for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
-    const Observed observed = setups[r].grains.count > 0 ? Observed::all : Observed::box_only;
-    MeasuredFeatures m{
-        experiment.runs[r].name, setups[r], plan_features(experiment.runs[r], audit.runs[r], observed), {}};
-    m.values = measured_features(m.plan, audit.runs[r], experiment.runs[r]);
+  for (const Measurement::Run& run : measurement.runs) {
+    const Observed observed = run.setup.grains.count > 0 ? Observed::all : Observed::box_only;
+    MeasuredFeatures m{run.recorded.name, run.setup, plan_features(run, observed), {}};
+    m.values = measured_features(m.plan, run);
     m.setup.run.duration = std::max(0.5, m.plan.end + 0.05);
     m.setup.run.sample_rate = 500;
     features += m.values.size();
     measured.push_back(std::move(m));
   }
   if (features == 0)
-    throw InputError({{{experiment.file, 0, 0},
+    throw InputError({{{measurement.file, 0, 0},
                        "run",
                        "holds no eight frames in a row of a motion (a clock in another unit, or too short?)",
                        "check column.time.unit and the frame rate"}});
@@ -73,6 +71,10 @@ Eigen::VectorXd scatter(const std::vector<Knob>& knobs, std::uint64_t seed, int 
   Random random(seed, static_cast<std::uint64_t>(run), Stream::other);
   Eigen::VectorXd z(static_cast<Eigen::Index>(knobs.size()));
   for (std::size_t k = 0; k < knobs.size(); ++k) {
+    if (knobs[k].exact) {
+      z[static_cast<Eigen::Index>(k)] = 0;
+      continue;
+    }
     const bool moved = random.uniform() < (knobs[k].curved ? 1.0 : sparse);
     const double drawn = 2 * random.uniform() - 1;
     const double value = moved ? knobs[k].at(drawn) : knobs[k].at(0);
@@ -135,7 +137,49 @@ std::vector<Group> groups_of(const std::vector<MeasuredFeatures>& measured) {
 }
 
 bool is_point(const std::vector<Knob>& knobs) {
-  return std::all_of(knobs.begin(), knobs.end(), [](const Knob& knob) { return knob.width == 0; });
+  return std::all_of(knobs.begin(), knobs.end(),
+                     [](const Knob& knob) { return knob.width == 0 || knob.exact; });
+}
+
+std::vector<Knob> scattered_ones(const std::vector<Knob>& knobs) {
+  std::vector<Knob> scattered;
+  std::copy_if(knobs.begin(), knobs.end(), std::back_inserter(scattered),
+               [](const Knob& knob) { return !knob.exact; });
+  return scattered;
+}
+
+/// What the exact knobs do at z to a run's features, m.
+Eigen::VectorXd by_exact_knobs(const MeasuredFeatures& measured, const std::vector<Knob>& knobs,
+                               const Eigen::VectorXd& z) {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(measured.values.size());
+  for (std::size_t k = 0; k < knobs.size(); ++k)
+    if (knobs[k].exact)
+      change += z[static_cast<Eigen::Index>(k)] * knobs[k].width * measured.by_camera.at(knobs[k].key);
+  return change;
+}
+
+/// The regression with a term for each exact knob among those of the scattered ones.
+Emulator with_exact(const Emulator& e, const MeasuredFeatures& measured, const std::vector<Knob>& knobs) {
+  const bool has_slopes = e.coefficients.rows() > 1;  // a point's regression has none
+  std::vector<Eigen::Index> exact, regressed{0};
+  Eigen::Index term = 1;
+  for (const Knob& knob : knobs) {
+    if (knob.exact)
+      exact.push_back(term++);
+    else if (has_slopes)
+      regressed.push_back(term++);
+  }
+  while (std::ssize(regressed) < e.coefficients.rows()) regressed.push_back(term++);
+  Emulator full{Eigen::MatrixXd::Zero(term, e.coefficients.cols()), e.residuals,
+                Eigen::MatrixXd::Zero(e.terms.rows(), term), Eigen::MatrixXd::Zero(term, term), exact};
+  full.coefficients(regressed, Eigen::all) = e.coefficients;
+  full.terms(Eigen::all, regressed) = e.terms;
+  full.inverse_normal(regressed, regressed) = e.inverse_normal;
+  auto place = exact.begin();
+  for (const Knob& knob : knobs)
+    if (knob.exact)
+      full.coefficients.row(*place++) = knob.width * measured.by_camera.at(knob.key).transpose();
+  return full;
 }
 
 /// What simulations must share to be comparable: the setup but for the knobs' values, which knobs, and what
@@ -214,13 +258,19 @@ void exchange(std::vector<Simulated>& simulated, const std::string& model, const
 }  // namespace
 
 Eigen::MatrixXd Emulator::coefficients_without(Eigen::Index block, Eigen::Index blocks) const {
+  std::vector<Eigen::Index> regressed;
+  for (Eigen::Index term = 0; term < terms.cols(); ++term)
+    if (std::find(exact.begin(), exact.end(), term) == exact.end()) regressed.push_back(term);
+  const Eigen::MatrixXd design = terms(Eigen::all, regressed), inverse = inverse_normal(regressed, regressed);
   const Eigen::Index rows = (terms.rows() - block + blocks - 1) / blocks;
   const auto left_out = Eigen::seqN(block, rows, blocks);
-  const Eigen::MatrixXd x = terms(left_out, Eigen::all);
-  const Eigen::MatrixXd wrong = residuals(left_out, Eigen::all) * std::sqrt(share_left(terms));
+  const Eigen::MatrixXd x = design(left_out, Eigen::all);
+  const Eigen::MatrixXd wrong = residuals(left_out, Eigen::all) * std::sqrt(share_left(design));
   const Eigen::MatrixXd normal =
-      inverse_normal.ldlt().solve(Eigen::MatrixXd::Identity(terms.cols(), terms.cols())) - x.transpose() * x;
-  return coefficients - normal.ldlt().solve(x.transpose() * wrong);
+      inverse.ldlt().solve(Eigen::MatrixXd::Identity(design.cols(), design.cols())) - x.transpose() * x;
+  Eigen::MatrixXd without = coefficients;
+  without(regressed, Eigen::all) -= normal.ldlt().solve(x.transpose() * wrong);
+  return without;
 }
 
 std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
@@ -247,7 +297,7 @@ std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, con
     if (workshop.pool)
       exchange(simulated[g], model_name(groups[g], measured, knobs, workshop), knobs, *workshop.pool);
     const auto rows = static_cast<Eigen::Index>(simulated[g].size());
-    const std::vector<Knob> varied = is_point(knobs) ? std::vector<Knob>{} : knobs;
+    const std::vector<Knob> varied = is_point(knobs) ? std::vector<Knob>{} : scattered_ones(knobs);
     const auto n_terms =
         regression_terms(varied, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(varied.size()))).size();
     Eigen::MatrixXd terms(rows, n_terms);
@@ -259,10 +309,13 @@ std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, con
       const std::size_t m = groups[g].members[k];
       Eigen::MatrixXd features(rows, measured[m].values.size());
       for (Eigen::Index i = 0; i < rows; ++i)
-        features.row(i) = simulated[g][static_cast<std::size_t>(i)].features[k].transpose();
+        features.row(i) = (simulated[g][static_cast<std::size_t>(i)].features[k] -
+                           by_exact_knobs(measured[m], knobs, simulated[g][static_cast<std::size_t>(i)].z))
+                              .transpose();
       emulators[m] = regress(terms, features);
-      if (workshop.fault == MethodFault::wrong_sign && !varied.empty())
-        emulators[m].coefficients.row(1) *= -1;
+      if (std::any_of(knobs.begin(), knobs.end(),
+                      [](const Knob& knob) { return knob.exact && knob.width > 0; }))
+        emulators[m] = with_exact(emulators[m], measured[m], knobs);
     }
   }
   return emulators;

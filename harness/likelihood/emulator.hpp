@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <atomic>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,7 +15,6 @@
 #include "engine.hpp"
 #include "ensemble_cache.hpp"
 #include "features.hpp"
-#include "method_fault.hpp"
 #include "simulation_journal.hpp"
 #include "simulation_pool.hpp"
 
@@ -33,6 +33,9 @@ struct Knob {
   /// is.
   double believed = 0, believed_error = 0;
   bool cubic = false;  ///< ... and a cube (with curved)
+  /// Of the camera: what it does is arithmetic on the recording (MeasuredFeatures::by_camera), so runs are
+  /// not scattered over it. Straight.
+  bool exact = false;
 
   double at(double z) const;  ///< value at z in [-1, 1], kept in bounds
   double z_of(double value) const { return width > 0 ? (value - centre) / width : 0; }
@@ -44,10 +47,14 @@ struct MeasuredFeatures {
   Setup setup;  ///< of this run, its duration cut to what is looked at
   FeaturePlan plan;
   Eigen::VectorXd values;  ///< m
+  /// Change of the features by a parameter of the camera, m per unit: by the parameter's path.
+  std::map<std::string, Eigen::VectorXd> by_camera{};
+  /// What each run has of its own and nobody knows (the trigger), features x such things, each by its
+  /// standard deviation, m.
+  Eigen::MatrixXd own{};
 };
 
-std::vector<MeasuredFeatures> features_of(const Experiment& experiment, const Audit& audit,
-                                          const std::vector<Setup>& setups);
+std::vector<MeasuredFeatures> features_of(const Measurement& measurement);
 
 struct Workshop {
   const Engine* engine = nullptr;
@@ -57,7 +64,6 @@ struct Workshop {
   std::function<void(int runs)> done;  ///< told of finished simulations; may be empty
   std::int64_t* runs = nullptr;        ///< counts simulations; may be null
   SimulationPool* pool = nullptr;  ///< what was simulated before, and where new simulations go; may be null
-  MethodFault fault = MethodFault::none;
   EnsembleCache* ensembles =
       nullptr;  ///< where simulations that other experiments repeat are kept; may be null
   SimulationJournal* journal = nullptr;  ///< of this work, begun before or not; may be null
@@ -68,8 +74,9 @@ struct Emulator {
   Eigen::MatrixXd coefficients;  ///< terms x features
   Eigen::MatrixXd
       residuals;  ///< simulations x features, chaos from run to run, scaled to be unbiased in variance
-  Eigen::MatrixXd terms;           ///< simulations x terms
-  Eigen::MatrixXd inverse_normal;  ///< terms x terms, (X'X)^-1: error of a prediction
+  Eigen::MatrixXd terms;              ///< simulations x terms
+  Eigen::MatrixXd inverse_normal;     ///< terms x terms, (X'X)^-1: error of a prediction
+  std::vector<Eigen::Index> exact{};  ///< terms of exact knobs: not regressed, without error
 
   /// The coefficients without every `blocks`-th simulation from `block` on.
   Eigen::MatrixXd coefficients_without(Eigen::Index block, Eigen::Index blocks) const;

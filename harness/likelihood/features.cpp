@@ -69,8 +69,8 @@ void add_features(Observable observable, const std::vector<double>& time, const 
 
 }  // namespace
 
-FeaturePlan plan_features(const MeasuredRun& run, const RunAudit& audit, Observed observed, double rest,
-                          double bin) {
+FeaturePlan plan_features(const Measurement::Run& measurement, Observed observed, double rest, double bin) {
+  const auto& [run, audit, setup] = measurement;
   FeaturePlan plan;
   plan.end = end_of_motion(run, audit.x_box, rest);
   const double interval = audit.frame_interval > 0 ? audit.frame_interval : 1 / run.frame_rate;
@@ -83,21 +83,26 @@ FeaturePlan plan_features(const MeasuredRun& run, const RunAudit& audit, Observe
   return plan;
 }
 
-Eigen::VectorXd measured_features(const FeaturePlan& plan, const RunAudit& audit, const MeasuredRun& run) {
+Eigen::VectorXd features_on_frames(const FeaturePlan& plan, const std::vector<double>& time,
+                                   const std::vector<double>& box, const std::vector<double>& centre) {
   Eigen::VectorXd values(static_cast<Eigen::Index>(plan.features.size()));
   for (std::size_t f = 0; f < plan.features.size(); ++f) {
-    const std::vector<double>& x = plan.features[f].observable == Observable::box ? audit.x_box : audit.x_com;
+    const std::vector<double>& x = plan.features[f].observable == Observable::box ? box : centre;
     const FeaturePlan::Reading& reading = plan.readings[f];
     std::size_t frame = static_cast<std::size_t>(
-        std::lower_bound(run.time.begin(), run.time.end(), reading.time.front()) - run.time.begin());
+        std::lower_bound(time.begin(), time.end(), reading.time.front()) - time.begin());
     double sum = 0;
     for (std::size_t i = 0; i < reading.time.size(); ++i) {
-      while (run.time[frame] < reading.time[i]) ++frame;
+      while (time[frame] < reading.time[i]) ++frame;
       sum += reading.weight[i] * x[frame];
     }
     values[static_cast<Eigen::Index>(f)] = sum;
   }
   return values;
+}
+
+Eigen::VectorXd measured_features(const FeaturePlan& plan, const Measurement::Run& run) {
+  return features_on_frames(plan, run.recorded.time, run.audit.x_box, run.audit.x_com);
 }
 
 Eigen::VectorXd simulated_features(const FeaturePlan& plan, const Recording& recording) {

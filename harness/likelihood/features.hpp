@@ -6,9 +6,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "audit.hpp"
 #include "camera.hpp"
-#include "experiment.hpp"
+#include "measurement.hpp"
 
 namespace shakedown {
 
@@ -35,11 +34,16 @@ struct FeaturePlan {
 };
 
 /// Bins from release to the end of what still moves: the last peak above `rest` (m), and one second more.
-FeaturePlan plan_features(const MeasuredRun& run, const RunAudit& audit, Observed observed = Observed::all,
+FeaturePlan plan_features(const Measurement::Run& measurement, Observed observed = Observed::all,
                           double rest = 4e-3, double bin = 0.1);
 
 /// The features of the measured run itself.
-Eigen::VectorXd measured_features(const FeaturePlan& plan, const RunAudit& audit, const MeasuredRun& run);
+Eigen::VectorXd measured_features(const FeaturePlan& plan, const Measurement::Run& measurement);
+
+/// The features of two series on the frames of the measured run; centre may be empty where no feature needs
+/// it.
+Eigen::VectorXd features_on_frames(const FeaturePlan& plan, const std::vector<double>& time,
+                                   const std::vector<double>& box, const std::vector<double>& centre);
 
 /// The features of a simulated recording (500 Hz or any constant rate).
 Eigen::VectorXd simulated_features(const FeaturePlan& plan, const Recording& recording);

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "experiment_file.hpp"
 #include "free_parameters.hpp"
 #include "key_unit.hpp"
 #include "setup_file.hpp"
@@ -39,9 +38,9 @@ MeasuredFeatures beginning_of(const MeasuredFeatures& whole, double end) {
   return part;
 }
 
-void refuse_unknown_runs(const Experiment& experiment, const std::vector<std::string>& wanted) {
+void refuse_unknown_runs(const Measurement& measurement, const std::vector<std::string>& wanted) {
   std::vector<std::string_view> names;
-  for (const MeasuredRun& run : experiment.runs) names.push_back(run.name);
+  for (const Measurement::Run& run : measurement.runs) names.push_back(run.recorded.name);
   std::vector<Violation> found;
   for (const std::string& name : wanted)
     if (std::find(names.begin(), names.end(), name) == names.end())
@@ -63,14 +62,12 @@ void refuse_too_few_simulations(const std::vector<Knob>& knobs, int count) {
 
 class Fitter {
  public:
-  Fitter(const Setup& setup, const Experiment& experiment, std::vector<Knob> knobs, const Engine& engine,
+  Fitter(const Setup& setup, const Measurement& measurement, std::vector<Knob> knobs, const Engine& engine,
          const FitOptions& options)
       : setup_(setup), knobs_(std::move(knobs)), start_(knobs_), options_(options) {
-    refuse_unknown_runs(experiment, options.on);
+    refuse_unknown_runs(measurement, options.on);
     refuse_too_few_simulations(knobs_, options.count);
-    const std::vector<MeasuredFeatures> all =
-        features_of(experiment, audit(experiment), setups_of_runs(setup, experiment, options.known));
-    for (const MeasuredFeatures& run : all) {
+    for (const MeasuredFeatures& run : features_of(measurement)) {
       const bool wanted =
           options.on.empty() || std::find(options.on.begin(), options.on.end(), run.run) != options.on.end();
       (wanted ? used_ : left_out_).push_back(run);
@@ -193,10 +190,10 @@ class Fitter {
 
 }  // namespace
 
-Fit fit_parameters(const Setup& setup, const Experiment& experiment, std::vector<Knob> knobs,
+Fit fit_parameters(const Setup& setup, const Measurement& measurement, std::vector<Knob> knobs,
                    const Engine& engine, const FitOptions& options) {
   EXPECT(!knobs.empty());
-  return Fitter(setup, experiment, std::move(knobs), engine, options).run();
+  return Fitter(setup, measurement, std::move(knobs), engine, options).run();
 }
 
 }  // namespace shakedown

@@ -40,10 +40,10 @@ struct Fit {
   double seconds = 0;
 };
 
-/// Fits the knobs from where they start: first to the beginning of the runs, where a wrong frequency has not
-/// yet turned the phase round, then to more and more of them. Throws InputError for runs that the experiment
-/// does not have, Interrupted.
-Fit fit_parameters(const Setup& setup, const Experiment& experiment, std::vector<Knob> knobs,
+/// Fits the knobs of the setup, which is the measurement's too, from where they start: first to the beginning
+/// of the runs, where a wrong frequency has not yet turned the phase round, then to more and more of them.
+/// Throws InputError for runs that the experiment does not have, Interrupted.
+Fit fit_parameters(const Setup& setup, const Measurement& measurement, std::vector<Knob> knobs,
                    const Engine& engine, const FitOptions& options);
 
 std::string fit_json(const Fit& fit);

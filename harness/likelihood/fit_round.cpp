@@ -17,16 +17,14 @@ constexpr int pseudo_experiments = 400;
 }  // namespace
 
 FitRound::FitRound(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
-                   std::vector<Emulator> emulators, const RefitOptions& options, MethodFault fault)
-    : measured_(measured),
-      knobs_(knobs),
-      in_sample_(fault == MethodFault::in_sample),
-      emulators_(std::move(emulators)) {
+                   std::vector<Emulator> emulators, const RefitOptions& options)
+    : measured_(measured), knobs_(knobs), emulators_(std::move(emulators)) {
   for (std::size_t r = 0; r < measured.size(); ++r) {
     const Eigen::MatrixXd& residuals = emulators_[r].residuals;
-    const Eigen::MatrixXd covariance =
-        feature_covariance(residuals.topRows(in_sample_ ? residuals.rows() : residuals.rows() / 2),
-                           measured[r].plan, options.model_error * measured[r].setup.release.displacement);
+    Eigen::MatrixXd covariance =
+        feature_covariance(residuals.topRows(residuals.rows() / 2), measured[r].plan,
+                           options.model_error * measured[r].setup.release.displacement);
+    if (measured[r].own.cols() > 0) covariance += measured[r].own * measured[r].own.transpose();
     Whitened w{Eigen::LLT<Eigen::MatrixXd>(covariance), {}, covariance.diagonal().cwiseSqrt()};
     w.model = w.root.matrixL().solve(emulators_[r].coefficients.transpose());
     w.chaos =
@@ -35,6 +33,7 @@ FitRound::FitRound(const std::vector<MeasuredFeatures>& measured, const std::vec
     for (Eigen::Index f = 0; f < noise.rows(); ++f)
       noise(f, f) = measured[r].plan.features[static_cast<std::size_t>(f)].noise;
     w.expected = w.chaos + w.root.matrixL().solve(noise).squaredNorm();
+    if (measured[r].own.cols() > 0) w.expected += w.root.matrixL().solve(measured[r].own).squaredNorm();
     whitened_.push_back(std::move(w));
   }
   objective_ = objective_of(measured_values(), true);
@@ -78,6 +77,8 @@ void FitRound::calibrate(const Eigen::VectorXd& z, double observed, Refit& resul
       Eigen::VectorXd value = model(r, z) + unseen(r).row(row).transpose();
       for (Eigen::Index f = 0; f < value.size(); ++f)
         value[f] += measured_[r].plan.features[static_cast<std::size_t>(f)].noise * random.normal();
+      for (Eigen::Index own = 0; own < measured_[r].own.cols(); ++own)
+        value += measured_[r].own.col(own) * random.normal();
       values.push_back(std::move(value));
     }
     const Objective pseudo = objective_of(values, false);
@@ -132,6 +133,10 @@ Eigen::MatrixXd FitRound::covariance_at(const Eigen::VectorXd& z, double open) c
     const Eigen::MatrixXd weights = whitened_[r].root.matrixU().solve(whitened_[r].model * slopes);
     const Eigen::MatrixXd chaos = unseen(r) * weights;
     gradient += inflation * chaos.transpose() * chaos / static_cast<double>(chaos.rows());
+    if (measured_[r].own.cols() > 0) {
+      const Eigen::MatrixXd own = measured_[r].own.transpose() * weights;
+      gradient += own.transpose() * own;
+    }
     for (Eigen::Index f = 0; f < weights.rows(); ++f)
       gradient += std::pow(measured_[r].plan.features[static_cast<std::size_t>(f)].noise, 2) *
                   weights.row(f).transpose() * weights.row(f);

@@ -33,8 +33,7 @@ class FitRound {
  public:
   /// `measured` and `knobs` must outlive it. The first half of each emulator's simulations gives the weights.
   FitRound(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
-           std::vector<Emulator> emulators, const RefitOptions& options,
-           MethodFault fault = MethodFault::none);
+           std::vector<Emulator> emulators, const RefitOptions& options);
 
   const Objective& objective() const { return objective_; }
 
@@ -82,7 +81,7 @@ class FitRound {
   /// The rows of a run's residuals that the weights have not seen.
   auto unseen(std::size_t r) const {
     const Eigen::MatrixXd& all = emulators_[r].residuals;
-    return all.bottomRows(in_sample_ ? all.rows() : all.rows() - all.rows() / 2);
+    return all.bottomRows(all.rows() - all.rows() / 2);
   }
 
   /// Derivatives of the regression's terms, terms x knobs.
@@ -90,7 +89,6 @@ class FitRound {
 
   const std::vector<MeasuredFeatures>& measured_;
   const std::vector<Knob>& knobs_;
-  bool in_sample_;  ///< MethodFault::in_sample
   std::vector<Emulator> emulators_;
   std::vector<Whitened> whitened_;
   Objective objective_;

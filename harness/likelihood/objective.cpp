@@ -52,8 +52,8 @@ Minimum minimum_of(const Objective& objective, double farthest, int starts, cons
   if (knobs.empty()) return {Eigen::VectorXd(0), objective(Eigen::VectorXd(0))};
   std::vector<double> low, high;
   for (const Knob& knob : knobs) {
-    low.push_back(std::max(-farthest, knob.z_of(knob.low)));
-    high.push_back(std::min(farthest, knob.z_of(knob.high)));
+    low.push_back(knob.exact ? knob.z_of(knob.low) : std::max(-farthest, knob.z_of(knob.low)));
+    high.push_back(knob.exact ? knob.z_of(knob.high) : std::min(farthest, knob.z_of(knob.high)));
   }
   Minimum best{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs.size())), 0};
   for (int start = 0; start < starts; ++start) {

@@ -12,9 +12,10 @@ std::vector<Knob> as_given(const Setup& setup) {
                 false, value, apart};
   };
   const double frequency = setup.spring.frequency;
+  const Knob of_spring = knob("spring.frequency", frequency, code_frequency * frequency, 2 * frequency);
+  if (setup.grains.count == 0) return {of_spring};  // nothing hits anything
   return {knob("restitution.grain_grain", setup.restitution.grain_grain, code_restitution, 1),
-          knob("restitution.grain_wall", setup.restitution.grain_wall, code_restitution, 1),
-          knob("spring.frequency", frequency, code_frequency * frequency, 2 * frequency)};
+          knob("restitution.grain_wall", setup.restitution.grain_wall, code_restitution, 1), of_spring};
 }
 
 std::vector<Knob> free_parameters(const Setup& setup, double frequency, double width) {
@@ -22,9 +23,10 @@ std::vector<Knob> free_parameters(const Setup& setup, double frequency, double w
     const double low = std::min(0.3, std::max(0.01, value - 0.2));
     return Knob{key, value, 0.15, low, std::max(0.999, value), true, value, believed_restitution};
   };
+  const Knob of_spring{"spring.frequency", frequency, width, 0.5 * frequency, 2 * frequency, true};
+  if (setup.grains.count == 0) return {of_spring};
   return {restitution("restitution.grain_grain", setup.restitution.grain_grain),
-          restitution("restitution.grain_wall", setup.restitution.grain_wall),
-          {"spring.frequency", frequency, width, 0.5 * frequency, 2 * frequency, true}};
+          restitution("restitution.grain_wall", setup.restitution.grain_wall), of_spring};
 }
 
 std::vector<Knob> free_parameters(const Setup& setup) {

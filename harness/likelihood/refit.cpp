@@ -72,7 +72,7 @@ struct Confirmed {
       : about(centred_at(z, knobs)),
         round(measured, about,
               emulated.recentred(z, simulated(about, options.confirming, first_run, measured, workshop)),
-              options, workshop.fault),
+              options),
         minimum(minimum_of(round.objective(), nearby, 1).z),
         chi2_here(round.objective().chi2(Eigen::VectorXd::Zero(z.size()))),
         chi2_there(round.objective().chi2(minimum)) {}
@@ -117,7 +117,9 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
   result.knobs = knobs;
   judge_at(round, measured.size(), minimum.z, result);
   Eigen::MatrixXd covariance = round.covariance_at(minimum.z, reach) * std::max(1.0, result.scatter);
-  if (!knobs.empty()) covariance += round.emulator_scatter(minimum.z);
+  const auto scattered =
+      std::count_if(knobs.begin(), knobs.end(), [](const Knob& knob) { return !knob.exact; });
+  if (scattered > 0) covariance += round.emulator_scatter(minimum.z);
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     FittedValue value{knobs[k].key, 0, 0, 0, std::sqrt(covariance(i, i)) * knobs[k].width, false};
@@ -130,19 +132,24 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
     result.covariance.row(i) *= knobs[k].width;
     result.covariance.col(i) *= knobs[k].width;
   }
-  if (!knobs.empty()) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(covariance);  // in units of the box
-    const Eigen::Index least = covariance.rows() - 1;
-    result.least_known = axes.eigenvectors().col(least) * std::sqrt(std::max(0.0, axes.eigenvalues()[least]));
+  result.least_known = Eigen::VectorXd::Zero(std::ssize(knobs));
+  if (scattered > 0) {
+    std::vector<Eigen::Index> open;
     for (std::size_t k = 0; k < knobs.size(); ++k)
-      result.least_known[static_cast<Eigen::Index>(k)] *= knobs[k].width;
+      if (!knobs[k].exact) open.push_back(static_cast<Eigen::Index>(k));
+    const Eigen::MatrixXd of_open = covariance(open, open);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(of_open);  // in units of the box
+    const Eigen::Index least = scattered - 1;
+    for (Eigen::Index k = 0; k < scattered; ++k)
+      result.least_known[open[static_cast<std::size_t>(k)]] =
+          axes.eigenvectors()(k, least) * std::sqrt(std::max(0.0, axes.eigenvalues()[least])) *
+          knobs[static_cast<std::size_t>(open[static_cast<std::size_t>(k)])].width;
   }
   const std::vector<Rule> own = round.rules_of(options.judged_by);
   for (std::size_t r = 0; r < measured.size(); ++r)
     result.judged_chi2 += round.judged_chi2(r, minimum.z, own[r]);
   result.covariances = round.covariances();
-  if (options.confirming > 0 && !knobs.empty())
-    confirm(round, measured, workshop, options, minimum.z, result);
+  if (options.confirming > 0 && scattered > 0) confirm(round, measured, workshop, options, minimum.z, result);
   // Lengths left out are fitted anew, which only the emulators can do.
   round.hold_out(result, round.rules_of(options.judged_by ? options.judged_by : &result));
   return result;
@@ -154,6 +161,7 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
 std::vector<Knob> next_box(std::vector<Knob> knobs, const Minimum& minimum, const Eigen::MatrixXd& covariance,
                            const std::vector<Knob>& first) {
   for (std::size_t k = 0; k < knobs.size(); ++k) {
+    if (knobs[k].exact) continue;
     const auto i = static_cast<Eigen::Index>(k);
     const double z = minimum.z[i], open = 2 * std::sqrt(covariance(i, i));
     knobs[k].centre = knobs[k].at(z);
@@ -172,6 +180,7 @@ std::vector<Knob> next_look(const Refit& latest, const Refit& best, const std::v
   if (options.confirming == 0 || last.empty() || looks >= most_looks || !(nearer || beside_it)) return {};
   std::vector<Knob> knobs = last;
   for (std::size_t k = 0; k < knobs.size(); ++k) {
+    if (knobs[k].exact) continue;
     const double beside =
         nearer ? 0 : (looks % 2 == 0 ? 1.5 : -1.5) * best.least_known[static_cast<Eigen::Index>(k)];
     knobs[k].centre = std::clamp(best.values[k].value + beside, knobs[k].low, knobs[k].high);
@@ -208,32 +217,35 @@ Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> kno
   SimulationPool of_this_fit;
   Workshop pooling = workshop;
   if (pooling.pool == nullptr) pooling.pool = &of_this_fit;
+  const bool nothing_to_scatter =
+      std::all_of(knobs.begin(), knobs.end(), [](const Knob& knob) { return knob.exact; });
   std::optional<Refit> best;
   int looks = 0;
   for (int number = 1;; ++number) {
     const std::vector<Knob> here = knobs;
     // Rounds that only find the way, or look again where many were made, need fewer simulations than the one
     // that judges.
-    const int count = knobs.empty() || (number >= options.rounds && !best) ? options.count
-                                                                           : std::max(64, options.count / 2);
-    const FitRound round(measured, here,
-                         emulate(measured, here, count, options.first_run + 10000 * number, pooling), options,
-                         workshop.fault);
-    const Minimum minimum = minimum_of(round.objective(), reach, knobs.empty() ? 1 : 6);
+    const int count = nothing_to_scatter || (number >= options.rounds && !best)
+                          ? options.count
+                          : std::max(64, options.count / 2);
+    const FitRound round(
+        measured, here, emulate(measured, here, count, options.first_run + 10000 * number, pooling), options);
+    const Minimum minimum = minimum_of(round.objective(), reach, nothing_to_scatter ? 1 : 6);
     bool left_the_box = false;
     for (std::size_t k = 0; k < knobs.size(); ++k) {
       const double z = minimum.z[static_cast<Eigen::Index>(k)];
       const bool inner = here[k].at(z) > here[k].low && here[k].at(z) < here[k].high;
-      left_the_box = left_the_box || (std::abs(z) > 1.05 && inner);
+      left_the_box = left_the_box || (std::abs(z) > 1.05 && inner && !here[k].exact);
     }
     const bool last =
-        knobs.empty() || number >= options.most_rounds || (number >= options.rounds && !left_the_box);
+        nothing_to_scatter || number >= options.most_rounds || (number >= options.rounds && !left_the_box);
     if (!last) {
       knobs = next_box(here, minimum, round.covariance_at(minimum.z, reach), first);
       continue;
     }
     Refit result = result_at(round, measured, here, minimum, pooling, options);
     if (!best || result.scatter < best->scatter) best = result;
+    if (nothing_to_scatter) return *best;
     knobs = next_look(result, *best, here, options, looks++);
     if (knobs.empty()) return *best;
   }

@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "audit.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <map>
 
 #include "outliers.hpp"
 #include "robust_statistics.hpp"
+#include "slow_wander.hpp"
 
 namespace shakedown {
 
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double usual_noise = 1e-3;  // m, of a camera of which nothing is known
 
 double frame_interval_of(const std::vector<double>& time) {
   std::vector<double> intervals;
@@ -52,14 +50,6 @@ OwnFrames own_frames(const std::vector<double>& time, const std::vector<double>&
   return own;
 }
 
-/// Whether a frame follows the one before it without a frame lost between.
-NeighbouredSeries neighboured(const OwnFrames& own) {
-  NeighbouredSeries series{&own.x, std::vector<char>(own.time.size(), 0)};
-  for (std::size_t i = 1; i < own.time.size(); ++i)
-    series.neighbour[i] = own.time[i] - own.time[i - 1] < 1.5 * own.interval;
-  return series;
-}
-
 /// Variance that wrong frames too near to be seen add: as many per millimetre as there are among those just
 /// far enough. Seen is what lies some seven standard deviations off.
 double unseen_outliers(const std::vector<double>& raw, const std::vector<double>& kept, double deviation) {
@@ -85,21 +75,20 @@ NoiseFound noise_of(const std::vector<double>& time, std::vector<double>& x, dou
   NoiseFound noise;
   noise.declared = declared;
   OwnFrames own = own_frames(time, x, interval);
-  const NeighbouredSeries series = neighboured(own);
+  NoiseSeries series = noise_series(own.time, own.x, own.interval);
   const auto present = [&] {
     return std::count_if(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
   };
   const auto before = present();
   const std::vector<double> raw = own.x;
-  const double white = white_deviation(series);
-  if (!std::isfinite(white)) {  // without five frames in a row nothing tells noise from motion
-    noise.standard_deviation = std::isfinite(declared) ? declared : usual_noise;
-    return noise;
+  // Without frames enough in a row nothing tells noise from motion, nor a wrong frame from a right one.
+  if (const double white = white_deviation(series); std::isfinite(white)) {
+    own.x = without_outliers(own.time, own.x, own.interval, white);
+    for (std::size_t i = 0; i < own.at.size(); ++i) x[own.at[i]] = own.x[i];
+    noise.outliers = static_cast<int>(before - present());
+    if (noise.outliers > 0) series = noise_series(own.time, own.x, own.interval);
+    noise.correlation = colour_of({series});
   }
-  own.x = without_outliers(own.time, own.x, own.interval, std::max(white, 1e-9));
-  for (std::size_t i = 0; i < own.at.size(); ++i) x[own.at[i]] = own.x[i];
-  noise.outliers = static_cast<int>(before - present());
-  noise.correlation = colour_of({series}, own.interval);
   set_deviation(series, noise);
   noise.standard_deviation =
       std::hypot(noise.standard_deviation, std::sqrt(unseen_outliers(raw, own.x, noise.standard_deviation)));
@@ -118,34 +107,6 @@ void count_gaps(const std::vector<double>& time, const std::vector<double>& x, d
   }
   const auto frames = static_cast<int>(std::lround((time.back() - time.front()) / interval)) + 1;
   noise.missing = std::max(0, frames - present - noise.outliers);
-}
-
-/// x = d + v t - a t^2/2 + j t^3 over the first 60 ms, least squares; the cubic absorbs what the spring and
-/// the layer do next.
-ReleaseFound release_of(const MeasuredRun& run, const std::vector<double>& x, double deviation) {
-  std::vector<std::size_t> frames;
-  for (std::size_t i = 0; i < x.size() && run.time[i] < run.time.front() + 0.06; ++i)
-    if (std::isfinite(x[i])) frames.push_back(i);
-  ReleaseFound found;
-  found.displacement = found.velocity = found.time = nothing;
-  if (frames.size() < 6) return found;
-  Eigen::MatrixXd powers(static_cast<Eigen::Index>(frames.size()), 3);
-  Eigen::VectorXd values(powers.rows());
-  for (Eigen::Index row = 0; row < powers.rows(); ++row) {
-    const std::size_t i = frames[static_cast<std::size_t>(row)];
-    const double t = run.time[i];
-    powers.row(row) << 1, t, -t * t / 2;
-    values[row] = x[i];
-  }
-  const Eigen::MatrixXd inverse = (powers.transpose() * powers).inverse();
-  const Eigen::VectorXd fit = inverse * (powers.transpose() * values);
-  found.displacement = fit[0];
-  found.displacement_error = deviation * std::sqrt(inverse(0, 0));
-  found.velocity = fit[1];
-  found.velocity_error = deviation * std::sqrt(inverse(1, 1));
-  found.time = fit[1] / fit[2];
-  found.time_error = found.velocity_error / std::abs(fit[2]);
-  return found;
 }
 
 /// The packed layer rests at its largest distance from the centre: the mean of the recorded distance over
@@ -176,58 +137,47 @@ void find_plateau(const MeasuredRun& run, const RunAudit& audit, double& plateau
   error = std::max(noise / std::sqrt(2.0 * half + 1), 1e-4);  // the layer's thickness repeats to about 0.1 mm
 }
 
-/// How thick the layer is depends on the grains: runs with others have a plateau of their own.
-std::string grains_of(const MeasuredRun& run) {
-  std::string text;
-  for (const Override& override : run.overrides)
-    if (override.key.starts_with("grains.")) text += override.key + "=" + override.value + ";";
-  return text;
-}
-
-PlateauSlope plateau_slope(const Experiment& experiment, const std::vector<RunAudit>& runs) {
-  struct Sums {
-    double weight = 0, length = 0, plateau = 0;
-  };
-  std::map<std::string, Sums> means;
-  const auto each = [&](const auto& visit) {
-    for (std::size_t i = 0; i < runs.size(); ++i)
-      if (std::isfinite(runs[i].plateau) && std::isfinite(experiment.runs[i].box_length))
-        visit(means[grains_of(experiment.runs[i])], 1 / (runs[i].plateau_error * runs[i].plateau_error),
-              experiment.runs[i].box_length, runs[i].plateau);
-  };
-  each([](Sums& mean, double weight, double length, double plateau) {
-    mean.weight += weight, mean.length += weight * length, mean.plateau += weight * plateau;
-  });
-  double squares = 0, products = 0, spread = 0;
-  each([&](const Sums& mean, double weight, double length, double plateau) {
-    const double apart = length - mean.length / mean.weight;
-    spread += apart * apart;
-    squares += weight * apart * apart;
-    products += weight * apart * (plateau - mean.plateau / mean.weight);
-  });
-  constexpr double least_apart = 1e-3;  // m, else it is one length
-  if (!(spread > least_apart * least_apart)) return {nothing, nothing};
-  return {products / squares, 1 / std::sqrt(squares)};
-}
-
 std::string millimetres(double metres) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g mm", metres * 1e3);
   return text;
 }
 
+std::string source_in_words(const NoiseFound& noise) {
+  switch (noise.source) {
+    case NoiseSource::frames: return "";
+    case NoiseSource::bound:
+      return "frames this far apart do not tell noise from motion; " + millimetres(noise.standard_deviation) +
+             " is taken, which may be too much (say uncertainty in the experiment file)";
+    case NoiseSource::declared:
+      return "the frames do not tell their noise; the uncertainty of the experiment file, " +
+             millimetres(noise.declared) + ", is used";
+    case NoiseSource::assumed:
+      return "too few frames in a row to tell their noise, and the experiment file says no uncertainty; " +
+             millimetres(noise.standard_deviation) + " is assumed";
+  }
+  return "";
+}
+
 void warn_about(const RunAudit& run, const NoiseFound& noise, const char* what,
                 std::vector<std::string>& warnings) {
   const std::string who = run.run + ", " + what + ": ";
-  if (std::isfinite(noise.declared) && std::abs(noise.standard_deviation / noise.declared - 1) > 0.25)
+  if (noise.source == NoiseSource::frames && noise.declared > 0 &&
+      std::abs(noise.standard_deviation / noise.declared - 1) > 0.25)
     warnings.push_back(who + "the frames scatter by " + millimetres(noise.standard_deviation) +
                        " where the experiment file says " + millimetres(noise.declared) +
                        "; the found value is used");
+  if (const std::string words = source_in_words(noise); !words.empty()) warnings.push_back(who + words);
   if (noise.correlation[0] != 0) {
     char text[16];
     std::snprintf(text, sizeof text, "%.2f", noise.correlation[0]);
     warnings.push_back(who + "neighbouring frames err together (correlation " + text +
                        "): smoothed before it was written?");
+  }
+  if (noise.wander > 0) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%.2g s", noise.wander_time);
+    warnings.push_back(who + "at rest positions wander by " + millimetres(noise.wander) + " within " + text);
   }
   if (noise.quantum > 0)
     warnings.push_back(who + "positions come in steps of " + millimetres(noise.quantum) + " (whole pixels?)");
@@ -236,16 +186,16 @@ void warn_about(const RunAudit& run, const NoiseFound& noise, const char* what,
                        " frames far from their neighbours are taken as missing");
 }
 
-/// One camera films all runs: its colour is the same in runs of one frame rate, and so is its noise unless
-/// runs differ by more than the error of each. Pooling halves that error, which otherwise widens the test of
-/// the momentum balance.
-void pool_noise(const Experiment& experiment, std::vector<RunAudit>& runs, NoiseFound RunAudit::*noise,
-                std::vector<double> RunAudit::*series) {
+/// Pools one of the two series.
+void pool_series(const std::vector<const MeasuredRun*>& recorded, const std::vector<RunAudit*>& runs,
+                 NoiseFound RunAudit::*noise, std::vector<double> RunAudit::*series) {
   std::vector<OwnFrames> own(runs.size());
+  std::vector<NoiseSeries> ready(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if ((runs[i].*series).empty()) continue;
-    OwnFrames frames = own_frames(experiment.runs[i].time, runs[i].*series, runs[i].frame_interval);
-    if (std::isfinite(white_deviation(neighboured(frames)))) own[i] = std::move(frames);
+    if ((runs[i]->*series).empty()) continue;
+    own[i] = own_frames(recorded[i]->time, runs[i]->*series, runs[i]->frame_interval);
+    ready[i] = noise_series(own[i].time, own[i].x, own[i].interval);
+    if ((runs[i]->*noise).source != NoiseSource::frames) own[i].x.clear();
   }
   for (std::size_t first = 0; first < runs.size(); ++first) {
     std::vector<std::size_t> members;
@@ -256,12 +206,12 @@ void pool_noise(const Experiment& experiment, std::vector<RunAudit>& runs, Noise
       if (same) members.push_back(i);
     }
     if (!is_first || members.size() < 2 || own[first].x.empty()) continue;
-    std::vector<NeighbouredSeries> pooled;
-    for (const std::size_t i : members) pooled.push_back(neighboured(own[i]));
-    const auto colour = colour_of(pooled, own[first].interval);
+    std::vector<NoiseSeries> pooled;
+    for (const std::size_t i : members) pooled.push_back(ready[i]);
+    const auto colour = colour_of(pooled);
     double mean_square = 0, lowest = 1e300, highest = 0;
     for (std::size_t k = 0; k < members.size(); ++k) {
-      NoiseFound& found = runs[members[k]].*noise;
+      NoiseFound& found = runs[members[k]]->*noise;
       found.correlation = colour;
       set_deviation(pooled[k], found);
       const double deviation = found.standard_deviation;
@@ -269,8 +219,29 @@ void pool_noise(const Experiment& experiment, std::vector<RunAudit>& runs, Noise
       lowest = std::min(lowest, deviation), highest = std::max(highest, deviation);
     }
     if (highest < 1.1 * lowest)
-      for (const std::size_t i : members) (runs[i].*noise).standard_deviation = std::sqrt(mean_square);
+      for (const std::size_t i : members) (runs[i]->*noise).standard_deviation = std::sqrt(mean_square);
   }
+}
+
+/// Noise alone rarely spans more of its standard deviations in the frames of a period.
+constexpr double still = 8;
+
+/// Frames that lie in a stretch of both, so that neither box nor grains move.
+std::vector<RestStretch> common_to(const std::vector<RestStretch>& one,
+                                   const std::vector<RestStretch>& other) {
+  std::vector<RestStretch> both;
+  for (const RestStretch& a : one)
+    for (const RestStretch& b : other)
+      if (const RestStretch c{std::max(a.first, b.first), std::min(a.end, b.end)}; c.first < c.end)
+        both.push_back(c);
+  return both;
+}
+
+void set_wander(const std::vector<double>& time, const std::vector<double>& x,
+                const std::vector<RestStretch>& rests, double period, NoiseFound& noise) {
+  const Wander wander = wander_at_rest(time, x, rests, period);
+  noise.wander = wander.deviation;
+  noise.wander_time = wander.time;
 }
 
 }  // namespace
@@ -285,25 +256,32 @@ RunAudit audit_run(const MeasuredRun& run) {
   audit.frame_interval = frame_interval_of(run.time);
   audit.box = noise_of(run.time, audit.x_box, audit.frame_interval, run.box_uncertainty);
   count_gaps(run.time, audit.x_box, audit.frame_interval, audit.box);
-  audit.release = release_of(run, audit.x_box, audit.box.standard_deviation);
-  if (!run.has_com()) return audit;
-  audit.com = noise_of(run.time, audit.x_com, audit.frame_interval, run.com_uncertainty);
-  count_gaps(run.time, audit.x_com, audit.frame_interval, audit.com);
-  find_plateau(run, audit, audit.plateau, audit.plateau_error);
+  const MotionSeen box = motion_seen(run.time, audit.x_box);
+  audit.release =
+      release_found(run.time, audit.x_box, box, audit.frame_interval, audit.box.standard_deviation);
+  std::vector<RestStretch> rests = rests_of(box, still * audit.box.standard_deviation);
+  if (run.has_com()) {
+    audit.com = noise_of(run.time, audit.x_com, audit.frame_interval, run.com_uncertainty);
+    count_gaps(run.time, audit.x_com, audit.frame_interval, audit.com);
+    find_plateau(run, audit, audit.plateau, audit.plateau_error);
+    rests =
+        common_to(rests, rests_of(motion_seen(run.time, audit.x_com), still * audit.com.standard_deviation));
+    set_wander(run.time, audit.x_com, rests, box.period, audit.com);
+  }
+  set_wander(run.time, audit.x_box, rests, box.period, audit.box);
   return audit;
 }
 
-Audit audit(const Experiment& experiment) {
-  Audit result;
-  for (const MeasuredRun& run : experiment.runs) result.runs.push_back(audit_run(run));
-  pool_noise(experiment, result.runs, &RunAudit::box, &RunAudit::x_box);
-  pool_noise(experiment, result.runs, &RunAudit::com, &RunAudit::x_com);
-  for (const RunAudit& run : result.runs) {
-    warn_about(run, run.box, "box", result.warnings);
-    if (!run.x_com.empty()) warn_about(run, run.com, "grains", result.warnings);
-  }
-  result.plateau = plateau_slope(experiment, result.runs);
-  return result;
+void pool_noise(const std::vector<const MeasuredRun*>& recorded, const std::vector<RunAudit*>& runs) {
+  pool_series(recorded, runs, &RunAudit::box, &RunAudit::x_box);
+  pool_series(recorded, runs, &RunAudit::com, &RunAudit::x_com);
+}
+
+std::vector<std::string> warnings_of(const RunAudit& run) {
+  std::vector<std::string> warnings;
+  warn_about(run, run.box, "box", warnings);
+  if (!run.x_com.empty()) warn_about(run, run.com, "grains", warnings);
+  return warnings;
 }
 
 }  // namespace shakedown

@@ -7,39 +7,28 @@
 
 #include "experiment.hpp"
 #include "noise.hpp"
+#include "release_found.hpp"
 
 namespace shakedown {
-
-/// The first 60 ms: x = displacement + velocity t - acceleration t^2 / 2.
-struct ReleaseFound {
-  double displacement = 0, displacement_error = 0;  ///< m
-  double velocity = 0, velocity_error = 0;          ///< m/s at t = 0
-  double time = 0, time_error = 0;                  ///< s, when the velocity was zero
-};
 
 struct RunAudit {
   std::string run;
   double frame_interval = 0;  ///< s
   NoiseFound box, com;        ///< com: zero standard deviation when not measured
-  ReleaseFound release;
+  ReleaseFound release;       ///< of the box
   double plateau = 0;  ///< m, |x_com - x_box| while the grains lie packed at an end wall; NaN without x_com
   double plateau_error = 0;          ///< m
   std::vector<double> x_box, x_com;  ///< the run's series with outliers taken out (NaN)
 };
 
-/// |x_com - x_box| of the packed layer is (1 - b)(1 + s)(L/2 - h): its slope against L tells a camera's bias
-/// or scale from the mass.
-struct PlateauSlope {
-  double slope = 0, error = 0;  ///< per m of box length; 1/2 expected; NaN with one length only
-};
-
-struct Audit {
-  std::vector<RunAudit> runs;
-  PlateauSlope plateau;
-  std::vector<std::string> warnings;  ///< sentences for people
-};
-
-Audit audit(const Experiment& experiment);
 RunAudit audit_run(const MeasuredRun& run);
+
+/// One camera films all runs: its colour is the same in runs of one frame rate, and so is its noise unless
+/// runs differ by more than the error of each. Pooling halves that error, which otherwise widens the test of
+/// the momentum balance. `runs[i]` was found by audit_run in `recorded[i]`.
+void pool_noise(const std::vector<const MeasuredRun*>& recorded, const std::vector<RunAudit*>& runs);
+
+/// What the frames of a run give reason to say, sentences for people.
+std::vector<std::string> warnings_of(const RunAudit& run);
 
 }  // namespace shakedown

@@ -33,8 +33,9 @@ struct Source {
   double size = 1;
 };
 
-Source source_of(const Table& table, const ColumnChoice& choice, bool is_time, const ClockAndScale& scale,
+Source source_of(const Table& table, const ColumnChoice& choice, bool is_time, ClockAndScale scale,
                  std::vector<Violation>& violations) {
+  scale.per_radian = choice.per_radian;
   Source source;
   source.column = find_column(table, choice.from);
   if (!source.column) {
@@ -55,44 +56,61 @@ Source source_of(const Table& table, const ColumnChoice& choice, bool is_time, c
     source.size = *size;
     return source;
   }
-  std::string remedy = is_time ? "use s, ms or frame" : "use m, mm, um or px";
-  if (unit_size(unit, is_time, {1, 1, 0}))
-    remedy = is_time ? "give camera.frame_rate" : "give camera.pixel_size, the length that one pixel shows";
+  std::string remedy = is_time ? "use s, ms or frame" : "use m, mm, um, px, rad or deg";
+  if (unit_size(unit, is_time, everything_given))
+    remedy = is_time                  ? "give camera.frame_rate"
+             : is_unit_of_angle(unit) ? "say what length one radian is, e.g. per_radian = \"100 mm\""
+                                      : "give camera.pixel_size, the length that one pixel shows";
   violations.push_back({choice.place, "unit",
                         quoted(unit) + " cannot be turned into " + (is_time ? "seconds" : "metres"), remedy});
   return source;
 }
 
+/// One message for all alike cells, with the line of the first.
 void report_text(const Table& table, const TableColumn& column, std::vector<Violation>& violations) {
-  for (const TableColumn::TextCell& cell : column.not_numbers) {
+  std::map<std::string, std::pair<std::size_t, std::size_t>> alike;  // text -> first row, number
+  for (const TableColumn::TextCell& cell : column.not_numbers)
+    ++alike.try_emplace(cell.text, cell.row, 0).first->second.second;
+  for (const auto& [text, cells] : alike) {
     if (violations.size() >= most_violations) return;
-    violations.push_back({{table.file, table.line[cell.row], 1},
+    const std::string more =
+        cells.second > 1 ? " (in " + std::to_string(cells.second) + " cells, here the first)" : "";
+    violations.push_back({{table.file, table.line[cells.first], 1},
                           column.name,
-                          quoted(cell.text) + " is not a number",
+                          quoted(text) + " is not a number" + more,
                           "correct it, or leave the cell empty where nothing was measured"});
   }
 }
 
 std::string seconds(double value) { return write_quantity(value, "s"); }
 
-/// The clock must run forwards; says where it does not. Rows that nobody told apart by track are `mixed`:
-/// what to do about it, or nothing.
+/// The clock must run forwards; says where it does not, once for each way. Rows that nobody told apart by
+/// track are `mixed`: what to do about it, or nothing.
 void check_clock(const Table& table, const std::vector<std::size_t>& rows, const std::vector<double>& time,
                  const std::string& column, const std::string& mixed, std::vector<Violation>& violations) {
-  for (std::size_t i = 1; i < rows.size() && violations.size() < most_violations; ++i) {
+  std::size_t first_twice = 0, first_back = 0, twice = 0, back = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
     if (time[i] > time[i - 1]) continue;
-    const SourcePlace place{table.file, table.line[rows[i]], 1};
-    const bool twice = time[i] == time[i - 1];
-    const std::string problem =
-        twice ? "the time " + seconds(time[i]) + " stands twice (also in line " +
-                    std::to_string(table.line[rows[i - 1]]) + ")"
-              : "the clock runs backwards (" + seconds(time[i]) + " after " + seconds(time[i - 1]) + ")";
-    const std::string remedy = !mixed.empty() ? mixed
-                               : twice        ? "delete one of the two lines"
-                                              : "sort the table by time, or separate the recordings";
-    violations.push_back({place, column, problem, remedy});
-    if (!mixed.empty()) return;  // the same of every frame
+    if (time[i] == time[i - 1] && twice++ == 0) first_twice = i;
+    if (time[i] < time[i - 1] && back++ == 0) first_back = i;
   }
+  const auto times = [](std::size_t count) {
+    return count > 1 ? "; " + std::to_string(count) + " times in the table" : std::string();
+  };
+  const auto add = [&](std::size_t i, const std::string& problem, const char* remedy) {
+    violations.push_back(
+        {{table.file, table.line[rows[i]], 1}, column, problem, mixed.empty() ? remedy : mixed});
+  };
+  if (back > 0)
+    add(first_back,
+        "the clock runs backwards (" + seconds(time[first_back]) + " after " + seconds(time[first_back - 1]) +
+            times(back) + ")",
+        "sort the table by time, or separate the recordings");
+  if (twice > 0 && (back == 0 || mixed.empty()))
+    add(first_twice,
+        "the time " + seconds(time[first_twice]) + " stands twice (also in line " +
+            std::to_string(table.line[rows[first_twice - 1]]) + times(twice) + ")",
+        "delete one of the two lines");
 }
 
 /// SI time of every row; NaN where the cell is not a number (reported).
@@ -105,7 +123,7 @@ std::vector<double> times_of(const Table& table, const RunColumns& columns, cons
                             "is missing, and so is camera.frame_rate (no clock)", "give one of the two"});
     else
       for (std::size_t i = 0; i < time.size(); ++i)
-        time[i] = static_cast<double>(i) / scale.frame_rate - scale.release_time;
+        time[i] = static_cast<double>(i) / scale.frame_rate - scale.release_time.value_or(0);
     return time;
   }
   const Source source = source_of(table, *columns.time, true, scale, violations);
@@ -113,14 +131,17 @@ std::vector<double> times_of(const Table& table, const RunColumns& columns, cons
   report_text(table, *source.column, violations);
   std::vector<char> reported(table.rows(), 0);
   for (const TableColumn::TextCell& cell : source.column->not_numbers) reported[cell.row] = 1;
+  std::size_t without = 0, first = 0;
   for (std::size_t i = 0; i < time.size(); ++i) {
-    time[i] = source.column->value[i] * source.size - scale.release_time;
-    if (std::isnan(time[i]) && !reported[i] && violations.size() < most_violations)
-      violations.push_back({{table.file, table.line[i], 1},
-                            source.column->name,
-                            "the time is missing",
-                            "complete or delete the line"});
+    time[i] = source.column->value[i] * source.size - scale.release_time.value_or(0);
+    if (std::isnan(time[i]) && !reported[i] && without++ == 0) first = i;
   }
+  if (without > 0)
+    violations.push_back(
+        {{table.file, table.line[first], 1},
+         source.column->name,
+         "the time is missing" + (without > 1 ? " (in " + std::to_string(without) + " lines)" : ""),
+         "complete or delete the line"});
   return time;
 }
 
@@ -179,7 +200,7 @@ Series series_of(const Table& table, const ColumnChoice& choice, const std::vect
     if (tracks && !is_track(tracks->value[i], choice.tracks)) continue;
     rows_of_track[tracks ? tracks->value[i] : 0].push_back(i);
     auto& [sum, count] = sums[time[i]];
-    sum += sign * (source.column->value[i] * source.size - choice.origin);
+    sum += sign * (source.column->value[i] * source.size - choice.origin.value_or(0));
     ++count;
   }
   if (rows_of_track.size() < std::max<std::size_t>(1, choice.tracks.size()))
@@ -202,44 +223,69 @@ bool any_number(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-}  // namespace
-
-std::optional<double> unit_size(const std::string& unit, bool is_time, const ClockAndScale& scale) {
+/// "microns" -> "um"
+std::string usual_spelling(const std::string& unit) {
   struct Spelling {
     const char* written;
     const char* unit;
   };
-  static constexpr std::array<Spelling, 14> spellings{{{"sec", "s"},
-                                                       {"secs", "s"},
-                                                       {"second", "s"},
-                                                       {"seconds", "s"},
-                                                       {"msec", "ms"},
-                                                       {"micron", "um"},
-                                                       {"microns", "um"},
-                                                       {"\xC2\xB5m", "um"},
-                                                       {"\xCE\xBCm", "um"},
-                                                       {"pixel", "px"},
-                                                       {"pixels", "px"},
-                                                       {"frames", "frame"},
-                                                       {"meter", "m"},
-                                                       {"metre", "m"}}};
-  std::string name = unit;
+  static constexpr std::array<Spelling, 20> spellings{
+      {{"degree", "deg"},  {"degrees", "deg"}, {"\xC2\xB0", "deg"}, {"Grad", "deg"},     {"radian", "rad"},
+       {"radians", "rad"}, {"sec", "s"},       {"secs", "s"},       {"second", "s"},     {"seconds", "s"},
+       {"msec", "ms"},     {"micron", "um"},   {"microns", "um"},   {"\xC2\xB5m", "um"}, {"\xCE\xBCm", "um"},
+       {"pixel", "px"},    {"pixels", "px"},   {"frames", "frame"}, {"meter", "m"},      {"metre", "m"}}};
   for (const Spelling& spelling : spellings)
-    if (unit == spelling.written) name = spelling.unit;
+    if (unit == spelling.written) return spelling.unit;
+  return unit;
+}
+
+bool is_angle(const std::string& name) { return name == "rad" || name == "mrad" || name == "deg"; }
+
+}  // namespace
+
+bool is_unit_of_angle(const std::string& unit) { return is_angle(usual_spelling(unit)); }
+
+std::optional<double> unit_size(const std::string& unit, bool is_time, const ClockAndScale& scale) {
+  const std::string name = usual_spelling(unit);
   if (name == "px") return !is_time && scale.pixel_size > 0 ? std::optional(scale.pixel_size) : std::nullopt;
   if (name == "frame")
     return is_time && scale.frame_rate > 0 ? std::optional(1 / scale.frame_rate) : std::nullopt;
   const ValueOrReason<Unit> parsed = parse_unit(name);
+  if (is_angle(name))
+    return !is_time && scale.per_radian > 0 ? std::optional(std::get<Unit>(parsed).si * scale.per_radian)
+                                            : std::nullopt;
   const Dimension wanted = is_time ? Dimension{0, 0, 1} : Dimension{1, 0, 0};
   if (!std::holds_alternative<Unit>(parsed) || std::get<Unit>(parsed).dimension != wanted)
     return std::nullopt;
   return std::get<Unit>(parsed).si;
 }
 
+namespace {
+
+/// Numbers of frames need not begin with 0 (ImageJ's begin with 1): without a stated release the first frame
+/// is taken for it.
+void count_from_first_frame(const Table& table, const RunColumns& columns, const ClockAndScale& scale,
+                            std::vector<double>& time, std::vector<std::string>& notes) {
+  const TableColumn* column = columns.time ? find_column(table, columns.time->from) : nullptr;
+  if (!column || scale.release_time || !(scale.frame_rate > 0)) return;
+  const std::string& unit = columns.time->unit.empty() ? column->unit : columns.time->unit;
+  if (usual_spelling(unit) != "frame") return;
+  double first = std::numeric_limits<double>::infinity();
+  for (const double when : time) first = std::fmin(first, when);
+  if (!std::isfinite(first) || first == 0) return;
+  for (double& when : time) when -= first;
+  notes.push_back(table.file + ": frames are counted from " +
+                  write_number(std::round(first * scale.frame_rate)) +
+                  ", the first of the table, which is taken for the release (else give release_time)");
+}
+
+}  // namespace
+
 RunSeries read_columns(const Table& table, const RunColumns& columns, const ClockAndScale& scale) {
   RunSeries run;
   run.violations = table.violations;
-  const std::vector<double> time = times_of(table, columns, scale, run.violations);
+  std::vector<double> time = times_of(table, columns, scale, run.violations);
+  count_from_first_frame(table, columns, scale, time, run.notes);
   const std::string clock = columns.time ? columns.time->from : "";
   if (!run.violations.empty() && !any_number(time)) return run;
   const Series box = series_of(table, columns.box, time, scale, clock, run.violations);

@@ -16,18 +16,23 @@ struct ColumnChoice {
   std::string unit;   ///< as written; empty: the table's header must say it
   SourcePlace place;  ///< where the experiment file says so
   double uncertainty = std::numeric_limits<double>::quiet_NaN();  ///< m, of one frame
-  double origin = 0;                                              ///< m, subtracted after the conversion
-  bool reversed = false;                                          ///< the axis points away from the release
+  std::optional<double> origin;     ///< m, subtracted after the conversion; nothing: not stated, 0
+  double per_radian = 0;            ///< m, what one radian is; 0: not said
+  bool reversed = false;            ///< the axis points away from the release
   std::vector<std::string> tracks;  ///< of tables with one row a track and frame; several: their mean
   std::string track_from;           ///< header of the track numbers; empty: TRACK_ID, particle or track
 };
 
 /// How values of a column become metres or seconds.
 struct ClockAndScale {
-  double frame_rate = 0;    ///< Hz; 0: not said
-  double pixel_size = 0;    ///< m; 0: not said
-  double release_time = 0;  ///< s, on the table's clock
+  double frame_rate = 0;               ///< Hz; 0: not said
+  double pixel_size = 0;               ///< m; 0: not said
+  std::optional<double> release_time;  ///< s, on the table's clock; nothing: its zero, or its first frame
+  double per_radian = 0;               ///< m; 0: not said
 };
+
+/// Whether a unit is known at all: everything that units can need is there.
+constexpr ClockAndScale everything_given{1, 1, std::nullopt, 1};
 
 struct RunColumns {
   std::optional<ColumnChoice> time;  ///< absent: rows are frames
@@ -44,8 +49,11 @@ struct RunSeries {
 
 RunSeries read_columns(const Table& table, const RunColumns& columns, const ClockAndScale& scale);
 
-/// SI size of a unit of length (dimension 1) or time (dimension 2) as people and programs write it ("micron",
-/// "sec", "px", "frame"); nothing when it is neither or cannot be converted.
+/// SI size of a unit of time, or of length or angle, as people and programs write it ("micron", "sec", "px",
+/// "frame", "deg"); nothing when it is none or cannot be converted.
 std::optional<double> unit_size(const std::string& unit, bool is_time, const ClockAndScale& scale);
+
+/// rad, deg and how else people write them.
+bool is_unit_of_angle(const std::string& unit);
 
 }  // namespace shakedown

@@ -2,11 +2,12 @@
 #include "column_tables.hpp"
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "experiment_reader.hpp"
-#include "suggestion.hpp"
 #include "table_text.hpp"
+#include "value_reading.hpp"
 
 namespace shakedown {
 
@@ -16,47 +17,78 @@ using Kind = TomlValue::Kind;
 using Violations = std::vector<Violation>;
 using Reader = ExperimentReader;
 
-std::vector<std::string> track_names(Reader& reader) {
-  const TomlValue* value = reader.find("track");
-  if (!value) return {};
-  const auto name = [](const TomlValue& item) {
-    return item.kind == Kind::integer ? std::to_string(item.integer) : item.text;
-  };
-  std::vector<std::string> names;
-  if (value->kind != Kind::array) names.push_back(name(*value));
-  for (const TomlValue& item : value->items) names.push_back(name(item));
-  return names;
-}
+/// A position as people write it beside a column: a length, pixels, or an angle where the column holds one.
+class PositionReader {
+ public:
+  PositionReader(const Reader& reader, const ColumnChoice& choice, double pixel_size)
+      : reader_(&reader), choice_(&choice), pixel_size_(pixel_size) {}
+
+  /// m; nothing when it is absent or wrong (reported).
+  std::optional<double> read(std::string_view key) const {
+    const TomlValue* value = reader_->find(key);
+    if (!value) return std::nullopt;
+    if (value->kind == Kind::text && value->text.ends_with("px") && pixel_size_ > 0)
+      return pixels(*value, key);
+    if (choice_->per_radian > 0 || is_unit_of_angle(choice_->unit)) return angle(*value, key);
+    return number(*value, key, "mm");
+  }
+
+ private:
+  std::optional<double> number(const TomlValue& value, std::string_view key, std::string_view unit) const {
+    const ValueOrProblem<double> result = number_in(value, unit);
+    if (const double* found = std::get_if<double>(&result)) return *found;
+    reader_->report(value, key, std::get<Problem>(result).problem, std::get<Problem>(result).remedy);
+    return std::nullopt;
+  }
+
+  std::optional<double> pixels(const TomlValue& value, std::string_view key) const {
+    const std::string_view digits(value.text.data(), value.text.size() - 2);
+    if (const std::optional<double> count = cell_number(trimmed(digits), false)) return *count * pixel_size_;
+    reader_->report(value, key, "'" + value.text + "' is not a number of pixels",
+                    "write it with a decimal point, e.g. \"1920.5 px\"");
+    return std::nullopt;
+  }
+
+  std::optional<double> angle(const TomlValue& value, std::string_view key) const {
+    const bool has_unit =
+        value.kind == Kind::text && (value.text.ends_with("rad") || value.text.ends_with("deg"));
+    if (!has_unit) {
+      reader_->report(value, key, "is no angle, where the column holds angles",
+                      "write it in rad or deg, e.g. \"3.1416 rad\"");
+      return std::nullopt;
+    }
+    const std::optional<double> radians = number(value, key, "rad");
+    return radians ? std::optional(*radians * choice_->per_radian) : std::nullopt;
+  }
+
+  const Reader* reader_;
+  const ColumnChoice* choice_;
+  double pixel_size_;
+};
 
 /// What [column.NAME] says, on top of what a wider table said before.
 ColumnChoice column_choice(const TomlValue& table, const std::string& path, ColumnChoice choice,
                            double pixel_size, Violations& violations) {
-  Reader reader(table, path, violations);
+  const Reader reader(table, ExperimentTable::column, path, violations);
   choice.place = table.place;
   if (reader.find("from")) choice.from = reader.text("from");
   if (reader.find("unit")) choice.unit = reader.text("unit");
-  const auto length = [&](const char* key, double otherwise) {
-    const TomlValue* value = reader.find(key);
-    if (!value || value->kind != Kind::text || !value->text.ends_with("px") || !(pixel_size > 0))
-      return reader.number(key, "mm", otherwise);
-    const std::string_view digits(value->text.data(), value->text.size() - 2);
-    if (const std::optional<double> pixels = cell_number(trimmed(digits), false)) return *pixels * pixel_size;
-    reader.report(*value, key, "'" + value->text + "' is not a number of pixels",
-                  "write it with a decimal point, e.g. \"1920.5 px\"");
-    return otherwise;
-  };
-  choice.uncertainty = length("uncertainty", choice.uncertainty);
-  if (choice.uncertainty < 0)
-    reader.report(table, "uncertainty", "is negative", "give one standard deviation");
-  choice.origin = length("origin", choice.origin);
-  if (reader.find("reversed")) choice.reversed = reader.boolean("reversed");
-  if (const auto tracks = track_names(reader); !tracks.empty()) choice.tracks = tracks;
+  choice.per_radian = reader.number("per_radian", choice.per_radian);
+  const PositionReader position(reader, choice, pixel_size);
+  if (const std::optional<double> uncertainty = position.read("uncertainty")) {
+    if (*uncertainty < 0)
+      reader.report(*reader.find("uncertainty"), "uncertainty", "is negative", "give one standard deviation");
+    choice.uncertainty = *uncertainty;
+  }
+  if (const std::optional<double> origin = position.read("origin")) choice.origin = origin;
+  if (reader.find("reversed")) choice.reversed = reader.flag("reversed");
+  if (const auto tracks = reader.texts("track"); !tracks.empty()) choice.tracks = tracks;
   if (reader.find("track_from")) choice.track_from = reader.text("track_from");
   reader.report_unknown();
   return choice;
 }
 
-constexpr std::array<std::string_view, 3> column_names_known{"time", "box_position", "grain_centre"};
+const std::vector<std::string_view> known_columns{"time", "box_position", "grain_centre"};
 
 }  // namespace
 
@@ -65,24 +97,22 @@ RunColumns read_column_tables(const TomlValue* table, const std::string& path, R
   if (!table) return columns;
   for (const TomlEntry& entry : table->entries) {
     const std::string below = path + entry.key + ".";
+    const auto choice = [&](const std::optional<ColumnChoice>& wider) {
+      return column_choice(entry.value, below, wider.value_or(ColumnChoice{}), pixel_size, violations);
+    };
     if (entry.value.kind != Kind::table)
       violations.push_back({entry.place, path + entry.key,
                             "is " + std::string(describe(entry.value.kind)) + " where a table is due",
                             "write [column." + entry.key + "] with from = \"header of the column\""});
     else if (entry.key == "time")
-      columns.time =
-          column_choice(entry.value, below, columns.time.value_or(ColumnChoice{}), pixel_size, violations);
+      columns.time = choice(columns.time);
     else if (entry.key == "box_position")
-      columns.box = column_choice(entry.value, below, columns.box, pixel_size, violations);
+      columns.box = choice(columns.box);
     else if (entry.key == "grain_centre")
-      columns.com =
-          column_choice(entry.value, below, columns.com.value_or(ColumnChoice{}), pixel_size, violations);
-    else {
-      const std::string_view near = nearest(entry.key, column_names_known);
+      columns.com = choice(columns.com);
+    else
       violations.push_back({entry.place, path + entry.key, "is not a column that shakedown knows",
-                            (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") +
-                                "known: " + listed(column_names_known)});
-    }
+                            remedy_for_word(entry.key, known_columns)});
   }
   return columns;
 }

@@ -25,12 +25,21 @@ struct MeasuredRun {
   std::map<std::string, SourcePlace> places;  ///< where the experiment file gives each override
   std::vector<KnownValue> known;  ///< of this run alone; goes before the experiment's of the same key
   Start start = Start::not_said;
+  SourcePlace place;  ///< of its [[run]] in the experiment file
+
+  bool origin_stated =
+      false;  ///< the file says where x_box is 0; else what the table calls 0 is taken for it
 
   // One entry a frame, in the order of time.
   std::vector<double>
       time;  ///< s since release, strictly increasing; frames that were lost are simply absent
   std::vector<double> x_box;  ///< m; NaN where the position is missing
   std::vector<double> x_com;  ///< m, mass-weighted mean of the grains; NaN where missing; empty: not measured
+
+  /// Frames before the stated release, clock and origin as above: the box at rest, or held.
+  struct LeadIn {
+    std::vector<double> time, x_box, x_com;
+  } lead_in;
 
   // Declared standard deviation of one frame, m; NaN: not declared.
   double box_uncertainty = std::numeric_limits<double>::quiet_NaN();

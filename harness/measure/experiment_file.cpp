@@ -2,7 +2,6 @@
 #include "experiment_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -12,7 +11,6 @@
 #include "experiment_reader.hpp"
 #include "fnv.hpp"
 #include "quantity.hpp"
-#include "suggestion.hpp"
 #include "table_text.hpp"
 #include "toml_document.hpp"
 #include "value_reading.hpp"
@@ -30,7 +28,7 @@ std::string as_written(const TomlValue& value) {
   if (value.kind == Kind::text) return toml_string(value.text);
   if (value.kind == Kind::integer) return std::to_string(value.integer);
   if (value.kind == Kind::boolean) return value.boolean ? "true" : "false";
-  if (value.kind == Kind::number) return write_quantity(value.number, "");
+  if (value.kind == Kind::number) return write_number(value.number);
   std::string list;
   for (const TomlValue& item : value.items) list += (list.empty() ? "" : ", ") + as_written(item);
   return "[" + list + "]";
@@ -55,16 +53,11 @@ const Override* find_override(const MeasuredRun& run, std::string_view key) {
   return nullptr;
 }
 
-const std::string known_remedy = "write [known] and below it \"box.mass\" = \"434 g +- 2 g\"";
-
-/// Keys of [[run]] that are not the setup's.
-constexpr std::array<std::string_view, 8> own_keys{
-    "file", "box_length", "frame_rate", "release_time", "initial_grains", "column", "known", "release"};
-
 /// A bare word among the setup's dotted keys is a mistyped key of [[run]].
 void split_run_keys(const TomlValue& table, const std::string& file, MeasuredRun& run,
                     Violations& violations) {
   TomlValue rest;
+  const std::vector<std::string_view> own_keys = names_of_keys(ExperimentTable::run);
   for (const TomlEntry& entry : table.entries) {
     const bool own = std::find(own_keys.begin(), own_keys.end(), entry.key) != own_keys.end();
     if (own && (entry.key != "release" || entry.value.kind != Kind::table)) continue;
@@ -72,10 +65,9 @@ void split_run_keys(const TomlValue& table, const std::string& file, MeasuredRun
       rest.entries.push_back(entry);
       continue;
     }
-    const std::string_view near = nearest(entry.key, own_keys);
-    violations.push_back({entry.place, "run." + entry.key, "is not a key of a run",
-                          (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") + "known: " +
-                              listed(own_keys) + ", and keys of the setup with a dot, e.g. grains.count"});
+    violations.push_back(
+        {entry.place, "run." + entry.key, "is not a key of a run",
+         remedy_for_word(entry.key, own_keys) + ", and keys of the setup with a dot, e.g. grains.count"});
   }
   add_overrides(rest, "", file, run);
 }
@@ -91,10 +83,10 @@ bool is_empty_box(const MeasuredRun& run) {
   return count && count->value == "0";
 }
 
-void take_length_and_grains(Reader& reader, const std::filesystem::path& folder, const std::string& file,
-                            MeasuredRun& run) {
+void take_length_and_grains(const Reader& reader, const std::filesystem::path& folder,
+                            const std::string& file, MeasuredRun& run) {
   const TomlValue* length = reader.find("box_length");
-  run.box_length = reader.positive("box_length", "mm", std::numeric_limits<double>::quiet_NaN());
+  run.box_length = reader.number("box_length", std::numeric_limits<double>::quiet_NaN());
   const auto add = [&](const std::string& key, const std::string& value, const SourcePlace& place) {
     run.overrides.push_back({key, value, file + ":" + std::to_string(place.line)});
     run.places[key] = place;
@@ -121,15 +113,9 @@ void take_length_of_setup(const TomlValue& table, MeasuredRun& run, Violations& 
     run.box_length = *metres;  // else the setup complains
 }
 
-/// release = "unknown" or "at rest"; a table below `release` holds keys of the setup.
-Start start_of(Reader& reader) {
-  const TomlValue* value = reader.find("release");
-  if (!value || value->kind == Kind::table) return Start::not_said;
-  if (value->kind == Kind::text && value->text == "unknown") return Start::anywhere;
-  if (value->kind == Kind::text && value->text == "at rest") return Start::from_rest;
-  reader.report(*value, "release", "is neither \"unknown\" nor \"at rest\"",
-                "write release = \"unknown\" where the recording begins in the middle of the motion");
-  return Start::not_said;
+Start start_of(const Reader& reader) {
+  const std::string word = reader.choice("release");
+  return word == "unknown" ? Start::anywhere : word == "at rest" ? Start::from_rest : Start::not_said;
 }
 
 double typical_rate(const std::vector<double>& time) {
@@ -146,6 +132,21 @@ void append(Violations& violations, Violations more) {
                     std::make_move_iterator(more.end()));
 }
 
+/// Frames before the stated release are no part of the motion that starts there.
+void split_lead_in(MeasuredRun& run) {
+  constexpr double rounding = 1e-9;  // s, of the release's own frame
+  const auto first = std::lower_bound(run.time.begin(), run.time.end(), -rounding);
+  const auto split = [count = first - run.time.begin()](std::vector<double>& series,
+                                                        std::vector<double>& before) {
+    if (series.empty()) return;
+    before.assign(series.begin(), series.begin() + count);
+    series.erase(series.begin(), series.begin() + count);
+  };
+  split(run.x_box, run.lead_in.x_box);
+  split(run.x_com, run.lead_in.x_com);
+  split(run.time, run.lead_in.time);
+}
+
 void read_series(const Table& table, RunColumns columns, const ClockAndScale& scale, MeasuredRun& run,
                  Experiment& experiment, Violations& violations) {
   if (columns.com &&
@@ -158,7 +159,12 @@ void read_series(const Table& table, RunColumns columns, const ClockAndScale& sc
   run.time = std::move(series.time);
   run.x_box = std::move(series.x_box);
   run.x_com = std::move(series.x_com);
+  if (scale.release_time && run.start != Start::anywhere) split_lead_in(run);
+  if (violations.empty() && run.time.size() < 5)
+    violations.push_back({run.place, "run.release_time", "lies after the end of the recording",
+                          "give the time that the table's clock shows at the release"});
   run.box_uncertainty = columns.box.uncertainty;
+  run.origin_stated = columns.box.origin.has_value();
   if (run.has_com() && columns.com) run.com_uncertainty = columns.com->uncertainty;
   const double rate = typical_rate(run.time);
   run.frame_rate = scale.frame_rate > 0 ? scale.frame_rate : rate;
@@ -173,22 +179,22 @@ void read_series(const Table& table, RunColumns columns, const ClockAndScale& sc
 void read_run(const TomlValue& table, const std::filesystem::path& folder, const Defaults& defaults,
               Experiment& experiment, Violations& violations) {
   MeasuredRun run;
-  Reader reader(table, "run.", violations);
+  const Reader reader(table, ExperimentTable::run, "run.", violations);
   const std::string file = reader.text("file");
   if (file.empty())
     violations.push_back({table.place, "run.file", "is missing", "name the table of this run"});
   ClockAndScale scale = defaults.scale;
-  scale.frame_rate = reader.positive("frame_rate", "Hz", scale.frame_rate);
-  scale.release_time = reader.number("release_time", "s", 0);
+  scale.frame_rate = reader.number("frame_rate", scale.frame_rate);
+  if (reader.find("release_time")) scale.release_time = reader.number("release_time", 0);
+  run.place = table.place;
   run.start = start_of(reader);
-  if (const TomlValue* known = reader.table("known", known_remedy))
+  if (const TomlValue* known = reader.table("known"))
     run.known = read_known(*known, "run.known.", violations);
   take_length_and_grains(reader, folder, experiment.file, run);
   split_run_keys(table, experiment.file, run, violations);
   take_length_of_setup(table, run, violations);
-  const RunColumns columns =
-      read_column_tables(reader.table("column", "write column.box_position.from = \"...\""), "run.column.",
-                         defaults.columns, scale.pixel_size, violations);
+  const RunColumns columns = read_column_tables(reader.table("column"), "run.column.", defaults.columns,
+                                                scale.pixel_size, violations);
   if (columns.box.from.empty())
     violations.push_back(
         {table.place, "column.box_position.from", "is missing", "name the header of the box's position"});
@@ -210,25 +216,57 @@ void read_run(const TomlValue& table, const std::filesystem::path& folder, const
 
 }  // namespace
 
+namespace {
+
+/// The tree of the file; throws InputError with what to do where a table or a setup was given instead.
+TomlValue parsed_experiment(std::string_view text, const std::string& name) {
+  TomlValue root;
+  try {
+    root = parse_toml(text, name);
+  } catch (const InputError&) {
+    std::size_t rows = 0;
+    try {
+      const Table table = parse_table(text, name);
+      rows = table.columns.size() > 1 ? table.rows() : 0;
+    } catch (const InputError&) {
+      if (text.find('\0') != text.npos) throw;  // a spreadsheet or the like: says how to export it
+    }
+    if (rows < 3) throw;
+    throw InputError({{{name, 1, 1},
+                       "",
+                       "is a table, not an experiment file",
+                       "import it first: shakedown import " + name}});
+  }
+  if (!root.find("run") && (root.find("box") || root.find("grains") || root.find("spring")))
+    throw InputError(
+        {{{name, 1, 1},
+          "",
+          "is a setup, not an experiment file",
+          "give the experiment file that lists the measured tables; shakedown import writes one"}});
+  return root;
+}
+
+}  // namespace
+
 Experiment parse_experiment(std::string_view text, const std::string& name,
                             const std::filesystem::path& folder) {
-  const TomlValue root = parse_toml(text, name);
+  const TomlValue root = parsed_experiment(text, name);
   Experiment experiment;
   experiment.file = name;
   Violations violations;
-  Reader reader(root, "", violations);
+  const Reader reader(root, ExperimentTable::file, "", violations);
   experiment.title = reader.text("title");
   Defaults defaults;
   const TomlValue* runs = reader.find("run");
-  const TomlValue* columns = reader.table("column", "write [column.box_position]");
-  if (const TomlValue* camera = reader.table("camera", "write [camera]")) {
-    Reader of_camera(*camera, "camera.", violations);
-    defaults.scale.frame_rate = of_camera.positive("frame_rate", "Hz", 0);
-    defaults.scale.pixel_size = of_camera.positive("pixel_size", "mm", 0);
+  const TomlValue* columns = reader.table("column");
+  if (const TomlValue* camera = reader.table("camera")) {
+    const Reader of_camera(*camera, ExperimentTable::camera, "camera.", violations);
+    defaults.scale.frame_rate = of_camera.number("frame_rate", 0);
+    defaults.scale.pixel_size = of_camera.number("pixel_size", 0);
     of_camera.report_unknown();
   }
   defaults.columns = read_column_tables(columns, "column.", {}, defaults.scale.pixel_size, violations);
-  if (const TomlValue* known = reader.table("known", known_remedy))
+  if (const TomlValue* known = reader.table("known"))
     experiment.known = read_known(*known, "known.", violations);
   reader.report_unknown();
   if (!runs || runs->kind != Kind::array || runs->items.empty())
@@ -256,7 +294,7 @@ std::string digest(const Experiment& experiment) {
   for (const MeasuredRun& run : experiment.runs) {
     text(run.name);
     known_values(run.known);
-    number(static_cast<double>(run.start));
+    number(static_cast<double>(run.start)), number(run.origin_stated);
     for (const Override& one : run.overrides) text(one.key), text(one.value);
     for (const double part : {run.box_length, run.frame_rate, run.box_uncertainty, run.com_uncertainty})
       number(part);
@@ -277,17 +315,6 @@ std::vector<KnownValue> known_of(const Experiment& experiment, const MeasuredRun
   for (const KnownValue& one : experiment.known)
     if (!find_known(run.known, one.key)) known.push_back(one);
   return known;
-}
-
-Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known) {
-  return parse_setup(write_setup(setup), "setup of " + run.name, known, run.overrides);
-}
-
-std::vector<Setup> setups_of_runs(const Setup& setup, const Experiment& experiment,
-                                  std::span<const EffectRecord* const> known) {
-  std::vector<Setup> setups;
-  for (const MeasuredRun& run : experiment.runs) setups.push_back(setup_of_run(setup, run, known));
-  return setups;
 }
 
 }  // namespace shakedown

@@ -3,7 +3,6 @@
 // stay untouched.
 #pragma once
 #include <filesystem>
-#include <span>
 #include <string_view>
 
 #include "experiment.hpp"
@@ -41,11 +40,5 @@ bool starts_anywhere(const MeasuredRun& run, const Setup& setup);
 
 /// What is known of one run: its own values, and the experiment's where it has none.
 std::vector<KnownValue> known_of(const Experiment& experiment, const MeasuredRun& run);
-
-/// The setup of one run: the user's, with the run's own keys. Throws InputError that names the run's line for
-/// a key that does not exist or does not fit.
-Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known);
-std::vector<Setup> setups_of_runs(const Setup& setup, const Experiment& experiment,
-                                  std::span<const EffectRecord* const> known);
 
 }  // namespace shakedown

@@ -2,7 +2,6 @@
 #include "experiment_reader.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "suggestion.hpp"
 #include "value_reading.hpp"
@@ -11,64 +10,102 @@ namespace shakedown {
 
 using Kind = TomlValue::Kind;
 
-const TomlValue* ExperimentReader::find(std::string_view key) {
-  known_.emplace_back(key);
-  return table_->find(key);
+namespace {
+
+std::string example_of(const ExperimentKey& key) {
+  const bool whole_line = key.example.starts_with('[') && key.kind != ExperimentKind::texts;
+  return "write " + (whole_line || key.example.find(" = ") != std::string_view::npos
+                         ? std::string(key.example)
+                         : std::string(key.name) + " = " + std::string(key.example));
 }
 
-std::string ExperimentReader::text(std::string_view key) {
+}  // namespace
+
+const TomlValue* ExperimentReader::find(std::string_view key) const { return table_->find(key_of(key).name); }
+
+std::string ExperimentReader::text(std::string_view key) const {
   const TomlValue* value = find(key);
-  if (!value) return {};
-  if (value->kind == Kind::text) return value->text;
+  if (!value || value->kind == Kind::text) return value ? value->text : "";
   report(*value, key, "is " + std::string(describe(value->kind)) + " where a text is due",
-         "write it in quotes");
+         example_of(key_of(key)));
   return {};
 }
 
-double ExperimentReader::number(std::string_view key, std::string_view unit, double otherwise) {
+std::vector<std::string> ExperimentReader::texts(std::string_view key) const {
   const TomlValue* value = find(key);
-  if (!value) return otherwise;
-  const ValueOrProblem<double> result = number_in(*value, unit);
-  if (const double* number = std::get_if<double>(&result)) return *number;
-  report(*value, key, std::get<Problem>(result).problem, std::get<Problem>(result).remedy);
-  return otherwise;
+  std::vector<std::string> texts;
+  const auto add = [&](const TomlValue& item) {
+    if (item.kind == Kind::integer)
+      texts.push_back(std::to_string(item.integer));
+    else if (item.kind == Kind::text)
+      texts.push_back(item.text);
+    else
+      report(item, key, "is " + std::string(describe(item.kind)) + " where a text is due",
+             example_of(key_of(key)));
+  };
+  if (value && value->kind == Kind::array)
+    for (const TomlValue& item : value->items) add(item);
+  else if (value)
+    add(*value);
+  return texts;
 }
 
-double ExperimentReader::positive(std::string_view key, std::string_view unit, double otherwise) {
-  constexpr double absent = -std::numeric_limits<double>::infinity();  // or wrong, and reported
-  const double value = number(key, unit, absent);
-  if (value > 0) return value;
-  if (value != absent) report(*table_->find(key), key, "must be greater than 0", "");
-  return otherwise;
-}
-
-const TomlValue* ExperimentReader::table(std::string_view key, const std::string& remedy) {
-  const TomlValue* value = find(key);
-  if (!value || value->kind == Kind::table) return value;
-  report(*value, key, "is " + std::string(describe(value->kind)) + " where a table is due", remedy);
-  return nullptr;
-}
-
-bool ExperimentReader::boolean(std::string_view key) {
+bool ExperimentReader::flag(std::string_view key) const {
   const TomlValue* value = find(key);
   if (!value) return false;
   if (value->kind != Kind::boolean) report(*value, key, "is neither true nor false", "write true or false");
   return value->boolean;
 }
 
+double ExperimentReader::number(std::string_view name, double otherwise) const {
+  const TomlValue* value = find(name);
+  if (!value) return otherwise;
+  const ExperimentKey& key = key_of(name);
+  const ValueOrProblem<double> result = number_in(*value, key.unit);
+  if (const auto* problem = std::get_if<Problem>(&result)) {
+    report(*value, name, problem->problem, problem->remedy);
+    return otherwise;
+  }
+  const double number = std::get<double>(result);
+  const std::string why = out_of_bounds(number, key.low, key.high, true, key.unit);
+  if (why.empty()) return number;
+  report(*value, name, why, "correct it, e.g. " + std::string(key.name) + " = " + std::string(key.example));
+  return otherwise;
+}
+
+std::string ExperimentReader::choice(std::string_view name) const {
+  const TomlValue* value = find(name);
+  if (!value || value->kind == Kind::table) return {};
+  const ValueOrProblem<std::string> word = choice_in(*value, key_of(name).choices);
+  if (const std::string* found = std::get_if<std::string>(&word)) return *found;
+  report(*value, name, std::get<Problem>(word).problem, std::get<Problem>(word).remedy);
+  return {};
+}
+
+const TomlValue* ExperimentReader::table(std::string_view key) const {
+  const TomlValue* value = find(key);
+  if (!value || value->kind == Kind::table) return value;
+  report(*value, key, "is " + std::string(describe(value->kind)) + " where a table is due",
+         example_of(key_of(key)));
+  return nullptr;
+}
+
 void ExperimentReader::report(const TomlValue& value, std::string_view key, const std::string& problem,
-                              const std::string& remedy) {
+                              const std::string& remedy) const {
   violations_->push_back({value.place, path_ + std::string(key), problem, remedy});
 }
 
-void ExperimentReader::report_unknown() {
-  for (const TomlEntry& entry : table_->entries) {
-    if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
-    const std::string_view near = nearest(entry.key, known_);
-    violations_->push_back({entry.place, path_ + entry.key, "is not a key of the experiment file",
-                            (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") +
-                                "known here: " + listed(known_)});
-  }
+void ExperimentReader::report_unknown() const {
+  const std::vector<std::string_view> known = names_of_keys(which_);
+  for (const TomlEntry& entry : table_->entries)
+    if (std::find(known.begin(), known.end(), entry.key) == known.end())
+      violations_->push_back({entry.place, path_ + entry.key, "is not a key of the experiment file",
+                              remedy_for_word(entry.key, known)});
+}
+
+std::string remedy_for_word(std::string_view word, const std::vector<std::string_view>& known) {
+  const std::string_view near = nearest(word, known);
+  return (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") + "known here: " + listed(known);
 }
 
 }  // namespace shakedown

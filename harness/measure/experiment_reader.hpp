@@ -1,36 +1,51 @@
 // SPDX-License-Identifier: MIT
-// Values of one table of an experiment file.
+// Values of one table of an experiment file, read as the table of its keys says.
 #pragma once
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "experiment_keys.hpp"
 #include "toml_document.hpp"
 
 namespace shakedown {
 
-/// What is wrong goes to `violations`, what nobody asked for is reported as unknown.
+/// What is wrong goes to `violations`. Every key that is asked for must be one of the table's (EXPECT).
 class ExperimentReader {
  public:
-  ExperimentReader(const TomlValue& table, std::string path, std::vector<Violation>& violations)
-      : table_(&table), path_(std::move(path)), violations_(&violations) {}
+  ExperimentReader(const TomlValue& table, ExperimentTable which, std::string path,
+                   std::vector<Violation>& violations)
+      : table_(&table), which_(which), path_(std::move(path)), violations_(&violations) {}
 
-  const TomlValue* find(std::string_view key);
-  std::string text(std::string_view key);
-  double number(std::string_view key, std::string_view unit, double otherwise);
-  double positive(std::string_view key, std::string_view unit, double otherwise);
+  /// The value as it stands there, or nullptr.
+  const TomlValue* find(std::string_view key) const;
+
+  std::string text(std::string_view key) const;
+  std::vector<std::string> texts(std::string_view key) const;
+  bool flag(std::string_view key) const;
+  /// A quantity in SI, within the bounds of its key.
+  double number(std::string_view key, double otherwise) const;
+  /// One of the key's words; empty when it is absent or a table.
+  std::string choice(std::string_view key) const;
   /// The table of this name; nullptr when there is none or it is something else (reported).
-  const TomlValue* table(std::string_view key, const std::string& remedy);
-  bool boolean(std::string_view key);
+  const TomlValue* table(std::string_view key) const;
+
   void report(const TomlValue& value, std::string_view key, const std::string& problem,
-              const std::string& remedy);
-  void report_unknown();
+              const std::string& remedy) const;
+
+  /// Reports every key that the table does not have.
+  void report_unknown() const;
 
  private:
+  const ExperimentKey& key_of(std::string_view key) const { return experiment_key(which_, key); }
+
   const TomlValue* table_;
+  ExperimentTable which_;
   std::string path_;
   std::vector<Violation>* violations_;
-  std::vector<std::string_view> known_;
 };
+
+/// "did you mean 'x'? known: a, b, c"
+std::string remedy_for_word(std::string_view word, const std::vector<std::string_view>& known);
 
 }  // namespace shakedown

@@ -223,6 +223,21 @@ void read_entries(const TomlValue& table, const std::string& above, const std::s
 
 std::span<const CameraKey> camera_keys() { return keys_of_camera; }
 
+std::string example_of(const CameraKey& key) {
+  if (key.path == "clock") return "0 +- 0.01 %";
+  return key.unit.empty() ? "0 +- 0.5 %"
+         : key.path == "camera.wander_time"
+             ? "0.3 s +- 0.1 s"
+             : "0 +- " + write_quantity(key.unit == "mm" ? 2e-5 : 2e-3, key.unit);
+}
+
+std::vector<const SetupKey*> knowable_setup_keys() {
+  std::vector<const SetupKey*> keys;
+  for (const SetupKey& key : setup_keys())
+    if (can_be_known(key)) keys.push_back(&key);
+  return keys;
+}
+
 bool is_of_each_run(std::string_view key) {
   const CameraKey* camera = find_camera_key(key);
   return camera ? camera->each_run : key == "release.displacement";

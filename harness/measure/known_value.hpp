@@ -11,6 +11,8 @@
 
 namespace shakedown {
 
+struct SetupKey;
+
 /// `key` is a numeric key of the setup ("box.mass", "restitution.grain_grain") or one of camera_keys().
 struct KnownValue {
   std::string key;
@@ -28,6 +30,12 @@ struct CameraKey {
   std::string_view sentence;
 };
 std::span<const CameraKey> camera_keys();
+
+/// A value as it could stand in a file: "0 +- 0.5 %".
+std::string example_of(const CameraKey& key);
+
+/// The keys of the setup that [known] can say: numbers that somebody can measure.
+std::vector<const SetupKey*> knowable_setup_keys();
 
 /// True for what is drawn anew in every run, whose error is of each run by itself: the release and the
 /// trigger.

@@ -46,7 +46,9 @@ void write_measured_run(const std::filesystem::path& file, const MeasuredRun& ru
   output << (run.has_com() ? "t_s,x_box_m,x_com_m\n" : "t_s,x_box_m\n");
   char time[32];
   for (std::size_t i = 0; i < run.time.size(); ++i) {
-    std::snprintf(time, sizeof time, "%.4f", run.time[i]);
+    // 240 frames a second need more digits than 500.
+    const bool in_tenths = std::abs(run.time[i] - std::round(run.time[i] * 1e4) * 1e-4) < 1e-9;
+    std::snprintf(time, sizeof time, in_tenths ? "%.4f" : "%.6f", run.time[i]);
     output << time << "," << micrometres(run.x_box[i]);
     if (run.has_com()) output << "," << micrometres(run.x_com[i]);
     output << "\n";

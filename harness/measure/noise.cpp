@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "noise.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "robust_statistics.hpp"
 
@@ -13,16 +14,20 @@ namespace shakedown {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-/// 4th differences of neighbouring frames: a smooth motion cancels, white noise of deviation s comes out with
-/// s sqrt(70).
-std::vector<double> fourth_differences(const std::vector<double>& x, const std::vector<char>& neighbour) {
-  std::vector<double> differences(x.size(), nothing);
-  for (std::size_t i = 2; i + 2 < x.size(); ++i)
-    if (neighbour[i - 1] && neighbour[i] && neighbour[i + 1] && neighbour[i + 2])
-      differences[i] = x[i - 2] - 4 * x[i - 1] + 6 * x[i] - 4 * x[i + 1] + x[i + 2];
-  return differences;
-}
+constexpr double usual_noise = 1e-3;       // m, of a camera of which nothing is known
+constexpr double without_a_camera = 1e-9;  // m, in positions that a simulation gave as they are
+constexpr int lowest_order = 4, highest_order = 14;
+/// Of the motion a difference may keep so much of what it keeps of the noise: 2 % of the deviation.
+constexpr double leak_allowed = 0.2;
+/// The noise is told where the box's excursion exceeds this share of the whole range; at rest rounding hides
+/// it.
+constexpr double moving_share = 0.05;
+/// A step of rounding matters from this share of the noise on.
+constexpr double matters = 0.3;
+constexpr std::size_t fewest = 20;  // differences that make a standard deviation
+/// Differences of this order and of the next agree within this share where they see noise alone, and no more
+/// than this share of them lies beyond 2.5 standard deviations (1.2 % of a normal distribution do).
+constexpr double orders_agree = 0.25, most_beyond = 0.1;
 
 std::vector<double> finite_of(const std::vector<double>& values) {
   std::vector<double> kept;
@@ -31,172 +36,246 @@ std::vector<double> finite_of(const std::vector<double>& values) {
   return kept;
 }
 
-constexpr std::size_t lags = 1 + colour_lags;
-using Autocovariance = std::array<double, lags>;
+/// Standard deviation about zero of what is normal among the values: beyond 2.5 of it they are landings or
+/// wrong frames, and the 0.91126 of the variance that a normal distribution has within corrects for the cut.
+double clipped_deviation(const std::vector<double>& values) {
+  constexpr double cut = 2.5, within = 0.91126;
+  std::vector<double> sizes;
+  for (const double value : values)
+    if (std::isfinite(value)) sizes.push_back(std::abs(value));
+  if (sizes.size() < fewest) return nothing;
+  double deviation = 1.482602218505602 * median(sizes);
+  for (int pass = 0; pass < 20 && deviation > 0; ++pass) {
+    double squares = 0, count = 0;
+    for (const double size : sizes)
+      if (size < cut * deviation) squares += size * size, ++count;
+    const double next = std::sqrt(squares / count / within);
+    if (std::abs(next - deviation) < 1e-6 * deviation) break;
+    deviation = next;
+  }
+  return deviation;
+}
 
-/// What is left of a series when a local cubic over 40 ms is taken out: noise above 25 Hz. Frames next to a
-/// landing, where the cubic fails and the energy over 40 ms exceeds `cut` times the usual one, are left out
-/// (NaN).
-std::vector<double> rough_part(const std::vector<double>& x, const std::vector<char>& neighbour,
-                               const Eigen::VectorXd& filter, double cut) {
-  const std::size_t half = static_cast<std::size_t>(filter.size() / 2);
-  std::vector<double> rough(x.size(), nothing);
-  for (std::size_t i = half; i + half < x.size(); ++i) {
-    double sum = 0;
+/// Whether these differences are those of noise: not too many far ones, and no others in the next order.
+bool are_noise(const std::vector<double>& found, const std::vector<double>& next, double deviation) {
+  double beyond = 0, count = 0;
+  for (const double value : found)
+    if (std::isfinite(value)) beyond += std::abs(value) > 2.5 * deviation, ++count;
+  const double of_next = clipped_deviation(next);
+  // Few differences know their own deviation badly.
+  const double allowed = orders_agree + 3 / std::sqrt(std::max(count, 1.0));
+  return beyond < most_beyond * count && !(std::abs(of_next / deviation - 1) > allowed);
+}
+
+/// Weights of length 1 on frames at these places under which polynomials of lower order vanish: those of
+/// divided differences.
+Eigen::VectorXd difference_weights(const Eigen::VectorXd& place) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(place.size());
+  for (Eigen::Index i = 0; i < place.size(); ++i)
+    for (Eigen::Index j = 0; j < place.size(); ++j)
+      if (j != i) weights[i] /= place[i] - place[j];
+  return weights.normalized();
+}
+
+/// For each frame the difference of neighbouring frames about it: white noise keeps its standard deviation.
+std::vector<double> differences(const NoiseSeries& series, int order) {
+  const std::vector<double>& x = *series.x;
+  std::vector<double> found(x.size(), nothing);
+  const auto reach = static_cast<std::size_t>(order / 2);
+  const Eigen::Index frames = order + 1;
+  Eigen::VectorXd place = Eigen::VectorXd::LinSpaced(frames, 0, static_cast<double>(order));
+  Eigen::VectorXd weights = difference_weights(place);
+  for (std::size_t i = reach; i + reach < x.size(); ++i) {
+    const std::size_t first = i - reach;
     bool whole = true;
-    for (std::size_t j = i - half; j <= i + half; ++j) {
-      whole = whole && (j == i - half || neighbour[j]);
-      sum += filter[static_cast<Eigen::Index>(j - (i - half))] * x[j];
+    for (std::size_t j = first + 1; j <= i + reach && whole; ++j) whole = series.neighbour[j];
+    if (!whole || !series.moving[i]) continue;
+    if (series.by_clock) {
+      for (Eigen::Index k = 0; k < frames; ++k)
+        place[k] =
+            ((*series.time)[first + static_cast<std::size_t>(k)] - (*series.time)[i]) / series.interval;
+      weights = difference_weights(place);
     }
-    if (whole) rough[i] = sum;
-  }
-  std::vector<double> energy(x.size(), nothing);
-  for (std::size_t i = half; i + half < x.size(); ++i) {
     double sum = 0;
-    for (std::size_t j = i - half; j <= i + half; ++j)
-      sum += std::isfinite(rough[j]) ? rough[j] * rough[j] : 0;
-    if (std::isfinite(rough[i])) energy[i] = sum;
+    for (Eigen::Index k = 0; k < frames; ++k) sum += weights[k] * x[first + static_cast<std::size_t>(k)];
+    found[i] = sum;
   }
-  const double usual = median(finite_of(energy));
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (energy[i] > cut * usual) rough[i] = nothing;
-  return rough;
+  return found;
 }
 
-/// The filter that takes a local cubic out: 1 at the frame itself less the weights of the fit.
-Eigen::VectorXd roughness_filter(double interval) {
-  const int half = std::max(4, static_cast<int>(std::lround(0.02 / interval))), n = 2 * half + 1;
-  Eigen::MatrixXd powers(n, 4);
-  for (int i = 0; i < n; ++i)
-    for (int power = 0; power < 4; ++power)
-      powers(i, power) = std::pow(static_cast<double>(i - half) / half, power);
-  const Eigen::MatrixXd normal = powers.transpose() * powers;
-  Eigen::VectorXd filter = -powers * normal.ldlt().solve(Eigen::Vector4d::Unit(0));
-  filter[half] += 1;
-  return filter;
+/// What differences of this order keep of a swing over half the range, with so many frames a period.
+double leak(double range, double frames_per_period, int order) {
+  const double each = 2 * std::sin(std::numbers::pi / std::max(frames_per_period, 2.0));
+  const double log_binomial = std::lgamma(2.0 * order + 1) - 2 * std::lgamma(order + 1.0);
+  return range / std::sqrt(8.0) * std::exp(order * std::log(each) - log_binomial / 2);
 }
 
-void add_autocovariance(const std::vector<double>& rough, Autocovariance& sum, Autocovariance& count) {
-  for (std::size_t lag = 0; lag < lags; ++lag)
-    for (std::size_t i = 0; i + lag < rough.size(); ++i)
-      if (std::isfinite(rough[i]) && std::isfinite(rough[i + lag]))
-        sum[lag] += rough[i] * rough[i + lag], ++count[lag];
-}
-
-/// Autocovariance, at a lag, of the rough part of first-order noise of correlation r and unit variance.
-class RoughNoise {
- public:
-  explicit RoughNoise(const Eigen::VectorXd& filter)
-      : length_(filter.size()), own_(Eigen::VectorXd::Zero(2 * filter.size() - 1)) {
-    for (Eigen::Index i = 0; i < length_; ++i)
-      for (Eigen::Index j = 0; j < length_; ++j) own_[i - j + length_ - 1] += filter[i] * filter[j];
+/// The lowest order in which the motion cancels beside the noise; 0: none does.
+int order_for(const NoiseSeries& series, const MotionSeen& motion) {
+  const double frames = motion.frames_per_period(series.interval);
+  if (std::isinf(frames)) return lowest_order;
+  // Below six frames a period each difference makes the motion larger: 2 sin(pi / 6) = 1.
+  constexpr double fewest_frames = 6;
+  if (frames < fewest_frames) return 0;
+  for (int order = lowest_order; order <= highest_order; order += 2) {
+    const double deviation = clipped_deviation(differences(series, order));
+    if (leak(motion.range, frames, order) < leak_allowed * deviation) return order;
   }
-  double autocovariance(double r, Eigen::Index lag) const {
-    double value = 0;
-    for (Eigen::Index d = 0; d < own_.size(); ++d)
-      value += own_[d] * std::pow(r, static_cast<double>(std::abs(lag + d - (length_ - 1))));
-    return value;
+  return 0;
+}
+
+/// The order whose differences are smallest, and their deviation: a bound of the noise where the motion does
+/// not cancel.
+std::pair<int, double> smallest_differences(const NoiseSeries& series) {
+  std::pair<int, double> best{lowest_order, nothing};
+  for (int order = lowest_order; order <= highest_order; order += 2) {
+    const double deviation = clipped_deviation(differences(series, order));
+    if (!(deviation >= best.second)) best = {order, deviation};
   }
-  /// Energy over one length of the filter, four standard deviations above the mean, relative to the mean.
-  /// Cutting lower would take the colour away with the landings.
-  double energy_cut(double r) const {
-    const double variance = autocovariance(r, 0), n = static_cast<double>(length_);
-    double sum = n * variance * variance;
-    for (Eigen::Index lag = 1; lag < length_; ++lag) {
-      const double c = autocovariance(r, lag);
-      sum += 2 * static_cast<double>(length_ - lag) * c * c;
-    }
-    return 1 + 4 * std::sqrt(2 * sum) / (n * variance);
+  return best;
+}
+
+double deviation_of(const NoiseSeries& series) {
+  return series.order > 0 ? clipped_deviation(differences(series, series.order))
+                          : smallest_differences(series).second;
+}
+
+/// Frames whose neighbours lie more than two steps of rounding apart: their errors of rounding are new each
+/// time. All moving frames where these are too few.
+std::vector<char> faster_than_rounding(const NoiseSeries& series, double step) {
+  constexpr std::ptrdiff_t enough = 50;
+  const std::vector<double>& x = *series.x;
+  std::vector<char> fast(x.size(), 0);
+  for (std::size_t i = 1; i + 1 < x.size(); ++i)
+    fast[i] = series.moving[i] && std::abs(x[i + 1] - x[i - 1]) > 2 * step;
+  return std::count(fast.begin(), fast.end(), 1) > enough ? fast : series.moving;
+}
+
+/// Frames at rest tell the noise too, and more frames tell it better; but not where rounding hides it there,
+/// or where it is another while the box moves.
+void take_rest_in(NoiseSeries& series) {
+  constexpr double differs = 0.05, error_of_one = 1.1;  // the error of n differences is 1.1 / sqrt(n), seen
+  NoiseSeries whole = series;
+  whole.moving.assign(series.moving.size(), 1);
+  const double all = deviation_of(whole), moving = deviation_of(series);
+  const auto count = static_cast<double>(std::count(series.moving.begin(), series.moving.end(), 1));
+  const double allowed = std::max(differs, 4 * error_of_one / std::sqrt(std::max(count, 1.0)));
+  const bool same = std::isfinite(all) && !(std::abs(moving / all - 1) > allowed);
+  if (same && !(step_of(*series.x) > matters * all)) series.moving = std::move(whole.moving);
+}
+
+/// Whether the recorded times lie off an even grid, and positions fit to them rather than to the grid.
+bool fits_the_clock(NoiseSeries series) {
+  constexpr double uneven = 1e-3, better = 0.97;
+  std::vector<double> off;
+  for (std::size_t i = 1; i < series.time->size(); ++i)
+    if (series.neighbour[i]) off.push_back(((*series.time)[i] - (*series.time)[i - 1]) / series.interval - 1);
+  if (!(robust_deviation(off) > uneven)) return false;
+  const double on_grid = deviation_of(series);
+  series.by_clock = true;
+  return deviation_of(series) < better * on_grid;
+}
+
+/// What differences keep of first-order noise of correlation r, in parts of its variance.
+double kept_variance(int order, double r) {
+  const Eigen::VectorXd weights =
+      difference_weights(Eigen::VectorXd::LinSpaced(order + 1, 0, static_cast<double>(order)));
+  double gain = 1;
+  for (Eigen::Index lag = 1; lag <= order && r != 0; ++lag)
+    gain += 2 * std::pow(r, static_cast<double>(lag)) *
+            weights.head(order + 1 - lag).dot(weights.tail(order + 1 - lag));
+  return std::max(gain, 1.0 / 70);
+}
+
+std::vector<NoiseAt> over_time(const NoiseSeries& series, const std::vector<double>& found, double gain) {
+  constexpr int most_rows = 12;
+  const std::vector<double>& time = *series.time;
+  std::vector<NoiseAt> rows;
+  const double length = (time.back() - time.front()) / most_rows;
+  for (int row = 0; row < most_rows; ++row) {
+    const double from = time.front() + row * length, to = from + length;
+    std::vector<double> within;
+    for (std::size_t i = 0; i < time.size(); ++i)
+      if (time[i] >= from && time[i] < to && std::isfinite(found[i])) within.push_back(found[i]);
+    if (const double deviation = clipped_deviation(within); std::isfinite(deviation))
+      rows.push_back({from, to, deviation / gain});
   }
-
- private:
-  Eigen::Index length_;
-  Eigen::VectorXd own_;  // the filter's autocorrelation at offsets 1 - length ... length - 1
-};
-
-/// The r of first-order noise, r_k = r^k, whose rough part has the autocovariance that was measured; 0 where
-/// it is within the error.
-double correlation_of(const Autocovariance& sum, const Autocovariance& count, const RoughNoise& rough) {
-  if (!(count[0] > 200) || !(sum[0] > 0)) return 0;
-  const auto misfit = [&](double r) {
-    double total = 0;
-    for (std::size_t lag = 1; lag < lags; ++lag) {
-      const double off = sum[lag] / count[lag] * count[0] / sum[0] -
-                         rough.autocovariance(r, static_cast<Eigen::Index>(lag)) / rough.autocovariance(r, 0);
-      total += off * off;
-    }
-    return total;
-  };
-  double best = 0;
-  for (double r = -0.6; r <= 0.95; r += 0.05)
-    if (misfit(r) < misfit(best)) best = r;
-  const double coarse = best;
-  for (double r = coarse - 0.04; r < coarse + 0.045; r += 0.01)
-    if (misfit(r) < misfit(best)) best = r;
-  return std::abs(best) < 5 / std::sqrt(count[0]) ? 0 : best;
-}
-
-std::array<double, colour_lags> powers_of(double r) {
-  std::array<double, colour_lags> correlation{};
-  for (int k = 1; k <= colour_lags && r != 0; ++k)
-    correlation[static_cast<std::size_t>(k - 1)] = std::pow(r, k);
-  return correlation;
-}
-
-/// Standard deviation of one frame from that of the differences, given the colour.
-double deviation_from(double of_differences, const std::array<double, colour_lags>& correlation) {
-  constexpr double overlap[] = {70, -56, 28, -8, 1};  // autocorrelation of the filter 1 -4 6 -4 1
-  double gain = overlap[0];
-  for (std::size_t k = 1; k < 5; ++k) gain += 2 * overlap[k] * correlation[k - 1];
-  return of_differences / std::sqrt(std::max(gain, 1.0));
-}
-
-/// The step of the recorded numbers when it is large enough to matter beside the noise.
-double quantum_of(const std::vector<double>& x, double deviation) {
-  std::vector<double> sorted = finite_of(x);
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < sorted.size(); ++i)
-    if (sorted[i] - sorted[i - 1] > 1e-12) steps.push_back(sorted[i] - sorted[i - 1]);
-  if (steps.size() < 10) return 0;
-  const double step = median(steps);
-  const auto small = static_cast<double>(
-      std::count_if(steps.begin(), steps.end(), [&](double s) { return s < 0.9 * step; }));
-  return step > 0.3 * deviation && small < 0.01 * static_cast<double>(steps.size()) ? step : 0;
+  return rows;
 }
 
 }  // namespace
 
-std::array<double, colour_lags> colour_of(const std::vector<NeighbouredSeries>& series, double interval) {
-  const Eigen::VectorXd filter = roughness_filter(interval);
-  const RoughNoise rough(filter);
-  double cut = 4, r = 0;  // generous first, then what the colour found allows
-  for (int pass = 0; pass < 3; ++pass) {
-    Autocovariance sum{}, count{};
-    for (const NeighbouredSeries& one : series) {
-      Autocovariance own_sum{}, own_count{};
-      add_autocovariance(rough_part(*one.x, one.neighbour, filter, cut), own_sum, own_count);
-      for (std::size_t lag = 0; lag < lags && own_sum[0] > 0; ++lag)
-        sum[lag] += own_sum[lag] / own_sum[0] * own_count[0], count[lag] += own_count[lag];
-    }
-    r = correlation_of(sum, count, rough);
-    cut = rough.energy_cut(r);
+NoiseSeries noise_series(const std::vector<double>& time, const std::vector<double>& x, double interval) {
+  NoiseSeries series{&time, &x, interval, std::vector<char>(x.size(), 0), {}, 0, false, lowest_order};
+  for (std::size_t i = 1; i < time.size(); ++i) series.neighbour[i] = time[i] - time[i - 1] < 1.5 * interval;
+  const MotionSeen motion = motion_seen(time, x);
+  for (const double excursion : motion.excursion)
+    series.moving.push_back(excursion > moving_share * motion.range);
+  series.frames_per_period = motion.frames_per_period(interval);
+  series.order = order_for(series, motion);
+  series.by_clock = fits_the_clock(series);
+  if (series.by_clock) series.order = order_for(series, motion);
+  take_rest_in(series);
+  return series;
+}
+
+void set_deviation(const NoiseSeries& series, NoiseFound& noise) {
+  NoiseSeries used = series;
+  noise.order = series.order > 0 ? series.order : smallest_differences(series).first;
+  const double gain = std::sqrt(kept_variance(noise.order, noise.correlation[0]));
+  const double step = step_of(*series.x);
+  std::vector<double> seen = differences(series, noise.order);
+  if (const double found = clipped_deviation(seen); step > matters * found / gain || !(found > 0)) {
+    used.moving = faster_than_rounding(series, step);
+    seen = differences(used, noise.order);
+    noise.quantum = step;
   }
-  return powers_of(r);
-}
-
-void set_deviation(const NeighbouredSeries& series, NoiseFound& noise) {
-  const double of_differences = robust_deviation(finite_of(fourth_differences(*series.x, series.neighbour)));
-  noise.standard_deviation = deviation_from(of_differences, noise.correlation);
-  noise.quantum = quantum_of(*series.x, noise.standard_deviation);
-  // Rounding to steps q adds q^2/12, which 4th differences see while the motion is fast and miss while it is
+  double found = clipped_deviation(seen);
+  const bool told = series.order > 0 && are_noise(seen, differences(used, noise.order + 2), found);
+  found /= gain;
+  noise.source = told ? NoiseSource::frames : NoiseSource::bound;
+  if (noise.declared > 0 && !(told && std::isfinite(found)) && !(found < noise.declared)) {
+    noise.source = NoiseSource::declared;
+    found = noise.declared;
+  } else if (!std::isfinite(found)) {
+    noise.source = NoiseSource::assumed;
+    found = usual_noise;
+  }
+  // Rounding to steps q adds q^2/12, which differences see while the motion is fast and miss while it is
   // slow.
-  noise.standard_deviation = std::max(noise.standard_deviation, noise.quantum / std::sqrt(12.0));
-  if (!(noise.standard_deviation > 1e-9)) noise.standard_deviation = 1e-9;  // simulated without a camera
+  noise.standard_deviation = std::max({found, noise.quantum / std::sqrt(12.0), without_a_camera});
+  noise.over_time = over_time(used, seen, gain);
 }
 
-double white_deviation(const NeighbouredSeries& series) {
-  return robust_deviation(finite_of(fourth_differences(*series.x, series.neighbour))) / std::sqrt(70.0);
+double white_deviation(const NoiseSeries& series) {
+  const double found = deviation_of(series);
+  return std::isfinite(found) ? std::max(found, step_of(*series.x) / std::sqrt(12.0)) : found;
+}
+
+double step_of(const std::vector<double>& x) {
+  constexpr double same = 1.05, multiple_within = 0.12, nearly_all = 0.95;
+  std::vector<double> sorted = finite_of(x);
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted.size() < 10) return 0;
+  const double finest = 1e-9 * (sorted.back() - sorted.front());
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    if (sorted[i] - sorted[i - 1] > finest) gaps.push_back(sorted[i] - sorted[i - 1]);
+  if (gaps.size() < 3) return 0;
+  std::sort(gaps.begin(), gaps.end());
+  const std::size_t repeats = std::max<std::size_t>(2, gaps.size() / 50);
+  for (std::size_t i = 0; i + repeats <= gaps.size(); ++i) {
+    if (gaps[i + repeats - 1] > same * gaps[i]) continue;
+    double step = gaps[i], whole = 0, length = 0;
+    for (const double gap : gaps)
+      if (gap < 20 * step) whole += std::round(gap / step), length += gap;
+    step = length / whole;
+    const auto fits = std::count_if(gaps.begin(), gaps.end(), [&](double gap) {
+      return std::abs(gap / step - std::round(gap / step)) < multiple_within;
+    });
+    return static_cast<double>(fits) > nearly_all * static_cast<double>(gaps.size()) ? step : 0;
+  }
+  return 0;
 }
 
 }  // namespace shakedown

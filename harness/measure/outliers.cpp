@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "motion_seen.hpp"
 #include "robust_statistics.hpp"
 
 namespace shakedown {
@@ -61,12 +62,15 @@ class OutlierJudge {
     return count;
   }
 
-  /// Three times the usual acceleration, from 2nd differences over 20 ms.
+  /// Three times the usual acceleration while the box moves, from 2nd differences over 20 ms.
   static double typical_acceleration(const std::vector<double>& time, const std::vector<double>& x) {
     const double interval = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
     const std::size_t step = std::max<std::size_t>(1, static_cast<std::size_t>(0.02 / interval));
+    constexpr double moving_share = 0.05;
+    const MotionSeen motion = motion_seen(time, x);
     std::vector<double> found;
     for (std::size_t i = step; i + step < x.size(); ++i) {
+      if (!(motion.excursion[i] > moving_share * motion.range)) continue;
       const double difference = x[i - step] - 2 * x[i] + x[i + step],
                    duration = (time[i + step] - time[i - step]) / 2;
       if (std::isfinite(difference)) found.push_back(std::abs(difference) / (duration * duration));

@@ -27,7 +27,7 @@ struct Line {
 
 bool is_comment(std::string_view text) {
   return (text.starts_with('#') || text.starts_with('%') || text.starts_with("//")) &&
-         !text.starts_with("#N/A");
+         !is_blank_cell(text.substr(0, text.find_first_of(",;\t ")));  // a spreadsheet's #NV is no comment
 }
 
 std::vector<Line> lines_of(std::string_view text) {
@@ -103,6 +103,7 @@ bool holds_number(const Row& row, bool decimal_comma) {
 std::pair<std::string, std::string> name_and_unit(const std::string& header) {
   for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
     const std::size_t begin = header.rfind(open);
+    if (header.ends_with("(t)")) continue;  // x(t): a function of time, not tons
     if (header.empty() || header.back() != close || begin == std::string::npos) continue;
     return {std::string(trimmed(header.substr(0, begin))),
             std::string(trimmed(header.substr(begin + 1, header.size() - begin - 2)))};
@@ -158,12 +159,17 @@ std::vector<TableColumn> columns_of(const std::vector<Row>& header, std::size_t 
 void append_row(Table& table, Row cells, int line) {
   const std::size_t width = table.columns.size();
   while (cells.size() > width && cells.back().empty()) cells.pop_back();
-  if (cells.size() != width && table.violations.size() < 20)
+  // One message for all lines that are cut off alike.
+  const bool said =
+      std::any_of(table.violations.begin(), table.violations.end(), [&](const Violation& other) {
+        return other.problem.starts_with("has " + std::to_string(cells.size()) + " cells");
+      });
+  if (cells.size() != width && !said)
     table.violations.push_back({{table.file, line, 1},
                                 "",
                                 "has " + std::to_string(cells.size()) + " cells where the table has " +
                                     std::to_string(width) + " columns (cut off, or a delimiter too many?)",
-                                "complete or delete the line"});
+                                "complete or delete the line, and others like it"});
   cells.resize(width);
   for (std::size_t i = 0; i < width; ++i) {
     const std::optional<double> number = cell_number(cells[i], table.decimal_comma);
@@ -198,9 +204,29 @@ void drop_shadow_columns(Table& table) {
 
 }  // namespace
 
-Table parse_table(std::string_view text, const std::string& name) {
+namespace {
+
+/// Files that are no text, by their first bytes.
+void refuse_other_formats(std::string_view text, const std::string& name) {
+  const std::string save_as = "open it there and save it as CSV UTF-8 (File, Save as)";
+  if (text.starts_with("MATLAB 5.0") || text.starts_with("\x89HDF"))
+    refuse(name, "is a MATLAB file (or HDF5)",
+           "write it as text in MATLAB: writetable(table(t, x), 'run.csv')  % column vectors");
+  if (text.starts_with("PK\x03\x04") || text.starts_with("\xD0\xCF\x11\xE0"))
+    refuse(name, "is a spreadsheet file (Excel, LibreOffice)", save_as);
+  if (text.starts_with("RIFF") || text.substr(0, 12).find("ftyp") == 4)
+    refuse(name, "is a film", "track the box in it first (Tracker, TrackMate, trackpy) and export a table");
+  if (text.starts_with("\x93NUMPY")) refuse(name, "is a NumPy file", "write it with numpy.savetxt");
+  if (text.starts_with("\x1F\x8B")) refuse(name, "is compressed", "unpack it first (gunzip)");
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     refuse(name, "is UTF-16 text (a spreadsheet's \"Unicode text\")", "save it as CSV UTF-8");
+  if (text.find('\0') != text.npos) refuse(name, "is not text", "export the table as CSV");
+}
+
+}  // namespace
+
+Table parse_table(std::string_view text, const std::string& name) {
+  refuse_other_formats(text, name);
   if (!utf8_from("UTF-8", text)) {  // micro and degree signs in one byte, as older programs write them
     Table table = parse_table(*utf8_from("ISO-8859-1", text), name);
     table.latin = true;
@@ -246,8 +272,10 @@ Table parse_table(std::string_view text, const std::string& name) {
 Table read_table(const std::filesystem::path& file) {
   std::ifstream input(file, std::ios::binary);
   std::stringstream text;
-  if (!std::filesystem::is_directory(file)) text << input.rdbuf();
-  if (!input || std::filesystem::is_directory(file))
+  std::error_code unreadable;  // of a path that leads nowhere
+  const bool is_folder = std::filesystem::is_directory(file, unreadable);
+  if (!is_folder) text << input.rdbuf();
+  if (!input || is_folder)
     throw FileError(file.string() + ": cannot be read; check the path and its permissions");
   return parse_table(text.str(), file.string());
 }

@@ -52,8 +52,9 @@ std::vector<std::string> split_cells(std::string_view line, char delimiter) {
 }
 
 bool is_blank_cell(std::string_view cell) {
-  static constexpr std::array<std::string_view, 12> words{"",    "nan", "NaN",  "NAN",  "NA",   "N/A",
-                                                          "n/a", "-",   "null", "NULL", "None", "#N/A"};
+  static constexpr std::array<std::string_view, 16> words{"",    "nan", "NaN",     "NAN",   "NA",   "N/A",
+                                                          "n/a", "-",   "null",    "NULL",  "None", "#N/A",
+                                                          "#NV", "#NA", "#DIV/0!", "#WERT!"};
   return std::find(words.begin(), words.end(), cell) != words.end();
 }
 

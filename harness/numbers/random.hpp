@@ -17,7 +17,10 @@ enum class Stream : std::uint64_t {
   camera = 4,
   bootstrap = 5,
   hidden = 6,
-  other = 7
+  other = 7,
+  wander = 8,
+  by_run = 9,
+  jitter = 10
 };
 
 class Random {

@@ -110,6 +110,15 @@ struct Search {
   std::string_view not_searched{};  ///< why no diagnosis looks for it; empty: one does
 };
 
+/// Of what a camera or clock does: how well it is known. It is then no effect that may be missing unless the
+/// data ask for much more of it.
+struct CameraError {
+  std::string_view known_as{};  ///< in [known] of an experiment: "camera.lens"; empty: taken for perfect
+  double usual = 0;             ///< standard deviation where the experiment does not say it, SI
+  bool each_run = false;        ///< every run has its own
+  double unknown = 0;           ///< standard deviation in a run that may start anywhere, SI; 0: as usual
+};
+
 struct EffectRecord {
   std::string_view name{};   ///< snake_case id, fixed for ever
   std::string_view label{};  ///< short name for people, "linear damping of the box"
@@ -127,6 +136,7 @@ struct EffectRecord {
   bool dissipative = false;  ///< its line in the energy ledger can never be negative
   std::vector<EngineCapability> engines{};
   Search search{};
+  CameraError camera_error{};
   /// How a run was made rather than a law of physics: never missing in a model.
   bool nuisance = false;
   /// Writes the effect's share into the physics. `index` is its line in Setup::effects and in the energy

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "grain_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -51,13 +52,88 @@ void check_room(const Setup& setup, const State& state, const std::string& file,
       if (gap < -rounding)
         found.push_back({{file, line, 1},
                          "grains " + std::to_string(j + 1) + " and " + std::to_string(i + 1),
-                         "overlap by " + in_mm(-gap),
-                         "move them apart"});
+                         "overlap by " + in_mm(-gap) + " (more than an error of measured positions, " +
+                             in_mm(most_measured_overlap) + ", or there is no room to push them apart)",
+                         "move them apart, or correct grains.diameter"});
     }
   }
 }
 
+struct Contact {
+  std::size_t a, b;
+};
+
+/// Pairs that overlap or could come to it while others are pushed apart.
+std::vector<Contact> near_pairs(const State& state, double reach) {
+  std::vector<Contact> pairs;
+  for (std::size_t i = 0; i < state.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if ((state.position[i] - state.position[j]).norm() < state.radius[i] + state.radius[j] + reach)
+        pairs.push_back({j, i});
+  return pairs;
+}
+
+/// One relaxation sweep: every overlapping pair moves apart by equal shares, and into the box. The deepest
+/// overlap it found, m.
+double push_once(const Setup& setup, const std::vector<Contact>& pairs, State& state) {
+  constexpr double spare = 1e-9;  // m, so that sweeps end
+  double deepest = 0;
+  for (const auto& [a, b] : pairs) {
+    const Vec3 apart = state.position[b] - state.position[a];
+    const double distance = apart.norm(), overlap = state.radius[a] + state.radius[b] - distance;
+    deepest = std::max(deepest, overlap);
+    if (overlap <= 0 || distance <= 0) continue;
+    const Vec3 step = apart * ((overlap + spare) / (2 * distance));
+    state.position[a] -= step;
+    state.position[b] += step;
+  }
+  if (setup.domain == Domain::periodic) return deepest;
+  const Vec3 half(setup.box.length / 2, setup.box.width[0] / 2, setup.box.width[1] / 2);
+  const Vec3 middle(state.x_box, 0, 0);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const Vec3 room = half.array() - state.radius[i];
+    const Vec3 off = state.position[i] - middle;
+    deepest = std::max(deepest, (off.cwiseAbs() - room).maxCoeff());
+    if ((room.array() > 0).all()) state.position[i] = middle + off.cwiseMax(-room).cwiseMin(room);
+  }
+  return deepest;
+}
+
+/// Deepest overlap with a neighbour or a wall, m.
+double deepest_overlap(const Setup& setup, const State& state) {
+  State copy = state;
+  return push_once(setup, near_pairs(state, 0), copy);
+}
+
+/// Measured positions err, and grains that touch then overlap: they are moved apart as far as that error
+/// goes.
+void push_apart(const Setup& setup, State& state) {
+  constexpr double rounding = 1e-12;  // m
+  constexpr int most_sweeps = 2000;
+  constexpr std::size_t most_grains = 20000;  // the engine's own check covers larger systems
+  if (state.size() > most_grains) return;
+  const double overlap = deepest_overlap(setup, state);
+  if (overlap <= rounding || overlap > most_measured_overlap) return;
+  State pushed = state;
+  const std::vector<Contact> pairs = near_pairs(state, 10 * most_measured_overlap);
+  for (int sweep = 0; sweep < most_sweeps; ++sweep)
+    if (push_once(setup, pairs, pushed) <= 0) break;
+  if (deepest_overlap(setup, pushed) > rounding) return;  // there is no room: the overlaps are reported
+  for (std::size_t i = 0; i < state.size(); ++i)
+    state.pushed_apart = std::max(state.pushed_apart, (pushed.position[i] - state.position[i]).norm());
+  state.position = std::move(pushed.position);
+}
+
 }  // namespace
+
+std::string note_on_measured_grains(const Setup& setup) {
+  if (setup.release.initial_grains.empty()) return "";
+  const double moved = initial_state(setup).pushed_apart;
+  return moved > 0
+             ? setup.release.initial_grains + ": grains overlap by less than " +
+                   in_mm(most_measured_overlap) + " and are pushed apart, none by more than " + in_mm(moved)
+             : "";
+}
 
 void read_grains(const Setup& setup, State& state) {
   const std::string& file = setup.release.initial_grains;
@@ -87,6 +163,7 @@ void read_grains(const Setup& setup, State& state) {
                      std::to_string(state.position.size()) + " grains in the file, " +
                          std::to_string(setup.grains.count) + " in the setup",
                      "make them the same"});
+  if (found.empty()) push_apart(setup, state);
   if (found.empty()) check_room(setup, state, file, found);
   if (!found.empty()) throw InputError(std::move(found));
 }

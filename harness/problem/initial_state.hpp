@@ -17,6 +17,7 @@ struct State {
   std::vector<double> mass;    ///< kg
   double x_box = 0;            ///< m
   double v_box = 0;            ///< m/s
+  double pushed_apart = 0;     ///< m, the farthest that a measured position was moved out of an overlap
   std::size_t size() const { return position.size(); }
 };
 

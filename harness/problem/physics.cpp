@@ -6,6 +6,27 @@
 
 namespace shakedown {
 
+double Harmonic::at(double t) const {
+  return amplitude * std::sin(2 * std::numbers::pi * frequency * t + phase);
+}
+
+bool BoxForces::none() const {
+  return viscous.sum() == 0 && dry_friction.sum() == 0 && constant.sum() == 0 && harmonics.empty() &&
+         free.empty();
+}
+
+double BoxForces::newton(double x, double v, double t, double spring) const {
+  double force = spring - viscous.sum() * v + constant.sum();
+  for (const Harmonic& harmonic : harmonics) force += harmonic.at(t);
+  for (const FreeForce& one : free) force += one.newton(x, v, t);
+  return force;
+}
+
+bool GrainForces::none() const {
+  return constant.sum().isZero(0) && harmonics.empty() && drag.sum().none() && free.empty() &&
+         arc_length == 0;
+}
+
 Physics physics_of(const Setup& setup) {
   Physics physics;
   const double angular_frequency = 2 * std::numbers::pi * setup.spring.frequency;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "setup.hpp"
@@ -15,6 +16,34 @@ enum class ContactClass { grain_grain = 0, end_wall = 1, side_wall = 2 };
 constexpr int contact_classes = 3;
 constexpr std::array<const char*, contact_classes> contact_class_names{"grain_grain", "end_wall",
                                                                        "side_wall"};
+
+/// A strength to which several effects contribute: engines let the sum act, and the energy ledger books each
+/// contribution on the line of its own effect.
+template <class Value>
+class Slot {
+ public:
+  struct Share {
+    Value strength;
+    int effect;  ///< line in Setup::effects
+  };
+
+  void add(const Value& strength, int effect) {
+    shares_.push_back({strength, effect});
+    sum_ = shares_.size() == 1 ? strength : Value(sum_ + strength);
+  }
+  const Value& sum() const { return sum_; }
+  const std::vector<Share>& shares() const { return shares_; }
+
+ private:
+  static Value zero() {
+    if constexpr (std::is_same_v<Value, Vec3>)
+      return Vec3::Zero();
+    else
+      return {};
+  }
+  Value sum_ = zero();
+  std::vector<Share> shares_;
+};
 
 /// The law of a contact, in both views. Defaults: constant restitution, no friction, no attraction.
 struct ContactLaw {
@@ -38,6 +67,7 @@ struct ContactLaw {
 
   double attraction_force = 0;  ///< N, constant attraction up to a gap of
   double attraction_range = 0;  ///< m
+  int attraction_effect = -1;   ///< line in Setup::effects
   bool has_attraction() const { return attraction_force > 0 && attraction_range > 0; }
 };
 
@@ -47,6 +77,8 @@ struct Harmonic {
   double frequency = 0;  ///< Hz
   double phase = 0;      ///< rad
   int effect = -1;       ///< line in Setup::effects
+
+  double at(double t) const;  ///< N or m/s^2
 };
 
 /// A force on the box that is none of the closed forms; x, v, t of the box in the lab.
@@ -55,39 +87,59 @@ struct FreeForce {
   int effect = -1;
 };
 
-/// Forces on the box besides the linear spring and the grains. Each effect's index is its line in the ledger,
-/// -1: unused.
+/// Forces on the box besides its spring and the grains.
 struct BoxForces {
-  double viscous = 0;  ///< N s/m: -c v
-  int viscous_effect = -1;
-  double dry_friction = 0;  ///< N: -F sgn(v), sticks
-  int dry_friction_effect = -1;
-  double constant = 0;  ///< N
-  int constant_effect = -1;
+  Slot<double> viscous;             ///< N s/m: -c v
+  Slot<double> dry_friction;        ///< N: -F sgn(v), sticks
+  Slot<double> constant;            ///< N
   std::vector<Harmonic> harmonics;  ///< N
   std::vector<FreeForce> free;      ///< anything else
+
+  bool none() const;  ///< nothing acts
+  /// All but dry friction, of a box at x (m) with velocity v (m/s) at time t (s), added to the force of its
+  /// spring, N.
+  double newton(double x, double v, double t, double spring = 0) const;
+  /// Calls use(newton, effect) for every contribution to newton(), the spring left out.
+  template <class Use>
+  void each(double x, double v, double t, Use&& use) const {
+    for (const auto& share : viscous.shares()) use(-share.strength * v, share.effect);
+    for (const auto& share : constant.shares()) use(share.strength, share.effect);
+    for (const Harmonic& harmonic : harmonics) use(harmonic.at(t), harmonic.effect);
+    for (const FreeForce& force : free) use(force.newton(x, v, t), force.effect);
+  }
+};
+
+/// Drag of the air on one grain: -(linear + quadratic |w|) w at a speed w against air that moves with the
+/// box.
+struct AirDrag {
+  double linear = 0;     ///< N s/m
+  double quadratic = 0;  ///< N s^2/m^2
+
+  AirDrag operator+(const AirDrag& other) const {
+    return {linear + other.linear, quadratic + other.quadratic};
+  }
+  double over_speed(double speed) const { return linear + quadratic * speed; }  ///< N s/m
+  bool none() const { return linear == 0 && quadratic == 0; }
 };
 
 /// Accelerations of the grains between contacts.
 struct GrainForces {
-  Vec3 constant = Vec3::Zero();  ///< m/s^2
-  int constant_effect = -1;
+  Slot<Vec3> constant;  ///< m/s^2
   struct HarmonicVector {
     Vec3 amplitude = Vec3::Zero();  ///< m/s^2
     double frequency = 0, phase = 0;
     int effect = -1;
   };
   std::vector<HarmonicVector> harmonics;
-  double linear_drag =
-      0;  ///< N s/m per grain, against air that moves with the box; the box feels the reaction
-  double quadratic_drag = 0;  ///< N s^2/m^2
-  int drag_effect = -1;
+  Slot<AirDrag> drag;  ///< on each grain; the box feels the reaction
   /// Force on a grain along x, N, as a function of the grain's own x, v and t in the lab.
   std::vector<FreeForce> free;
   /// Length of the blade whose tip the box follows on an arc, m; 0: straight. Transverse (z) acceleration of
   /// the grains in the box frame: -(6/5)(v^2 + x a)/l; in the lab the box's z position is (3/5) x^2/l.
   double arc_length = 0;
   int arc_effect = -1;
+
+  bool none() const;  ///< nothing acts
 };
 
 /// The shutter's number is a time for this length of track, and the lens's a distortion at this distance from
@@ -108,10 +160,9 @@ struct Camera {
 };
 
 struct Physics {
-  double box_mass = 0;      ///< kg, moving mass of the box, added mass included
-  double stiffness = 0;     ///< N/m, k = M (2 pi f)^2 with the setup's M
-  double spring_cubic = 0;  ///< m^-2: spring force -k x (1 + spring_cubic x^2)
-  int spring_cubic_effect = -1;
+  double box_mass = 0;              ///< kg, moving mass of the box, added mass included
+  double stiffness = 0;             ///< N/m, k = M (2 pi f)^2 with the setup's M
+  double spring_cubic = 0;          ///< m^-2: spring force -k x (1 + spring_cubic x^2)
   double initial_box_velocity = 0;  ///< m/s
   double release_displacement = 0;  ///< m, of the setup: effects scale with it
   double soft_contact_time =

@@ -23,19 +23,19 @@ ReportSection errors_section(const std::string& title, const std::vector<RunComp
     bars.lines.push_back({run.run,
                           fmt::format("{} times the floor", for_people(run.error_box / run.floor_box)),
                           {run.error_box * 1e3, run.floor_box * 1e3}});
-    centre.cells.push_back(for_people(run.error_centre * 1e3));
-    spread.cells.push_back(for_people(run.floor_centre * 1e3));
+    centre.cells.push_back(run.floor_centre > 0 ? for_people(run.error_centre * 1e3) : "–");
+    spread.cells.push_back(run.floor_centre > 0 ? for_people(run.floor_centre * 1e3) : "–");
   }
   section.bars = {bars};
   section.tables = {numbers_of(bars, "run", {centre, spread})};
   return section;
 }
 
-Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, const Experiment& experiment,
+Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, const Measurement& measurement,
                  const Setup& setup, const std::vector<MeasuredAgainstModel>& curves) {
   Report report;
   report.kind = "compare";
-  report.title = experiment.title.empty() ? experiment.file : experiment.title;
+  report.title = measurement.title.empty() ? measurement.file : measurement.title;
   report.verdict = holds ? "The model holds" : "The data reject the model";
   report.tone = holds ? Tone::good : Tone::bad;
   report.sentence =

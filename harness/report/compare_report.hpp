@@ -8,7 +8,7 @@
 namespace shakedown {
 
 /// The report of a comparison; the curves must come from measured_against_model() with this setup alone.
-Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, const Experiment& experiment,
+Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, const Measurement& measurement,
                  const Setup& setup, const std::vector<MeasuredAgainstModel>& curves);
 
 /// Error of each run as bars beside what noise and spread make.

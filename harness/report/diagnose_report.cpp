@@ -20,7 +20,8 @@ namespace {
 Tone tone_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::adequate: return Tone::good;
-    case Verdict::refit: return Tone::unsure;
+    case Verdict::refit:
+    case Verdict::measurement: return Tone::unsure;
     case Verdict::missing: return Tone::bad;
     case Verdict::unknown: break;
   }
@@ -31,6 +32,7 @@ std::string verdict_in_words(const Diagnosis& diagnosis) {
   switch (diagnosis.verdict) {
     case Verdict::adequate: return "The model holds";
     case Verdict::refit: return "Other parameters suffice";
+    case Verdict::measurement: return "The measurement explains it";
     case Verdict::missing:
       return diagnosis.missing.size() == 1 ? "An effect is missing" : "Effects are missing";
     case Verdict::unknown: break;
@@ -248,11 +250,11 @@ ReportSection momentum_section(const MomentumAudit& momentum) {
   return section;
 }
 
-Report report_of(const Diagnosis& diagnosis, const Experiment& experiment, const Setup& given,
+Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, const Setup& given,
                  const std::vector<MeasuredAgainstModel>& curves) {
   Report report;
   report.kind = "diagnose";
-  report.title = experiment.title.empty() ? experiment.file : experiment.title;
+  report.title = measurement.title.empty() ? measurement.file : measurement.title;
   report.verdict = verdict_in_words(diagnosis);
   report.sentence = diagnosis.sentence;
   report.tone = tone_of(diagnosis.verdict);

@@ -8,7 +8,7 @@ namespace shakedown {
 
 /// The report of a diagnosis. `given`: the setup as the user had it. The curves must come from
 /// measured_against_model() with the setup as given and Diagnosis::amended.
-Report report_of(const Diagnosis& diagnosis, const Experiment& experiment, const Setup& given,
+Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, const Setup& given,
                  const std::vector<MeasuredAgainstModel>& curves);
 
 /// Sections of the momentum balance: forces that the model lacks, and their curves.

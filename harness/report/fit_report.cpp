@@ -76,11 +76,11 @@ std::vector<ReportFact> facts_of(const Fit& fit) {
 
 }  // namespace
 
-Report report_of(const Fit& fit, const Experiment& experiment,
+Report report_of(const Fit& fit, const Measurement& measurement,
                  const std::vector<MeasuredAgainstModel>& curves) {
   Report report;
   report.kind = "fit";
-  report.title = experiment.title.empty() ? experiment.file : experiment.title;
+  report.title = measurement.title.empty() ? measurement.file : measurement.title;
   const auto untold = std::count_if(fit.parameters.begin(), fit.parameters.end(),
                                     [](const FittedParameter& p) { return !p.told; });
   report.verdict = fit.p_value <= rejected ? "No values fit" : untold > 0 ? "Not all is told" : "Fitted";

@@ -8,7 +8,7 @@ namespace shakedown {
 
 /// The report of a fit; the curves must come from measured_against_model() with the setup as given and
 /// Fit::fitted.
-Report report_of(const Fit& fit, const Experiment& experiment,
+Report report_of(const Fit& fit, const Measurement& measurement,
                  const std::vector<MeasuredAgainstModel>& curves);
 
 }  // namespace shakedown

@@ -29,7 +29,7 @@ ReportSection errors_section(const std::vector<Rung>& rungs, bool refitted) {
         rung.setup, rung.effects, {rung.fit.error_box() * 1e3}, {}, rung.holds() ? Tone::good : Tone::bad};
     if (refitted) line.values.push_back(rung.fit.held_out_error_box * 1e3);
     bars.lines.push_back(std::move(line));
-    centre.cells.push_back(for_people(rung.fit.error_centre() * 1e3));
+    centre.cells.push_back(rung.fit.floor_centre() > 0 ? for_people(rung.fit.error_centre() * 1e3) : "–");
     floor.cells.push_back(for_people(rung.fit.floor_box() * 1e3));
     p.cells.push_back(for_people(rung.fit.p_value));
     momentum.cells.push_back(rung.momentum.possible ? for_people(rung.momentum.as_given.p_value) : "–");
@@ -74,11 +74,11 @@ ReportSection parameters_section(const std::vector<Rung>& rungs) {
 
 }  // namespace
 
-Report report_of(const std::vector<Rung>& rungs, bool refitted, const Experiment& experiment,
+Report report_of(const std::vector<Rung>& rungs, bool refitted, const Measurement& measurement,
                  const Setup& last) {
   Report report;
   report.kind = "ladder";
-  report.title = experiment.title.empty() ? experiment.file : experiment.title;
+  report.title = measurement.title.empty() ? measurement.file : measurement.title;
   const auto best = std::min_element(rungs.begin(), rungs.end(), [](const Rung& a, const Rung& b) {
     return a.fit.error_box() < b.fit.error_box();
   });

@@ -16,7 +16,7 @@ struct Rung {
 };
 
 /// The report of a ladder; `last`: the last rung's setup.
-Report report_of(const std::vector<Rung>& rungs, bool refitted, const Experiment& experiment,
+Report report_of(const std::vector<Rung>& rungs, bool refitted, const Measurement& measurement,
                  const Setup& last);
 
 }  // namespace shakedown

@@ -7,7 +7,6 @@
 
 #include "camera.hpp"
 #include "ensemble.hpp"
-#include "experiment_file.hpp"
 #include "physics.hpp"
 #include "report_parts.hpp"
 
@@ -120,28 +119,27 @@ std::vector<double> measured_at(const std::vector<double>& time, const MeasuredR
 
 }  // namespace
 
-std::vector<MeasuredAgainstModel> measured_against_model(const Experiment& experiment, const Audit& audit,
-                                                         const Setup* given, const Setup& final_setup,
-                                                         const Engine& engine, const CurveOptions& options) {
-  const std::vector<Setup> last = setups_of_runs(final_setup, experiment, options.known);
-  const std::vector<Setup> first =
-      given != nullptr ? setups_of_runs(*given, experiment, options.known) : last;
+std::vector<MeasuredAgainstModel> measured_against_model(const Measurement& measurement, const Setup* given,
+                                                         const Setup& final_setup, const Engine& engine,
+                                                         const CurveOptions& options) {
   std::vector<MeasuredAgainstModel> all;
-  for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
-    const MeasuredRun& run = experiment.runs[r];
-    const RunAudit& found = audit.runs[r];
+  for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
+    const MeasuredRun& run = measurement.runs[r].recorded;
+    const RunAudit& found = measurement.runs[r].audit;
     if (run.time.empty()) continue;
+    const Setup last = setup_of_run(final_setup, run, options.known);
+    const Setup first = given != nullptr ? setup_of_run(*given, run, options.known) : last;
     MeasuredAgainstModel one{
-        run.name, first[r], last[r], {}, {}, {}, found.box.standard_deviation, found.com.standard_deviation,
-        {},       {},       {},      {}, {}, {}};
+        run.name, first, last, {}, {}, {}, found.box.standard_deviation, found.com.standard_deviation,
+        {},       {},    {},   {}, {}, {}};
     const double end = std::min(run.time.back(), 60.0);
     for (std::int64_t k = 0; static_cast<double>(k) / options.rate <= end; ++k)
       one.time.push_back(static_cast<double>(k) / options.rate);
     one.box = measured_at(one.time, run, found.x_box, found.frame_interval);
     one.centre = measured_at(one.time, run, found.x_com, found.frame_interval);
-    one.final_model = motion_of(last[r], one.time, engine, options);
+    one.final_model = motion_of(last, one.time, engine, options);
     if (given != nullptr) {
-      one.as_given = motion_of(first[r], one.time, engine, options);
+      one.as_given = motion_of(first, one.time, engine, options);
       one.given_box_residual = residual(one.box, one.as_given.box, one.box_noise, one.as_given.runs);
       one.given_centre_residual =
           residual(one.centre, one.as_given.centre, one.centre_noise, one.as_given.runs);
@@ -151,7 +149,7 @@ std::vector<MeasuredAgainstModel> measured_against_model(const Experiment& exper
         residual(one.centre, one.final_model.centre, one.centre_noise, one.final_model.runs);
     all.push_back(std::move(one));
     if (options.progress)
-      options.progress(static_cast<double>(r + 1) / static_cast<double>(experiment.runs.size()));
+      options.progress(static_cast<double>(r + 1) / static_cast<double>(measurement.runs.size()));
   }
   return all;
 }

@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "audit.hpp"
 #include "engine.hpp"
-#include "experiment.hpp"
+#include "measurement.hpp"
 #include "report.hpp"
 
 namespace shakedown {
@@ -53,9 +52,9 @@ struct CurveOptions {
 };
 
 /// `given` may be null: only the final model is simulated. Throws what engines throw, and Interrupted.
-std::vector<MeasuredAgainstModel> measured_against_model(const Experiment& experiment, const Audit& audit,
-                                                         const Setup* given, const Setup& final_setup,
-                                                         const Engine& engine, const CurveOptions& options);
+std::vector<MeasuredAgainstModel> measured_against_model(const Measurement& measurement, const Setup* given,
+                                                         const Setup& final_setup, const Engine& engine,
+                                                         const CurveOptions& options);
 
 /// The parts of a report that come from these curves.
 ReportSection curves_section(const std::vector<MeasuredAgainstModel>& runs, const std::string& title);

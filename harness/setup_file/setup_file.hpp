@@ -37,6 +37,14 @@ Setup read_setup(const std::filesystem::path& file, std::span<const EffectRecord
 Setup parse_setup(std::string_view text, const std::string& name, std::span<const EffectRecord* const> known,
                   std::span<const Override> overrides = {}, const std::filesystem::path& folder = {});
 
+/// The setup with these keys set, read and checked as those of a file are; effects at their neutral value are
+/// dropped. Throws InputError with every violation at once.
+Setup with_overrides(Setup setup, std::span<const Override> overrides,
+                     std::span<const EffectRecord* const> known);
+
+/// One effect of a setup as TOML: [[effect]], its name and all of its parameters.
+std::string write_effect(const EffectChoice& choice);
+
 /// The setup as TOML that read_setup reads back to the same setup, bit for bit.
 std::string write_setup(const Setup& setup);
 

@@ -136,8 +136,9 @@ void write_override(TomlValue& root, const Override& override, Known known) {
 struct Reader {
   Known known;
   std::filesystem::path folder;
-  Setup setup{};
+  Setup setup{};  ///< what is read goes on top of it
   std::vector<Violation> found{};
+  std::size_t already = 0;  ///< effects that the setup had before
 
   void add(const SourcePlace& place, std::string key, std::string problem, std::string remedy) {
     found.push_back({place, std::move(key), std::move(problem), std::move(remedy)});
@@ -271,7 +272,18 @@ struct Reader {
     EffectChoice choice = with_defaults(*record);
     choice.place = name->place;
     read_parameters(table, choice);
+    if (EffectChoice* changed = changed_choice(*record)) {
+      changed->values = std::move(choice.values);
+      return;
+    }
     setup.effects.push_back(std::move(choice));
+  }
+
+  /// The choice of the setup that overrides began with, if it has this effect.
+  EffectChoice* changed_choice(const EffectRecord& record) {
+    for (std::size_t i = 0; i < already; ++i)
+      if (setup.effects[i].record == &record) return &setup.effects[i];
+    return nullptr;
   }
 
   void read_effects(const TomlEntry& entry) {
@@ -297,7 +309,48 @@ struct Reader {
       return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
     });
   }
+
+  Setup read_to_the_end(const TomlValue& root) {
+    read_all(root);
+    check_values();
+    if (!found.empty()) throw InputError(std::move(found));
+    std::erase_if(setup.effects, [](const EffectChoice& choice) { return is_neutral(choice); });
+    return std::move(setup);
+  }
 };
+
+/// The table of an effect that the setup has, to be changed in part; what is not changed keeps its place.
+TomlValue table_of(const EffectChoice& choice, const Setup& setup) {
+  TomlValue table = parse_toml(write_effect(choice), "").find("effect")->items.front();
+  table.place = choice.place;
+  for (TomlEntry& entry : table.entries)
+    entry.place = entry.value.place =
+        entry.key == "name" ? choice.place
+                            : place_of(setup, std::string(choice.record->name) + "." + entry.key);
+  return table;
+}
+
+/// What overrides change only a part of: effects of the setup, and lists of which one component is set.
+TomlValue changed_in_part(const Setup& setup, std::span<const Override> overrides) {
+  TomlValue root;
+  for (const Override& override : overrides) {
+    const std::string_view key = override.key;
+    const SourcePlace place{override.origin, 0, 0};
+    if (const EffectChoice* choice = find_choice(setup, key.substr(0, key.find('.')))) {
+      TomlValue& list = entry_of(root, "effect", place).value;
+      list.kind = TomlValue::Kind::array;
+      const auto same = [&](const TomlValue& item) {
+        return item.find("name")->text == choice->record->name;
+      };
+      if (std::none_of(list.items.begin(), list.items.end(), same))
+        list.items.push_back(table_of(*choice, setup));
+    } else if (const SetupKey* list = find_setup_key(key.substr(0, key.rfind('.')))) {
+      TomlValue& section = entry_of(root, list->section(), place).value;
+      set(entry_of(section, list->name(), place), value_of({"", toml_of(*list, setup), override.origin}));
+    }
+  }
+  return root;
+}
 
 }  // namespace
 
@@ -325,12 +378,15 @@ Setup parse_setup(std::string_view text, const std::string& name, Known known,
                   std::span<const Override> overrides, const std::filesystem::path& folder) {
   TomlValue root = parse_toml(text, name);
   for (const Override& override : overrides) write_override(root, override, known);
-  Reader reader{known, folder};
-  reader.read_all(root);
-  reader.check_values();
-  if (!reader.found.empty()) throw InputError(std::move(reader.found));
-  std::erase_if(reader.setup.effects, [](const EffectChoice& choice) { return is_neutral(choice); });
-  return std::move(reader.setup);
+  return Reader{known, folder}.read_to_the_end(root);
+}
+
+Setup with_overrides(Setup setup, std::span<const Override> overrides, Known known) {
+  TomlValue root = changed_in_part(setup, overrides);
+  for (const Override& override : overrides) write_override(root, override, known);
+  Reader reader{known, {}, std::move(setup)};
+  reader.already = reader.setup.effects.size();
+  return reader.read_to_the_end(root);
 }
 
 Setup read_setup(const std::filesystem::path& file, Known known, std::span<const Override> overrides) {

@@ -37,13 +37,6 @@ std::string toml_of_parameter(const Parameter& parameter, const EffectChoice& ch
   return "";
 }
 
-std::string toml_of_effect(const EffectChoice& choice) {
-  std::string text = "\n[[effect]]\nname = " + toml_string(choice.record->name) + "\n";
-  for (const Parameter& parameter : choice.record->parameters)
-    text += std::string(parameter.name) + " = " + toml_of_parameter(parameter, choice) + "\n";
-  return text;
-}
-
 bool left_out(const SetupKey& key, const Setup& setup) {
   if (key.path == "release.initial_grains" && setup.release.initial_grains.empty()) return true;
   // An effect that stands for this key: both in one file would be a contradiction.
@@ -52,6 +45,13 @@ bool left_out(const SetupKey& key, const Setup& setup) {
 }
 
 }  // namespace
+
+std::string write_effect(const EffectChoice& choice) {
+  std::string text = "\n[[effect]]\nname = " + toml_string(choice.record->name) + "\n";
+  for (const Parameter& parameter : choice.record->parameters)
+    text += std::string(parameter.name) + " = " + toml_of_parameter(parameter, choice) + "\n";
+  return text;
+}
 
 std::string write_setup(const Setup& setup) {
   std::string text;
@@ -64,7 +64,7 @@ std::string write_setup(const Setup& setup) {
     }
     text += std::string(key.name()) + " = " + toml_of(key, setup) + "\n";
   }
-  for (const EffectChoice& choice : setup.effects) text += toml_of_effect(choice);
+  for (const EffectChoice& choice : setup.effects) text += write_effect(choice);
   return text;
 }
 

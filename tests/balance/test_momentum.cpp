@@ -4,18 +4,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "balance_problem.hpp"
+#include "effects.hpp"
 #include "force_map.hpp"
 #include "momentum.hpp"
 #include "momentum_run.hpp"
-#include "momentum_selection.hpp"
 #include "pushed_box.hpp"
 #include "random.hpp"
+#include "setup_file.hpp"
 
 namespace shakedown {
 namespace {
 
 MomentumAudit audited(const Experiment& experiment, const std::vector<Setup>& setups) {
-  return audit_momentum(experiment, audit(experiment), setups);
+  return audit_momentum(measurement_of(setups, experiment), all_effects());
 }
 MomentumAudit audited(const Experiment& experiment) { return audited(experiment, pushed_setups(experiment)); }
 MomentumAudit audited(const PushedBox& what, std::uint64_t seed = 1) {
@@ -28,11 +30,14 @@ std::string names(const MomentumAudit& audit) {
   return text;
 }
 
-/// One term, this one, its value within the interval widened to 4 standard errors.
-void expect_found(const MomentumAudit& audit, const std::string& effect, double value) {
+/// One term, this one, off by no more than `tolerance` (in its unit), in an interval that covers the value
+/// (to 4 standard errors) and is no wider than 4 tolerances.
+void expect_found(const MomentumAudit& audit, const std::string& effect, double value, double tolerance) {
   ASSERT_EQ(names(audit), effect);
   const FoundTerm& term = audit.terms[0];
+  EXPECT_NEAR(term.value, value, tolerance) << effect;
   EXPECT_NEAR(term.value, value, 2.1 * (term.high - term.low) / 2) << effect;
+  EXPECT_LT(term.high - term.low, 4 * tolerance) << effect;
   EXPECT_GT(audit.final_fit.p_value, 1e-3) << audit.final_fit.chi2_per_degree();
   EXPECT_FALSE(audit.unexplained);
 }
@@ -52,29 +57,33 @@ TEST(Momentum, NothingHiddenNothingFound) {
 TEST(Momentum, EachForceFromOutsideIsNamedAndMeasured) {
   PushedBox what;
   what.viscous = 0.02;
-  expect_found(audited(what), "blade_viscous_damping", 0.02);
+  expect_found(audited(what), "blade_viscous_damping", 0.02, 2e-4);
   what = {};
   what.acceleration = -0.05;
-  expect_found(audited(what), "constant_acceleration", -0.05);
+  expect_found(audited(what), "constant_acceleration", -0.05, 8e-3);
   what = {};
   what.cubic = -0.03;
-  expect_found(audited(what), "spring_cubic", -0.03);
+  expect_found(audited(what), "spring_cubic", -0.03, 1e-3);
   what = {};
   what.force = [](double, double v, double) { return -0.1 * v * std::abs(v); };
-  expect_found(audited(what), "blade_quadratic_drag", 0.1);
+  expect_found(audited(what), "blade_quadratic_drag", 0.1, 1e-3);
   what = {};
-  what.extra_mass = 0.01;
+  what.extra_mass = 0.03;  // 10 g are within what scales and a marker's depth make
   const MomentumAudit mass = audited(what);
-  ASSERT_EQ(names(mass), "blade_mass");
-  EXPECT_NEAR(mass.terms[0].value, 0.01, 1.2 * (mass.terms[0].high - mass.terms[0].low));
-  EXPECT_EQ(mass.terms[0].look_alikes, std::vector<std::string>{"camera_com_bias"});
+  // Without a packed layer at several lengths a heavier box and a smaller distance of the grains are one
+  // column.
+  ASSERT_EQ(mass.terms.size(), 1u);
+  std::vector<std::string> told = mass.terms[0].look_alikes;
+  told.push_back(mass.terms[0].effect);
+  EXPECT_NE(std::find(told.begin(), told.end(), "blade_mass"), told.end());
+  EXPECT_NE(std::find(told.begin(), told.end(), "camera_com_bias"), told.end());
 }
 
 TEST(Momentum, DryFrictionIsJudgedWhereTheBoxMoves) {
   PushedBox what;
   what.dry_friction = 0.02;
   const MomentumAudit audit = audited(what);
-  expect_found(audit, "clamp_dry_friction", 0.02);
+  expect_found(audit, "clamp_dry_friction", 0.02, 2e-4);
   EXPECT_TRUE(audit.only_moving);
 }
 
@@ -85,7 +94,8 @@ TEST(Momentum, ForcingIsFoundAtItsFrequency) {
     return mass * 0.01 * std::sin(2 * std::numbers::pi * 3.3 * t + 0.7);
   };
   const MomentumAudit audit = audited(what);
-  expect_found(audit, "oscillating_acceleration", 0.01);
+  expect_found(audit, "oscillating_acceleration", 0.01, 2e-3);  // seen: 1.6e-3
+  ASSERT_FALSE(audit.terms.empty());
   EXPECT_NEAR(audit.terms[0].frequency, 3.3, 0.01);
   EXPECT_NEAR(audit.terms[0].phase, 0.7, (audit.terms[0].high - audit.terms[0].low) / audit.terms[0].value);
 }
@@ -99,7 +109,8 @@ TEST(Momentum, AStrongFastSineStandsAlone) {
     return mass * 0.1 * std::sin(2 * std::numbers::pi * 3 * t + 1);
   };
   const MomentumAudit audit = audited(what);
-  expect_found(audit, "oscillating_acceleration", 0.1);
+  expect_found(audit, "oscillating_acceleration", 0.1, 1e-2);
+  ASSERT_FALSE(audit.terms.empty());
   EXPECT_NEAR(audit.terms[0].frequency, 3, 0.01);
 }
 
@@ -120,12 +131,12 @@ TEST(Momentum, CameraErrorsAreNotForces) {
   for (MeasuredRun& run : experiment.runs)
     for (std::size_t i = 0; i < run.time.size(); ++i)
       run.x_com[i] = run.x_box[i] + 0.95 * (run.x_com[i] - run.x_box[i]);
-  expect_found(audited(experiment), "camera_com_bias", 0.05);
+  expect_found(audited(experiment), "camera_com_bias", 0.05, 6e-3);  // known to 5e-3 beforehand
   experiment = pushed_box({}, 3);
   for (MeasuredRun& run : experiment.runs)
     for (std::size_t i = 0; i < run.time.size(); ++i)
       run.x_box[i] += 1e-3 * run.time[i], run.x_com[i] += 1e-3 * run.time[i];
-  expect_found(audited(experiment), "camera_drift", 1e-3);
+  expect_found(audited(experiment), "camera_drift", 1e-3, 1e-4);
   experiment = pushed_box({}, 4);
   for (MeasuredRun& run : experiment.runs)
     for (std::size_t i = 0; i < run.time.size(); ++i)
@@ -158,7 +169,7 @@ TEST(Momentum, EmptyBoxAndMissingGrains) {
   PushedBox what;
   what.grains = false;
   what.viscous = 0.02;
-  expect_found(audited(what), "blade_viscous_damping", 0.02);
+  expect_found(audited(what), "blade_viscous_damping", 0.02, 2e-4);
   Experiment experiment = pushed_box({}, 8);
   std::vector<shakedown::Setup> setups = pushed_setups(experiment);
   for (MeasuredRun& run : experiment.runs) run.x_com.clear();
@@ -221,16 +232,9 @@ TEST(Momentum, AWrongFrequencyIsARefitNotAForce) {
 }
 
 std::vector<shakedown::Setup> with_damping(const Experiment& experiment, double damping) {
-  static const EffectRecord record = [] {
-    EffectRecord made;
-    made.name = "blade_viscous_damping";
-    made.apply = [](const EffectChoice& choice, int, Physics& physics) {
-      physics.box.viscous += choice.number("damping");
-    };
-    return made;
-  }();
   std::vector<shakedown::Setup> setups = pushed_setups(experiment);
-  for (shakedown::Setup& setup : setups) setup.effects.push_back({&record, {{"damping", damping}}, {}});
+  for (shakedown::Setup& setup : setups)
+    set_number(setup, "blade_viscous_damping.damping", damping, all_effects());
   return setups;
 }
 
@@ -238,7 +242,8 @@ TEST(Momentum, WhatTheSetupHasTooMuchOfIsTakenOff) {
   PushedBox what;
   what.viscous = 0.02;
   const Experiment experiment = pushed_box(what, 11);
-  expect_found(audited(experiment, with_damping(experiment, 0.05)), "blade_viscous_damping", -0.03);
+  expect_found(audited(experiment, with_damping(experiment, 0.05)), "blade_viscous_damping", 0.02,
+               3e-4);  // of the setup's 0.05
 }
 
 TEST(Momentum, OneSpringHasOneCoefficientWhateverTheRelease) {
@@ -246,20 +251,15 @@ TEST(Momentum, OneSpringHasOneCoefficientWhateverTheRelease) {
   what.cubic = -0.03;  // at 107.5 mm, as all runs were released
   const Experiment experiment = pushed_box(what, 12);
   std::vector<shakedown::Setup> setups = pushed_setups(experiment);
-  EXPECT_EQ(audited(experiment, setups).reference_displacement, 0);
   setups.back().release.displacement *= 0.5;  // so the setup says
   const MomentumAudit audit = audited(experiment, setups);
-  EXPECT_DOUBLE_EQ(audit.reference_displacement, 0.1075);
-  expect_found(audit, "spring_cubic", -0.03);
+  expect_found(audit, "spring_cubic", -0.03, 1e-3);
 }
 
 double top_speed_of_the_map(const Experiment& experiment) {
-  const std::vector<shakedown::Setup> setups = pushed_setups(experiment);
-  const Audit found = audit(experiment);
-  std::vector<MomentumRun> runs;
-  for (std::size_t i = 0; i < setups.size(); ++i)
-    runs.push_back(momentum_run(found.runs[i], experiment.runs[i], setups[i]));
-  return ForceMap(selection_problem(runs, 1.23, {}).problem, runs).scales().velocity;
+  const Measurement measurement = measurement_of(pushed_setups(experiment), experiment);
+  const BalanceProblem balance(measurement, all_effects());
+  return ForceMap(balance.windows_of(0.5, 0.125).problem, balance.runs()).scales().velocity;
 }
 
 TEST(Momentum, SpeedsOverAGapAreNotTheBoxs) {

@@ -46,22 +46,9 @@ TEST(Candidates, AnEffectOfTomorrowIsLookedForByItsRecordAlone) {
   EXPECT_EQ(found.knobs[0].centre, 0);
   EXPECT_EQ(found.knobs[0].width, 0.2);
   EXPECT_EQ(found.knobs[0].high, 5);
-  EXPECT_TRUE(found.seen_by_momentum);
-  EXPECT_EQ(found.doubt, 0);
-}
-
-TEST(Candidates, WhatTheBalanceOfMomentumSeesFollowsFromTheForces) {
-  const std::vector<Candidate> list = candidates_for({}, {}, all_effects());
-  for (const char* effect : {"blade_viscous_damping", "clamp_dry_friction", "spring_cubic", "blade_mass",
-                             "camera_com_bias", "camera_arc", "camera_drift"})
-    EXPECT_TRUE(candidate_for(list, effect).seen_by_momentum) << effect;
-  for (const char* effect : {"grain_friction", "grain_air_drag", "side_wall_restitution", "blade_arc",
-                             "camera_scale", "camera_time_offset", "initial_box_velocity"})
-    EXPECT_FALSE(candidate_for(list, effect).seen_by_momentum) << effect;
-  for (const Candidate& candidate : list)
-    if (candidate.effect == "constant_acceleration") {
-      EXPECT_EQ(candidate.seen_by_momentum, candidate.knobs[0].key.ends_with(".x"));
-    }
+  EXPECT_EQ(found.prior.typical, 0.2);
+  EXPECT_EQ(found.prior.odds, 1);
+  EXPECT_TRUE(found.prior.one_sided);
 }
 
 TEST(Candidates, KnobsStandWhereTheEffectIsAbsent) {
@@ -78,7 +65,11 @@ TEST(Candidates, KnobsStandWhereTheEffectIsAbsent) {
   const Candidate& arc = candidate_for(list, "blade_arc");
   EXPECT_TRUE(arc.knobs.empty());
   EXPECT_EQ(arc.fitted_knobs().at(0).centre, 0.59);
-  EXPECT_NEAR(candidate_for(list, "grain_air_drag").doubt, 10, 0.02);
+  // The curvature of a blade of this length, which cannot be negative.
+  EXPECT_NEAR(arc.prior.typical, 1 / (0.59 * 0.59), 1e-12);
+  EXPECT_TRUE(arc.prior.one_sided);
+  EXPECT_LT(candidate_for(list, "grain_air_drag").prior.odds, 0.01);  // air does so little in fact
+  EXPECT_FALSE(candidate_for(list, "spring_cubic").prior.one_sided);
 }
 
 TEST(Candidates, LeaveOutWhatTheSetupHasAndWhatItCannotHave) {

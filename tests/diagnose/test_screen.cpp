@@ -4,7 +4,6 @@
 
 #include "effects.hpp"
 #include "engines.hpp"
-#include "experiment_file.hpp"
 #include "hidden_measurements.hpp"
 #include "linear_screen.hpp"
 #include "parameter_knobs.hpp"
@@ -21,7 +20,7 @@ ScreenedEffect screened(const std::string& hidden, const std::string& candidate)
       {hidden.empty() ? std::vector<std::string>{} : std::vector{hidden}, {}, {}, {0.065, 0.104}, 3, "4 s"},
       "hard");
   const std::vector<MeasuredFeatures> features =
-      features_of(experiment, audit(experiment), setups_of_runs(setup, experiment, all_effects()));
+      features_of(measurement_of(setup, experiment, all_effects()));
   Workshop workshop;
   workshop.engine = engine.get();
   workshop.known = all_effects();

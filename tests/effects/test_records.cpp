@@ -299,12 +299,12 @@ TEST(RecordList, EffectsCombineInAnyOrder) {
   const Physics one = physics_of(parse_setup(forward, "forward", all_effects()));
   const Physics other = physics_of(parse_setup(backward, "backward", all_effects()));
   EXPECT_EQ(one.box_mass, 0.444);
-  EXPECT_EQ(one.box.constant, 0.1 * 0.444) << "an acceleration acts on the added mass too";
+  EXPECT_EQ(one.box.constant.sum(), 0.1 * 0.444) << "an acceleration acts on the added mass too";
   for (const ContactClass kind : {ContactClass::grain_grain, ContactClass::end_wall, ContactClass::side_wall})
     EXPECT_EQ(one.contact.restitution_at(kind, 0.1), other.contact.restitution_at(kind, 0.1));
   EXPECT_EQ(one.contact.restitution_at(ContactClass::side_wall, 0.3), 0.6)
       << "the side walls' own value at the reference speed";
-  EXPECT_EQ(one.box.constant, other.box.constant);
+  EXPECT_EQ(one.box.constant.sum(), other.box.constant.sum());
   EXPECT_EQ(one.box.harmonics.at(0).amplitude, other.box.harmonics.at(0).amplitude);
 }
 
@@ -335,16 +335,16 @@ TEST(RecordList, ForcesHaveTheSignsOfTheirFormulas) {
     const std::vector<Override> overrides{{key, value}};
     return physics_of(parse_setup("", "s", all_effects(), overrides));
   };
-  EXPECT_EQ(physics_with("blade_viscous_damping.damping", "0.05 N s/m").box.viscous, 0.05);
-  EXPECT_EQ(physics_with("clamp_dry_friction.force", "20 mN").box.dry_friction, 0.02);
+  EXPECT_EQ(physics_with("blade_viscous_damping.damping", "0.05 N s/m").box.viscous.sum(), 0.05);
+  EXPECT_EQ(physics_with("clamp_dry_friction.force", "20 mN").box.dry_friction.sum(), 0.02);
   const Physics drag = physics_with("blade_quadratic_drag.drag", "0.5 N s^2/m^2");
   EXPECT_EQ(drag.box.free.at(0).newton(0, 2, 0), -2);
   EXPECT_EQ(drag.box.free.at(0).newton(0, -2, 0), 2);
   EXPECT_DOUBLE_EQ(physics_with("spring_cubic.coefficient", "0.04").spring_cubic * 0.1075 * 0.1075, 0.04);
   const Physics gravity = physics_with("constant_acceleration.acceleration.x", "0.2 m/s^2");
-  EXPECT_EQ(gravity.grains.constant, Vec3(0.2, 0, 0));
-  EXPECT_DOUBLE_EQ(gravity.box.constant, 0.434 * 0.2);
-  EXPECT_EQ(physics_with("constant_acceleration.acceleration.y", "0.2 m/s^2").box.constant, 0);
+  EXPECT_EQ(gravity.grains.constant.sum(), Vec3(0.2, 0, 0));
+  EXPECT_DOUBLE_EQ(gravity.box.constant.sum(), 0.434 * 0.2);
+  EXPECT_EQ(physics_with("constant_acceleration.acceleration.y", "0.2 m/s^2").box.constant.sum(), 0);
   const std::vector<Override> jitter{
       {"oscillating_acceleration.amplitude", "[\"0.1 m/s^2\", \"0 m/s^2\", \"0.3 m/s^2\"]"},
       {"oscillating_acceleration.frequency", "7 Hz"},

@@ -57,7 +57,7 @@ class SlowStalls : public testing::TestWithParam<Strong> {
   }
   static bool exact() {
     const EffectRecord* record = find_effect(GetParam().effect);
-    return record->hard.fidelity == Fidelity::exact;
+    return record->capability("hard").fidelity == Fidelity::exact;
   }
 };
 

@@ -295,7 +295,7 @@ TEST(SameImpacts, AtEndWallsOfADrivenBoxThroughWindows) {
   Physics sticks, cubic;
   sticks.box_mass = cubic.box_mass = 0.434;
   sticks.stiffness = cubic.stiffness = 25.92;
-  sticks.box.dry_friction = 2;  // N; the spring pulls with 2.8 N at release
+  sticks.box.dry_friction.add(2, 0);  // N; the spring pulls with 2.8 N at release
   sticks.box.harmonics.push_back({1.5, 3, 0, -1});
   cubic.spring_cubic = 50;
   for (const Physics& physics : {sticks, cubic}) {

@@ -14,7 +14,7 @@ std::vector<Physics> driven_boxes() {
   shaken.stiffness = 25.92;
   shaken.box.harmonics.push_back({0.3, 2, 0.4, -1});
   Physics sticks = shaken, cubic = shaken;
-  sticks.box.dry_friction = 0.25;
+  sticks.box.dry_friction.add(0.25, 0);
   cubic.spring_cubic = 50;
   return {shaken, sticks, cubic};
 }

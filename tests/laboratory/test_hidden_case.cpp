@@ -86,7 +86,7 @@ TEST(HiddenCase, MistakesAreNamedWithWhatToDo) {
             std::string::npos);
   const std::string both = message([] { parse_recording({"noise.box=0.2", "fsp=500"}); });
   EXPECT_NE(both.find("has no unit"), std::string::npos);
-  EXPECT_NE(both.find("known: centre, noise.box"), std::string::npos);
+  EXPECT_NE(both.find("known: centre, stamped, declared, noise.box"), std::string::npos);
 }
 
 TEST(HiddenCase, EveryEffectOfTheListCanBeHiddenByItsNameAlone) {

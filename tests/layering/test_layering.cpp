@@ -60,8 +60,11 @@ const std::map<std::string, std::set<std::string>> headers_of_others{
     {"Threads::Threads", {}},
 };
 
-/// The TOML library is headers alone and no target: one folder opens it.
-bool may_open_toml(const Layer& layer) { return layer.library == "setup_file"; }
+/// The TOML library is headers alone and no target: one folder reads with it, one turns setups into JSON by
+/// it.
+bool may_open_toml(const Layer& layer) {
+  return layer.library == "setup_file" || layer.library == "ensemble";
+}
 
 struct Include {
   fs::path file;

@@ -23,23 +23,22 @@ MeasuredRun parabolic_run(double rate, int every_lost) {
   return run;
 }
 
-RunAudit audit_of(const MeasuredRun& run) {
+Measurement::Run with_audit(const MeasuredRun& run) {
   RunAudit audit;
   audit.frame_interval = 1 / run.frame_rate;
   audit.box.standard_deviation = 2e-4;
   audit.com.standard_deviation = 5e-4;
   audit.x_box = run.x_box;
   audit.x_com = run.x_com;
-  return audit;
+  return {run, audit, {}};
 }
 
 TEST(Features, AreTheLevelsAtTheMiddleOfTheBinsWhateverFramesAreLost) {
   for (const double rate : {500.0, 250.0, 100.0})
     for (const int lost : {0, 7, 3}) {
-      const MeasuredRun run = parabolic_run(rate, lost);
-      const RunAudit audit = audit_of(run);
-      const FeaturePlan plan = plan_features(run, audit);
-      const Eigen::VectorXd values = measured_features(plan, audit, run);
+      const Measurement::Run run = with_audit(parabolic_run(rate, lost));
+      const FeaturePlan plan = plan_features(run);
+      const Eigen::VectorXd values = measured_features(plan, run);
       ASSERT_GT(values.size(), 20);
       for (Eigen::Index f = 0; f < values.size(); ++f)
         // rounding: 7e-16
@@ -49,23 +48,20 @@ TEST(Features, AreTheLevelsAtTheMiddleOfTheBinsWhateverFramesAreLost) {
 }
 
 TEST(Features, SimulationsAreReadAtTheMeasuredFrames) {
-  const MeasuredRun run = parabolic_run(250, 5);
-  const RunAudit audit = audit_of(run);
-  const FeaturePlan plan = plan_features(run, audit);
+  const Measurement::Run run = with_audit(parabolic_run(250, 5));
+  const FeaturePlan plan = plan_features(run);
   Recording recording;
   for (int k = 0; k <= 1500; ++k) {
     recording.time.push_back(k / 500.0);
     recording.x_box.push_back(parabola(recording.time.back()));
   }
   recording.x_com = recording.x_box;
-  const Eigen::VectorXd difference =
-      simulated_features(plan, recording) - measured_features(plan, audit, run);
+  const Eigen::VectorXd difference = simulated_features(plan, recording) - measured_features(plan, run);
   EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-14);
 }
 
 TEST(Features, NoiseOfABinFallsWithItsFrames) {
-  const MeasuredRun run = parabolic_run(500, 0);
-  const FeaturePlan plan = plan_features(run, audit_of(run));
+  const FeaturePlan plan = plan_features(with_audit(parabolic_run(500, 0)));
   // The level of a parabola at the middle of n even frames has 9/4 of the variance of a mean.
   EXPECT_NEAR(plan.features[3].noise, 2e-4 * std::sqrt(2.25 / 50), 2e-7);  // seen: 1e-8
 }

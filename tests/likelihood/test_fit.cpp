@@ -64,7 +64,8 @@ Fit fitted(const std::string& free, std::vector<std::string> on = {"L040"}, doub
   options.count = 64;
   options.threads = 1;
   options.known = all_effects();
-  return fit_parameters(start, measured(), free_parameters(free, start, all_effects()), StandIn(), options);
+  return fit_parameters(start, measurement_of(start, measured(), all_effects()),
+                        free_parameters(free, start, all_effects()), StandIn(), options);
 }
 
 }  // namespace
@@ -132,7 +133,7 @@ TEST(SlowFit, TheSoftEnginesDamperIsFittedByTheHardOne) {
   options.count = 96;
   options.known = all_effects();
   const Fit fit =
-      fit_parameters(start, experiment,
+      fit_parameters(start, measurement_of(start, experiment, all_effects()),
                      free_parameters("restitution.grain_grain,restitution.grain_wall,spring.frequency", start,
                                      all_effects()),
                      *hard, options);

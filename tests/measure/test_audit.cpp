@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "audit.hpp"
+#include "measurement.hpp"
 #include "random.hpp"
 
 namespace shakedown {
@@ -31,6 +31,10 @@ MeasuredRun recorded(double rate, double noise, double r, std::uint64_t seed, do
     run.x_com.push_back(x + (1 - bias) * side * (length / 2 - 0.008) + grain_error);
   }
   return run;
+}
+
+Measurement measured(const Experiment& experiment) {
+  return measurement_of(std::vector<shakedown::Setup>(experiment.runs.size()), experiment);
 }
 
 TEST(Audit, FindsWhiteNoise) {
@@ -69,13 +73,13 @@ TEST(Audit, TheLayerOfOtherGrainsHasItsOwnThickness) {
   Experiment experiment;
   for (const double length : {0.04, 0.065, 0.104})
     experiment.runs.push_back(recorded(500, 2e-4, 0, 9, 0, length));
-  const double alone = audit(experiment).plateau.slope;
+  const double alone = measured(experiment).plateau.slope;
   experiment.runs.push_back(recorded(500, 2e-4, 0, 10, 0, 0.03));  // as thin as with half the grains
   experiment.runs.back().overrides = {{"grains.count", "18", ""}};
   experiment.runs.back().box_length = 0.04;
   experiment.runs.push_back(recorded(500, 2e-4, 0, 11));
   experiment.runs.back().box_length = std::nan("");
-  EXPECT_DOUBLE_EQ(audit(experiment).plateau.slope, alone);
+  EXPECT_DOUBLE_EQ(measured(experiment).plateau.slope, alone);
   EXPECT_NEAR(alone, 0.5, 5e-4);
 }
 
@@ -166,7 +170,7 @@ TEST(Audit, PlateauSlopeTellsABias) {
     std::uint64_t seed = 10;
     for (const double length : {0.04, 0.065, 0.085, 0.104})
       experiment.runs.push_back(recorded(500, 2e-4, 0, seed++, bias, length));
-    const Audit result = audit(experiment);
+    const Measurement result = measured(experiment);
     EXPECT_NEAR(result.plateau.slope, (1 - bias) / 2, 4 * result.plateau.error);
     EXPECT_LT(result.plateau.error, 0.01);
   }
@@ -175,11 +179,11 @@ TEST(Audit, PlateauSlopeTellsABias) {
 TEST(Audit, WarnsWhenTheDeclaredNoiseIsWrong) {
   Experiment experiment;
   experiment.runs.push_back(recorded(500, 2e-4, 0, 9));
-  const std::vector<std::string> none = audit(experiment).warnings;
+  const std::vector<std::string> none = measured(experiment).warnings;
   EXPECT_TRUE(none.empty()) << none.front();
   experiment.runs[0].box_uncertainty = 5e-5;
-  ASSERT_EQ(audit(experiment).warnings.size(), 1u);
-  EXPECT_NE(audit(experiment).warnings[0].find("0.05 mm"), std::string::npos);
+  ASSERT_EQ(measured(experiment).warnings.size(), 1u);
+  EXPECT_NE(measured(experiment).warnings[0].find("0.05 mm"), std::string::npos);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "effects.hpp"
 #include "experiment_file.hpp"
 #include "measured_file.hpp"
+#include "measurement.hpp"
 #include "scratch_folder.hpp"
 
 namespace shakedown {
@@ -157,7 +158,7 @@ TEST_F(ExperimentFile, ValuesOfTheWrongKindAreNotPassedOver) {
   complains("[column]\ngrain_centre = \"c\"\n" + columns_.substr(columns_.find('\n') + 1) + run,
             "where a table is due");
   complains("[camera]\nframe_rate = \"0 Hz\"\n" + columns_ + run,
-            "camera.frame_rate: must be greater than 0");
+            "camera.frame_rate: is 0 Hz (it must be greater than 0 Hz)");
   complains("[camera]\npixel_size = \"0.5 mm\"\n" + columns_ + "origin = \"1,920 px\"\n" + run,
             "is not a number of pixels");
   complains(columns_ + run + "box.length = \"65 mm\"\n", "is said twice");
@@ -178,8 +179,12 @@ TEST_F(ExperimentFile, PixelsFramesOriginAndDirection) {
       "true\nuncertainty = \"0.5 px\"\n"
       "[[run]]\nfile = \"trackpy.csv\"\nrelease_time = \"20 ms\"\n");
   const MeasuredRun& run = experiment.runs[0];
-  EXPECT_NEAR(run.x_box[0], -0.1075, 1e-12);
-  EXPECT_NEAR(run.time[0], -0.02, 1e-12);
+  // the frame before the release is no part of the motion
+  ASSERT_EQ(run.lead_in.time.size(), 1u);
+  EXPECT_NEAR(run.lead_in.x_box[0], -0.1075, 1e-12);
+  EXPECT_NEAR(run.lead_in.time[0], -0.02, 1e-12);
+  EXPECT_NEAR(run.x_box[0], -0.10672692, 1e-12);
+  EXPECT_NEAR(run.time[0], 0, 1e-12);
   EXPECT_NEAR(run.box_uncertainty, 1e-4, 1e-15);
 }
 

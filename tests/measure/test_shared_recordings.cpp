@@ -38,5 +38,18 @@ TEST(SharedRecordings, WhatIsKnownOfTenCamerasIsRead) {
   EXPECT_EQ(cases, 10);
 }
 
+TEST(SharedRecordings, RealOscillatorsAreRead) {
+  const fs::path folder = shared_folder("recordings");
+  if (folder.empty()) GTEST_SKIP() << "the recordings are not here";
+  const Experiment pendulum = read_experiment(folder / "pendulum/experiment.toml");
+  EXPECT_TRUE(pendulum.runs.at(0).origin_stated);
+  EXPECT_NEAR(pendulum.runs[0].x_box.at(0), (3.075462128 - 3.14159265) * 0.1, 1e-9);
+  for (const char* name : {"light", "heavy", "stiff"}) {
+    const Experiment springs = read_experiment(folder / "springs" / (std::string(name) + ".toml"));
+    EXPECT_GE(springs.runs.size(), 3u);
+    EXPECT_FALSE(springs.runs[0].origin_stated);
+  }
+}
+
 }  // namespace
 }  // namespace shakedown

@@ -20,8 +20,8 @@ inline const EffectRecord drag{.name = "test_drag",
                                                .typical = 0.1,
                                                .sentence = "Strength."}},
                                .claims = "drag",
-                               .apply = [](const EffectChoice& choice, int, Physics& physics) {
-                                 physics.box.viscous = choice.number("strength");
+                               .apply = [](const EffectChoice& choice, int index, Physics& physics) {
+                                 physics.box.viscous.add(choice.number("strength"), index);
                                }};
 inline const EffectRecord rival{.name = "test_rival",
                                 .parameters = {{.name = "on",

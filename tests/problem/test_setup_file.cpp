@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "effects.hpp"
 #include "initial_state.hpp"
 #include "setup_text.hpp"
 
@@ -48,7 +49,7 @@ strength = "50 mN s/m"
   EXPECT_EQ(setup.effects[0].number("strength"), 0.05);
   EXPECT_EQ(setup.effects[0].place.line, 15);
   EXPECT_EQ(setup.places.at("box.length").line, 4);
-  EXPECT_EQ(physics_of(setup).box.viscous, 0.05);
+  EXPECT_EQ(physics_of(setup).box.viscous.sum(), 0.05);
 }
 
 TEST(SetupFile, WritesWhatReadsBackBitForBit) {
@@ -132,4 +133,52 @@ TEST(SetupFile, InitialGrainsOfOtherCodesAreTaken) {
     EXPECT_EQ(state.size(), 37u);
     EXPECT_NEAR(kinetic_energy(state, 0.434) / spring, 1e-5, 1e-11) << name;
   }
+}
+
+// Whatever is set on the values must be what a file with these keys would give.
+TEST(Overrides, OnValuesAreWhatTheyAreInAFile) {
+  const std::vector<Override> first{
+      {"box.length", "\"65 mm\""},
+      {"grain_friction.grain_grain", "0.1"},
+      {"grain_friction.grain_wall", "0.3"},
+      {"constant_acceleration.acceleration", "[\"0.1 m/s^2\", \"0.2 m/s^2\", \"0 m/s^2\"]"}};
+  const shakedown::Setup setup = parse_setup("[grains]\ncount = 20\n", "file", all_effects(), first);
+  const std::vector<std::vector<Override>> changes{
+      {},
+      {{"grains.count", "0"}},
+      {{"box.width.x", "\"70 mm\""}},
+      {{"grain_friction.grain_wall", "0.5"}},
+      {{"grain_friction.grain_wall", "0"}, {"grain_friction.grain_grain", "0"}},
+      {{"constant_acceleration.acceleration.y", "\"0.3 m/s^2\""},
+       {"constant_acceleration.acceleration.x", "\"0.4 m/s^2\""}},
+      {{"clamp_dry_friction.force", "20 mN"}, {"release.packing", "random"}}};
+  for (const std::vector<Override>& change : changes)
+    EXPECT_EQ(write_setup(with_overrides(setup, change, all_effects())),
+              write_setup(parse_setup(write_setup(setup), "file", all_effects(), change)));
+}
+
+TEST(Overrides, OnValuesAreCheckedAndNameTheirOrigin) {
+  const std::vector<Override> wrong{{"box.length", "\"65 kg\"", "experiment.toml:7"},
+                                    {"box.lenght", "\"65 mm\"", "experiment.toml:8"}};
+  try {
+    with_overrides(shakedown::Setup{}, wrong, all_effects());
+    FAIL() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.violations.size(), 2u);
+    EXPECT_NE(std::string(error.what()).find("experiment.toml:7"), std::string::npos);
+  }
+}
+
+TEST(Overrides, OfOnePartOfAnEffectKeepTheOthers) {
+  const shakedown::Setup setup = parsed(
+      "[[effect]]\nname = \"test_wind\"\nvelocity = [\"1 m/s\", \"2 m/s\", \"0 m/s\"]\nformula = \"x*a\"\n"
+      "constants = {a = 1, b = 2}\n[[effect]]\nname = \"test_drag\"\nstrength = \"0.1 N s/m\"\n");
+  const std::vector<Override> change{{"test_wind.constants.b", "5"}, {"test_wind.velocity.x", "3 m/s"}};
+  const shakedown::Setup changed = with_overrides(setup, change, known);
+  ASSERT_EQ(changed.effects.size(), 2u);
+  EXPECT_EQ(changed.effects[0].record, &wind);
+  EXPECT_EQ(changed.effects[0].constants("constants"), (std::map<std::string, double>{{"a", 1}, {"b", 5}}));
+  EXPECT_EQ(changed.effects[0].vector("velocity"), Vec3(3, 2, 0));
+  EXPECT_EQ(changed.effects[0].text("formula"), "x*a");
+  EXPECT_EQ(write_setup(changed), write_setup(parse_setup(write_setup(setup), "file", known, change)));
 }

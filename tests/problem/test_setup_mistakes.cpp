@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "grain_file.hpp"
 #include "initial_state.hpp"
 #include "random.hpp"
 #include "setup_text.hpp"
@@ -191,8 +192,18 @@ TEST(SetupMistakes, GrainFilesAreCheckedLineByLine) {
     }
   };
   EXPECT_EQ(complaint_about("id,x,y,z,vx,vy,vz\n1,0.1,0,0,0,0,0\n2,0.11,0,0,0,0,0\n"), "");
+  // Measured positions err by some hundredths of a millimetre: pushed apart, and said.
+  EXPECT_EQ(complaint_about("id,x,y,z,vx,vy,vz\n1,0.1,0,0,0,0,0\n2,0.10996,0,0,0,0,0\n"), "");
+  const shakedown::Setup measured = read_setup(folder / "s.toml", known);
+  EXPECT_NEAR(initial_state(measured).pushed_apart, 2e-5, 1e-8);  // half the overlap each
+  EXPECT_GE((initial_state(measured).position[1] - initial_state(measured).position[0]).norm(), 0.01);
+  EXPECT_NE(note_on_measured_grains(measured).find("pushed apart, none by more than 0.02 mm"),
+            std::string::npos)
+      << note_on_measured_grains(measured);
   EXPECT_EQ(complaint_about("id,x,y,z,vx,vy,vz\n1,0.1,0,0,0,0,0\n2,0.109,0,0,0,0,0\n"),
-            "init.csv:3:1: grains 1 and 2: overlap by 1 mm; move them apart");
+            "init.csv:3:1: grains 1 and 2: overlap by 1 mm (more than an error of measured positions, 0.05 "
+            "mm, or there is no room to push "
+            "them apart); move them apart, or correct grains.diameter");
   EXPECT_EQ(complaint_about("id,x,y,z,vx,vy,vz\n1,0.1,0,0,0,0,0\n2,0.109,0,nan,0,0,0\n"),
             "init.csv:3:1: is not seven finite numbers; write id,x,y,z,vx,vy,vz in m and m/s");
   EXPECT_EQ(complaint_about("id,x,y,z,vx,vy,vz\n1,0.1,0,0,0,0,0\n"),

@@ -23,7 +23,7 @@ class SoftEffects : public ::testing::Test {
     for (const Apply apply : effects) {
       auto record = std::make_unique<EffectRecord>();
       record->name = "test_effect";
-      record->soft = {Fidelity::exact, ""};
+      record->engines = {{every_engine, {Fidelity::exact}}};
       record->apply = apply;
       setup.effects.push_back({record.get(), {}, {}});
       records.push_back(std::move(record));

@@ -127,7 +127,9 @@ TEST(BulletEngine, WithItsSettingsTheBoxComesToRestAtTheCentre) {
 }
 
 TEST(BulletEngine, RefusesEffectsOnBulletUntouched) {
-  static constexpr auto apply = [](const EffectChoice&, int, Physics& physics) { physics.box.viscous = 1; };
+  static constexpr auto apply = [](const EffectChoice&, int, Physics& physics) {
+    physics.box.viscous.add(1, 0);
+  };
   EffectRecord record;
   record.name = "syrup";
   record.engines = {{"bullet", {Fidelity::exact}}};

@@ -9,8 +9,7 @@ using namespace shakedown;
 TEST_F(SoftEffects, SlidingBallComesToRollAtFiveSevenths) {
   shakedown::Setup setup = closed_cube({[](const EffectChoice&, int index, Physics& physics) {
                                          physics.contact.friction = {0.3, 0.3, 0.3};
-                                         physics.grains.constant = Vec3(0, 0, -9.81);
-                                         physics.grains.constant_effect = index;
+                                         physics.grains.constant.add(Vec3(0, 0, -9.81), index);
                                        }},
                                        {{-0.08, 0, -0.095, 0.5, 0, 0}});
   setup.run.duration = 0.25;
@@ -141,18 +140,14 @@ TEST_F(SoftEffects, GrainsOfManySizesKeepTheBooks) {
 TEST_F(SoftEffects, AddUp) {
   shakedown::Setup setup = with({[](const EffectChoice&, int index, Physics& physics) {
                                    physics.contact.friction = {0.2, 0.2, 0.2};
-                                   physics.box.dry_friction = 0.05;
-                                   physics.box.dry_friction_effect = index;
+                                   physics.box.dry_friction.add(0.05, index);
                                  },
                                  [](const EffectChoice&, int index, Physics& physics) {
-                                   physics.grains.constant = Vec3(0.1, 0, -0.2);
-                                   physics.grains.constant_effect = index;
-                                   physics.box.constant += physics.box_mass * 0.1;
-                                   physics.box.constant_effect = index;
+                                   physics.grains.constant.add(Vec3(0.1, 0, -0.2), index);
+                                   physics.box.constant.add(physics.box_mass * 0.1, index);
                                  },
                                  [](const EffectChoice&, int index, Physics& physics) {
-                                   physics.grains.linear_drag = 1e-4;
-                                   physics.grains.drag_effect = index;
+                                   physics.grains.drag.add({1e-4, 0}, index);
                                    physics.contact.attraction_force = 1e-3;
                                    physics.contact.attraction_range = 1e-5;
                                    physics.spring_cubic = -10;

@@ -17,10 +17,8 @@ double stiffness() { return mass * angular_frequency * angular_frequency; }
 }  // namespace
 
 TEST_F(SoftEffects, ViscousBoxDecaysExponentially) {
-  shakedown::Setup setup = empty_box({[](const EffectChoice&, int index, Physics& physics) {
-    physics.box.viscous = 0.3;
-    physics.box.viscous_effect = index;
-  }});
+  shakedown::Setup setup = empty_box(
+      {[](const EffectChoice&, int index, Physics& physics) { physics.box.viscous.add(0.3, index); }});
   setup.run.duration = 5;
   const Trajectory result = run(setup);
   const double decay = 0.3 / (2 * mass),
@@ -35,10 +33,8 @@ TEST_F(SoftEffects, ViscousBoxDecaysExponentially) {
 }
 
 TEST_F(SoftEffects, DryFrictionTakesTheSameFromEveryExtremumAndThenSticks) {
-  shakedown::Setup setup = empty_box({[](const EffectChoice&, int index, Physics& physics) {
-    physics.box.dry_friction = 0.3;
-    physics.box.dry_friction_effect = index;
-  }});
+  shakedown::Setup setup = empty_box(
+      {[](const EffectChoice&, int index, Physics& physics) { physics.box.dry_friction.add(0.3, index); }});
   setup.run.duration = 4;
   const Trajectory result = run(setup);
   const double drop = 2 * 0.3 / stiffness();
@@ -61,8 +57,7 @@ TEST_F(SoftEffects, DryFrictionTakesTheSameFromEveryExtremumAndThenSticks) {
 
 TEST_F(SoftEffects, ForcedBoxFollowsTheClosedForm) {
   shakedown::Setup setup = empty_box({[](const EffectChoice&, int index, Physics& physics) {
-    physics.box.constant = 0.2;
-    physics.box.constant_effect = index;
+    physics.box.constant.add(0.2, index);
     physics.box.harmonics.push_back({0.1, 2.0, 0.4, index});
   }});
   setup.run.duration = 3;
@@ -79,9 +74,8 @@ TEST_F(SoftEffects, ForcedBoxFollowsTheClosedForm) {
 }
 
 TEST_F(SoftEffects, CubicSpringHasDuffingsPeriod) {
-  shakedown::Setup setup = empty_box({[](const EffectChoice&, int index, Physics& physics) {
+  shakedown::Setup setup = empty_box({[](const EffectChoice&, int, Physics& physics) {
     physics.spring_cubic = 0.5 / (start * start);
-    physics.spring_cubic_effect = index;
   }});
   setup.run.duration = 3;
   setup.run.sample_rate = 5000;

@@ -10,8 +10,7 @@ using namespace shakedown;
 TEST_F(SoftEffects, AccelerationsBendTheFlightExactly) {
   shakedown::Setup setup =
       closed_cube({[](const EffectChoice&, int index, Physics& physics) {
-                     physics.grains.constant = Vec3(0.3, 0, -0.1);
-                     physics.grains.constant_effect = index;
+                     physics.grains.constant.add(Vec3(0.3, 0, -0.1), index);
                    },
                    [](const EffectChoice&, int index, Physics& physics) {
                      physics.grains.harmonics.push_back({Vec3(2, 1, 0), 5.0, 0.7, index});
@@ -29,12 +28,10 @@ TEST_F(SoftEffects, AccelerationsBendTheFlightExactly) {
 
 TEST_F(SoftEffects, DragBringsAGrainToItsTerminalVelocity) {
   shakedown::Setup setup = closed_cube({[](const EffectChoice&, int index, Physics& physics) {
-                                          physics.grains.constant = Vec3(2, 0, 0);
-                                          physics.grains.constant_effect = index;
+                                          physics.grains.constant.add(Vec3(2, 0, 0), index);
                                         },
                                         [](const EffectChoice&, int index, Physics& physics) {
-                                          physics.grains.linear_drag = 0.08;
-                                          physics.grains.drag_effect = index;
+                                          physics.grains.drag.add({0.08, 0}, index);
                                         }},
                                        {{-0.09, 0, 0, 0, 0, 0}});
   setup.run.duration = 0.6;
@@ -51,9 +48,7 @@ TEST_F(SoftEffects, DragBringsAGrainToItsTerminalVelocity) {
 
 TEST_F(SoftEffects, DragInTheDamperActsOnTheBoxToo) {
   shakedown::Setup setup = with({[](const EffectChoice&, int index, Physics& physics) {
-    physics.grains.linear_drag = 1e-3;
-    physics.grains.quadratic_drag = 1e-2;
-    physics.grains.drag_effect = index;
+    physics.grains.drag.add({1e-3, 1e-2}, index);
   }});
   setup.box.length = 0.104;
   const Trajectory result = run(setup);

@@ -83,7 +83,7 @@ TEST(BlindCases, AreAsManyOfEachKindAsAskedForUnderNamesThatTellNothing) {
     names.insert(cases[i].name);
     nulls_first += i < 60 && cases[i].kind == BlindKind::null;
   }
-  EXPECT_EQ(names.size(), 344u);
+  EXPECT_EQ(names.size(), 404u);
   EXPECT_EQ(count[BlindKind::single], 120);
   EXPECT_EQ(count[BlindKind::twins], 20);
   EXPECT_LT(nulls_first, 25);  // 10.5 +- 2.7 expected of a shuffle

@@ -310,10 +310,14 @@ TEST(SlowNaiveAnswers, NameAStrongForceAndAccuseWhereNothingIsHidden) {
   trial.runs = small_design().runs;
   trial.hidden = {{}, changed({}, at_strength(*find_hideable("spring_cubic"), 1), all_effects())};
   const Workshop workshop{hard.get(), all_effects(), 0, nullptr, {}, nullptr};
-  const NaiveAnswers strong = naive_answers({}, measured_in(trial, tools), workshop);
+  const auto answers = [&] {
+    return naive_answers({}, measurement_of(shakedown::Setup{}, measured_in(trial, tools), all_effects()),
+                         workshop);
+  };
+  const NaiveAnswers strong = answers();
   EXPECT_EQ(strong.least_error, "spring_cubic");
   EXPECT_EQ(strong.white_noise, "spring_cubic");
   trial.hidden.truth = {};
   // chaos from run to run is no white noise
-  EXPECT_NE(naive_answers({}, measured_in(trial, tools), workshop).white_noise, "");
+  EXPECT_NE(answers().white_noise, "");
 }

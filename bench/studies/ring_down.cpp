@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "ring_down.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "known_effects.hpp"
+#include "random.hpp"
+#include "ring_down_signal.hpp"
+
+namespace shakedown {
+
+namespace {
+
+constexpr double least_signal = 4;  // what is weaker nobody can be asked for
+
+/// A law of a ring-down, with its strength on a scale of the oscillation.
+struct Law {
+  std::string_view key;
+  double low, high;  ///< of the strength, drawn log-uniform
+  bool either_sign;
+  double (*per_unit)(double mass, double angular_frequency, double release);
+};
+
+constexpr std::array<Law, 4> laws{{
+    // damping ratio c / (2 M omega)
+    {"blade_viscous_damping.damping", 1e-3, 0.05, false,
+     [](double mass, double omega, double) { return 2 * mass * omega; }},
+    // friction over the spring's force at release
+    {"clamp_dry_friction.force", 1e-3, 0.03, false,
+     [](double mass, double omega, double release) { return mass * omega * omega * release; }},
+    // force over M a^2 / release: the share of the amplitude lost in a period is 16/3 of it
+    {"blade_quadratic_drag.drag", 2e-3, 0.1, false,
+     [](double mass, double, double release) { return mass / release; }},
+    // change of the stiffness force at release
+    {"spring_cubic.coefficient", 3e-3, 0.2, true, [](double, double, double) { return 1.0; }},
+}};
+
+/// Which laws a case hides, in turn: nothing twice, each alone twice, all pairs, all triples.
+constexpr std::array<unsigned, 20> laws_in_turn{0, 1, 2, 4, 8, 3,  5, 6,  9,  10,
+                                                0, 1, 2, 4, 8, 12, 7, 11, 13, 14};
+
+double between(Random& random, double low, double high) { return low + (high - low) * random.uniform(); }
+double log_between(Random& random, double low, double high) {
+  return std::exp(between(random, std::log(low), std::log(high)));
+}
+
+/// Rate and length such that a frame is an eighth of a period at most and the table not too long.
+void draw_frames(Random& random, double frequency, Setup& truth, RecordingSettings& recording) {
+  constexpr double least_frames_a_period = 8, most_frames = 20000;
+  do {
+    recording.frame_rate = log_between(random, 5, 1000);
+    truth.run.duration = log_between(random, 8, 60) / frequency;
+  } while (recording.frame_rate < least_frames_a_period * frequency ||
+           recording.frame_rate * truth.run.duration > most_frames);
+  recording.frame_rate = std::round(recording.frame_rate * 10) / 10;
+  recording.start = between(random, 0.2, 1.2) / frequency;
+  truth.run.duration += recording.start;
+}
+
+RingDownNoise draw_noise(Random& random, double release, RecordingSettings& recording) {
+  const auto noise = static_cast<RingDownNoise>(random.bits() % 4);
+  recording.box_noise = release * log_between(random, 3e-4, 1e-2);
+  switch (noise) {
+    case RingDownNoise::white: break;
+    case RingDownNoise::rounded:
+      recording.rounding = release * log_between(random, 1e-3, 3e-2);
+      recording.box_noise = recording.rounding * log_between(random, 0.05, 1);
+      break;
+    case RingDownNoise::wandering:
+      recording.wander = release * log_between(random, 1e-4, 3e-3);
+      recording.wander_time = log_between(random, 0.05, 0.5);
+      break;
+    case RingDownNoise::jittered:
+      recording.jitter = log_between(random, 0.01, 0.2) / recording.frame_rate;
+      recording.stamped = random.uniform() < 0.5;
+      break;
+  }
+  recording.origin = release * between(random, -0.1, 0.1);
+  recording.declared = random.uniform() < 0.5;
+  return noise;
+}
+
+/// One attempt; its signals may be too small.
+RingDown drawn_once(Random& random, unsigned which, const Engine& engine,
+                    std::span<const EffectRecord* const> known) {
+  RingDown drawn;
+  Setup truth;
+  truth.grains.count = 0;
+  truth.box.mass = log_between(random, 0.05, 2);
+  truth.spring.frequency = log_between(random, 0.4, 4);
+  truth.release.displacement = log_between(random, 0.01, 0.2);
+  const double omega = 2 * std::numbers::pi * truth.spring.frequency;
+  std::vector<std::string> keys;
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    if ((which >> i & 1) == 0) continue;
+    double strength = log_between(random, laws[i].low, laws[i].high);
+    if (laws[i].either_sign && random.uniform() < 0.5) strength = -strength;
+    keys.emplace_back(laws[i].key);
+    set_number(truth, keys.back(),
+               strength * laws[i].per_unit(truth.box.mass, omega, truth.release.displacement), known);
+    drawn.hidden.emplace_back(effect_of(keys.back()));
+  }
+  RecordingSettings& recording = drawn.trial.recording;
+  draw_frames(random, truth.spring.frequency, truth, recording);
+  drawn.noise = draw_noise(random, truth.release.displacement, recording);
+  drawn.frames_a_period = recording.frame_rate / truth.spring.frequency;
+  const auto runs = 1 + random.bits() % 3;
+  for (std::size_t run = 0; run < runs; ++run)
+    drawn.trial.runs.push_back({"run_" + std::to_string(run + 1), {}});
+  drawn.trial.hidden.truth = truth;
+  drawn.trial.hidden.believed = truth;
+  drawn.trial.hidden.believed.effects.clear();
+  drawn.trial.hidden.believed.spring.frequency *= 1 + 0.02 * random.normal();
+  drawn.trial.seed = random.bits() >> 16;
+  drawn.signals = signals_of(truth, keys, recording, engine, known);
+  for (double& signal : drawn.signals) signal *= std::sqrt(static_cast<double>(runs));
+  return drawn;
+}
+
+bool holds_null(const nlohmann::json& tree) {
+  if (tree.is_null()) return true;
+  return (tree.is_object() || tree.is_array()) && std::any_of(tree.begin(), tree.end(), holds_null);
+}
+
+/// A number that is none stands as null among the parameters and in the balance.
+bool is_not_finite(const Diagnosis& diagnosis) {
+  const nlohmann::json document = nlohmann::json::parse(diagnosis_json(diagnosis));
+  for (const nlohmann::json& parameter : document.at("parameters"))
+    if (parameter.at("value").is_number() ? holds_null(parameter) : parameter.at("value").is_null())
+      return true;
+  return holds_null(document.at("momentum"));
+}
+
+}  // namespace
+
+std::string_view name_of(RingDownNoise noise) {
+  constexpr std::array<std::string_view, 4> names{"white", "rounded", "wandering", "jittered"};
+  return names[static_cast<std::size_t>(noise)];
+}
+
+double RingDown::weakest() const {
+  return signals.empty() ? std::numeric_limits<double>::infinity()
+                         : *std::min_element(signals.begin(), signals.end());
+}
+
+RingDown draw_ring_down(std::uint64_t seed, int number, const Engine& engine,
+                        std::span<const EffectRecord* const> known) {
+  constexpr int most_attempts = 200;
+  Random random(seed, static_cast<std::uint64_t>(number), Stream::hidden);
+  const unsigned which = laws_in_turn[static_cast<std::size_t>(number) % laws_in_turn.size()];
+  for (int attempt = 1;; ++attempt) {
+    RingDown drawn = drawn_once(random, which, engine, known);
+    drawn.number = number;
+    if (drawn.weakest() >= least_signal || attempt == most_attempts) return drawn;
+  }
+}
+
+RingDownAnswer answer_of(const RingDown& case_, const TrialTools& tools) {
+  RingDownAnswer answer;
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    const Diagnosis diagnosis = diagnose_trial(case_.trial, tools);
+    answer.verdict = name_of(diagnosis.verdict);
+    answer.missing = diagnosis.missing;
+    answer.not_finite = is_not_finite(diagnosis);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    answer.stopped = error.what();
+  }
+  answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return answer;
+}
+
+RingDownResult judged(RingDown drawn, RingDownAnswer answer, std::span<const EffectRecord* const> known) {
+  RingDownResult result;
+  const std::vector<std::string> named = physics_among(answer.missing, known);
+  std::vector<std::string> truth = drawn.hidden;
+  std::sort(truth.begin(), truth.end());
+  result.invented =
+      answer.verdict == "unknown" || !std::includes(truth.begin(), truth.end(), named.begin(), named.end());
+  result.right = answer.stopped.empty() && answer.verdict != "unknown" && named == truth;
+  result.drawn = std::move(drawn);
+  result.answer = std::move(answer);
+  return result;
+}
+
+}  // namespace shakedown

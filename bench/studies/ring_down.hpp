@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Empty boxes ringing down, as people record them: every real experiment with grains begins with one. Drawn
+// at random, measured by the laboratory, diagnosed, scored.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "trial.hpp"
+
+namespace shakedown {
+
+/// What spoils a recording beside a little white noise.
+enum class RingDownNoise { white, rounded, wandering, jittered };
+std::string_view name_of(RingDownNoise noise);
+
+struct RingDown {
+  int number = 0;
+  Trial trial;
+  std::vector<std::string> hidden;  ///< effects
+  /// Of each hidden effect: its strength over its standard error when release, phase, origin, frequency and
+  /// the other hidden strengths are unknown (Cramer and Rao), all runs together.
+  std::vector<double> signals;
+  RingDownNoise noise = RingDownNoise::white;
+  double frames_a_period = 0;
+
+  double weakest() const;  ///< signal; infinite with nothing hidden
+};
+
+/// Damper without grains, 0.4 to 4 Hz, released from 10 to 200 mm, seen 8 to 60 periods long at 5 to 1000
+/// frames a second (eight a period at least) from somewhere in the motion on, with an origin that nobody
+/// knows; none, one, two or three of the four laws of a ring-down (linear, dry and quadratic damping, a cubic
+/// spring), each with a signal of 4 and more. `engine` computes the signals. A case depends on seed and
+/// number alone.
+RingDown draw_ring_down(std::uint64_t seed, int number, const Engine& engine,
+                        std::span<const EffectRecord* const> known);
+
+struct RingDownAnswer {
+  std::string verdict;               ///< empty: no answer
+  std::vector<std::string> missing;  ///< as the diagnosis says
+  std::string stopped;               ///< why there is no answer
+  bool not_finite = false;           ///< a number of the answer is none
+  double seconds = 0;
+};
+/// An answer that is an exception is kept as `stopped`; only Interrupted is thrown on.
+RingDownAnswer answer_of(const RingDown& case_, const TrialTools& tools);
+
+struct RingDownResult {
+  RingDown drawn;
+  RingDownAnswer answer;
+  bool right = false;     ///< the physics named is the physics hidden; the camera's errors count for nothing
+  bool invented = false;  ///< physics is named that is not hidden, or a force of no list
+};
+RingDownResult judged(RingDown drawn, RingDownAnswer answer, std::span<const EffectRecord* const> known);
+
+/// Counts by what was hidden, by signal, by noise and by frames a period.
+std::string ring_down_table(const std::vector<RingDownResult>& results);
+/// A line a case.
+std::string ring_down_csv(const std::vector<RingDownResult>& results);
+
+}  // namespace shakedown

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The rows of a score: what was counted, what was aimed at.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "blind_suite.hpp"
+
+namespace shakedown {
+
+struct Count {
+  int hits = 0, trials = 0;
+  void add(bool hit) { hits += hit, ++trials; }
+};
+
+class ScoreTable {
+ public:
+  void at_most(const std::string& what, const Count& count, double limit);
+  void at_least(const std::string& what, const Count& count, double limit);
+  /// Told against the aim from 20 trials on: fewer cannot come between 90 and 98 %.
+  void between(const std::string& what, const Count& count, double low, double high);
+  void plain(const std::string& what, const std::string& aim, const std::string& found,
+             BlindFigure::Verdict kept);
+  /// Told beside the aims.
+  void beside(const std::string& what, const Count& count);
+
+  std::vector<BlindFigure> rows;
+};
+
+}  // namespace shakedown

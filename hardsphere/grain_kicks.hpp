@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Drag and formulas on grains: small impulses at even intervals, centred, so that the error is of second
+// order in the interval.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "loop_accounts.hpp"
+#include "loop_walls.hpp"
+
+namespace shakedown {
+
+template <class Scene>
+class GrainKicks {
+ public:
+  GrainKicks(Scene& scene, LoopWalls<Scene>& walls, LoopAccounts<Scene>& accounts, const GrainForces& forces,
+             double interval)
+      : scene_(scene), walls_(walls), accounts_(accounts), forces_(forces) {
+    if (forces_.drag.sum().none() && forces_.free.empty()) return;
+    interval_ = interval;
+    next_ = interval / 2;
+  }
+
+  double next() const { return next_; }  ///< s
+  /// One kick of all grains at the scene's time.
+  void act();
+
+ private:
+  /// To one effect's drag, N s.
+  struct Reaction {
+    double on_box = 0, across = 0;
+  };
+
+  void drag(double mass, const Vec3& air, Vec3& velocity);
+  void push(double mass, double x, Vec3& velocity);
+  void kick_box(const BoxMotion::Point& box, double speed_across);
+  double speed_left(double speed, double mass) const;
+
+  Scene& scene_;
+  LoopWalls<Scene>& walls_;
+  LoopAccounts<Scene>& accounts_;
+  const GrainForces forces_;
+  double interval_ = never, next_ = never;
+  std::vector<Reaction> reactions_;
+};
+
+template <class Scene>
+void GrainKicks<Scene>::act() {
+  next_ += interval_;
+  accounts_.catch_up();
+  const BoxMotion::Point box = scene_.box_now();
+  const Vec3 frame_x = scene_.frame.displacement(scene_.now), frame_v = scene_.frame.velocity(scene_.now);
+  const Vec3 air(box.v, 0, scene_.speed_across());  // goes with the box, also on its arc
+  reactions_.assign(forces_.drag.shares().size(), {});
+  for (int i = 0; i < scene_.grains.size(); ++i) {
+    Flight3 flight = scene_.grains.flight(i);
+    flight.advance(scene_.now);
+    const double m = scene_.grains.mass(i);
+    const Vec3 before = Vec3(flight.v[0], flight.v[1], flight.v[2]) + frame_v;
+    Vec3 velocity = before;
+    if (!reactions_.empty()) drag(m, air, velocity);
+    push(m, flight.x[0] + frame_x.x(), velocity);
+    accounts_.grain_pushed(m * (velocity - before));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      flight.v[axis] = velocity[static_cast<int>(axis)] - frame_v[static_cast<int>(axis)];
+    scene_.grains.set_flight(i, flight);
+  }
+  if (!reactions_.empty()) kick_box(box, air.z());
+  scene_.grains.predict_all();
+  for (int i = 0; i < scene_.grains.size(); ++i) walls_.after(i);
+  walls_.renew(0);
+}
+
+/// Drag of the air on one grain. Several effects share it as their forces do at the mean speed: second order
+/// in the interval.
+template <class Scene>
+void GrainKicks<Scene>::drag(double mass, const Vec3& air, Vec3& velocity) {
+  const Vec3 before = velocity, wind = velocity - air;
+  const double speed = wind.norm(), left = speed_left(speed, mass);
+  velocity = air + wind * left;
+  const double mean = speed * (1 + left) / 2, all = forces_.drag.sum().over_speed(mean);
+  for (std::size_t k = 0; k < reactions_.size(); ++k) {
+    const auto& share = forces_.drag.shares()[k];
+    const double part = all > 0 ? share.strength.over_speed(mean) / all : 0;
+    reactions_[k].on_box -= part * (mass * (velocity.x() - before.x()));
+    reactions_[k].across += part * (mass * (velocity.z() - before.z()));
+    accounts_.loss_of(share.effect) += part * (mass / 2 * (before.squaredNorm() - velocity.squaredNorm()));
+  }
+}
+
+/// The user's formulas on one grain.
+template <class Scene>
+void GrainKicks<Scene>::push(double mass, double x, Vec3& velocity) {
+  for (const FreeForce& force : forces_.free) {
+    const double impulse = interval_ * force.newton(x, velocity.x(), scene_.now);
+    if (!std::isfinite(impulse))
+      throw PhysicsError(
+          "the formula of user_force on a grain is not finite at t = " + std::to_string(scene_.now) + " s");
+    accounts_.loss_of(force.effect) -= impulse * (velocity.x() + impulse / mass / 2);
+    accounts_.pushed_from_outside(impulse);
+    velocity.x() += impulse / mass;
+  }
+}
+
+/// The box, and what holds it on its arc, take the reaction of the air.
+template <class Scene>
+void GrainKicks<Scene>::kick_box(const BoxMotion::Point& box, double speed_across) {
+  double impulse = 0;
+  for (const Reaction& reaction : reactions_) impulse += reaction.on_box;
+  const double jump = impulse / scene_.box.mass();
+  for (std::size_t k = 0; k < reactions_.size(); ++k) {
+    double& loss = accounts_.loss_of(forces_.drag.shares()[k].effect);
+    loss -= reactions_[k].on_box * (box.v + jump / 2);
+    if (forces_.arc_effect < 0) continue;
+    loss += reactions_[k].across * speed_across;
+    accounts_.loss_of(forces_.arc_effect) -= reactions_[k].across * speed_across;
+  }
+  scene_.kick_box(jump);
+}
+
+/// What is left of a speed w after the interval of drag m w' = -c1 w - c2 w |w|, as a fraction (closed form).
+template <class Scene>
+double GrainKicks<Scene>::speed_left(double speed, double mass) const {
+  const AirDrag& drag = forces_.drag.sum();
+  const double rate = drag.linear / mass, square = drag.quadratic / mass * speed;
+  const double lost = rate > 0 ? -std::expm1(-rate * interval_) / rate : interval_;
+  return std::exp(-rate * interval_) / (1 + square * lost);
+}
+
+}  // namespace shakedown

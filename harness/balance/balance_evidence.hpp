@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Which forces does the momentum balance ask for? Every set of up to four strengths is a hypothesis; its
+// evidence is in closed form (Laplace), with a prior for each strength about what is typical of the effect
+// and one for how many effects an experiment hides. The spring's frequency and the nuisances are in every
+// fit.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "momentum_fit.hpp"
+#include "momentum_terms.hpp"
+
+namespace shakedown {
+
+/// One term in the fit: a known strength, a formula (lines beyond the known ones), or a sine (two columns).
+struct ChosenTerm {
+  int term = -1;         ///< -1: harmonic
+  double frequency = 0;  ///< Hz
+};
+
+struct Selection {
+  std::vector<ChosenTerm> chosen;  ///< the spring's frequency first
+  Regression fit;        ///< columns in the order of `chosen`, two for a harmonic, then the nuisances
+  double objective = 0;  ///< -2 ln likelihood: chi2 and the noise that the fitted forces let in
+};
+
+/// A term that could take another's place with chi2 no more than this higher, three standard deviations, is
+/// called its look-alike.
+constexpr double as_good = 9;
+
+/// A set of strengths and how probable it is among all sets that were compared.
+struct BalanceHypothesis {
+  std::vector<ChosenTerm> chosen;  ///< the spring's frequency first
+  double log_odds = 0;             ///< ln of posterior over that of nothing beside frequency and nuisances
+  double probability = 0;
+};
+
+/// What is compared; the covariance of `problem` follows the fit.
+struct SelectionProblem {
+  MomentumProblem problem;
+  std::vector<MomentumTerm> known;
+  std::vector<PreparedTerm> terms;  ///< as `known`, then formulas
+  const std::vector<MomentumRun>* runs = nullptr;
+  double highest_frequency = 0;  ///< Hz, of a sine that these windows can see
+  double typical_sine = 0;       ///< m/s^2; 0: no effect of the library is a sine
+  /// Samples of a known strength at another value than that of the terms.
+  std::function<std::vector<ForceSamples>(const MomentumTerm&, double strength)> derive;
+
+  bool is_known(int term) const { return term >= 0 && term < static_cast<int>(known.size()); }
+};
+
+/// Whitened columns of the chosen terms, then the nuisances.
+Eigen::MatrixXd columns_of(const SelectionProblem& p, const std::vector<ChosenTerm>& chosen);
+
+/// Fits the chosen terms, taking their own noise into the covariance.
+Selection fit_terms(SelectionProblem& p, std::vector<ChosenTerm> chosen);
+
+/// All sets of known strengths beside what is in `base` (the spring's frequency, sines), most probable first.
+/// Probabilities are among these.
+std::vector<BalanceHypothesis> compare_sets(const SelectionProblem& p, const std::vector<ChosenTerm>& base);
+
+/// The known strengths that leave a trace in the balance beside frequency and nuisances.
+std::vector<int> terms_seen(const SelectionProblem& p);
+
+/// ln evidence of the wander of the track that the problem has, whatever acts on the box.
+double log_evidence_of_noise(const SelectionProblem& p);
+
+/// The sine that gains most beside `chosen`, with the ln odds that it brings over none, all frequencies
+/// between the two allowed for.
+struct SineFound {
+  double frequency = 0, log_odds = 0;
+};
+SineFound best_sine(const SelectionProblem& p, const Selection& beside, double lowest, double highest);
+
+/// Fall of chi2 when a known strength joins (or, for one of the chosen, when it is there).
+Gain gain_of_term(const SelectionProblem& p, const Selection& selection, int term);
+
+/// How many columns a chosen term has.
+inline Eigen::Index width_of(const ChosenTerm& c) { return c.term < 0 ? 2 : 1; }
+
+}  // namespace shakedown

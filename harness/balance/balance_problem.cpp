@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "balance_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "effect_strength.hpp"
+#include "nuisance.hpp"
+#include "setup_file.hpp"
+
+namespace shakedown {
+
+BalanceProblem::BalanceProblem(const Measurement& measurement, std::span<const EffectRecord* const> known)
+    : measurement_(measurement), known_(known) {
+  for (const Measurement::Run& run : measurement.runs) runs_.push_back(momentum_run(run));
+  if (measurement.runs.empty()) return;
+  const Setup& first = measurement.runs.front().setup;
+  frequency_ = first.spring.frequency;
+  terms_ = momentum_terms(first, known);
+  for (const EffectRecord* record : known)
+    if (const Search search = search_of(*record); search.harmonic && !find_choice(first, record->name))
+      typical_sine_ = search.strengths.front().typical;
+}
+
+double BalanceProblem::noise() const {
+  double noise = 0;
+  for (const MomentumRun& run : runs_) noise = std::max(noise, run.box_noise.standard_deviation);
+  return noise;
+}
+
+std::vector<ForceSamples> BalanceProblem::samples_of(const MomentumTerm& term, double strength) const {
+  std::vector<ForceSamples> samples;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const Measurement::Run& run = measurement_.runs[r];
+    if (runs_[r].time.size() == 0)
+      samples.emplace_back();
+    else if (term.kind == TermKind::refit)
+      samples.push_back(spring_samples(runs_[r]));
+    else
+      samples.push_back(samples_of_change(
+          runs_[r], momentum_run({run.recorded, run.audit, with_strength(run.setup, term, strength, known_)}),
+          strength));
+  }
+  return samples;
+}
+
+/// What is said of one camera, or of each run's own.
+void BalanceProblem::add_camera(std::vector<BalanceNuisance>& list) const {
+  for (const CameraNuisance& camera : camera_nuisances(measurement_, known_)) {
+    const auto term = std::find_if(terms_.begin(), terms_.end(),
+                                   [&](const MomentumTerm& t) { return t.key() == camera.key; });
+    if (term == terms_.end()) continue;
+    const std::vector<ForceSamples> samples = samples_of(*term, term->typical);
+    if (!camera.each_run) {
+      list.push_back({camera.key, camera.unit, camera.deviation, samples});
+      continue;
+    }
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      std::vector<ForceSamples> of_run(runs_.size());
+      of_run[r] = samples[r];
+      list.push_back({camera.key + " of " + runs_[r].name, camera.unit, camera.deviation, std::move(of_run)});
+    }
+  }
+}
+
+void BalanceProblem::add_weights(std::vector<BalanceNuisance>& list) const {
+  for (const WeighedNuisance& weight : weighed_nuisances(measurement_)) {
+    BalanceNuisance nuisance{weight.key, weight.unit, weight.deviation, {}};
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      const Measurement::Run& run = measurement_.runs[r];
+      Setup changed = run.setup;
+      set_number(changed, weight.key, get_number(run.setup, weight.key, known_) + weight.deviation, known_);
+      nuisance.samples.push_back(
+          samples_of_change(runs_[r], momentum_run({run.recorded, run.audit, changed}), weight.deviation));
+    }
+    list.push_back(std::move(nuisance));
+  }
+}
+
+std::vector<BalanceNuisance> BalanceProblem::nuisances() const {
+  std::vector<BalanceNuisance> list;
+  add_camera(list);
+  add_weights(list);
+  // What leaves no trace in any run costs a row and tells nothing.
+  std::erase_if(list, [](const BalanceNuisance& nuisance) {
+    return std::all_of(nuisance.samples.begin(), nuisance.samples.end(), [](const ForceSamples& s) {
+      return s.force.size() == 0 && s.momentum.size() == 0 && s.potential.size() == 0;
+    });
+  });
+  return list;
+}
+
+SelectionProblem BalanceProblem::windows_of(double length, double hop) const {
+  // Above 1.2/T a window averages a sine away to less than half.
+  SelectionProblem p{
+      MomentumProblem(runs_, length, hop), terms_, {}, &runs_, 1.2 / length, typical_sine_, {}};
+  for (const MomentumTerm& term : terms_)
+    p.terms.push_back({term.effect, term.never_negative, samples_of(term, term.typical), nullptr, {}});
+  p.derive = [this](const MomentumTerm& term, double strength) { return samples_of(term, strength); };
+  p.problem.set_plateau(measurement_.plateau, runs_.empty() ? 1 : runs_.front().plateau_gain);
+  std::vector<BalanceNuisance> list = nuisances();
+  p.problem.set_nuisances(list);
+  // What only scales the impulses (a camera's scale) would take up whatever is there.
+  const Eigen::VectorXd& impulse = p.problem.impulse();
+  std::vector<char> scales;
+  for (Eigen::Index k = 0; k < std::ssize(list); ++k) {
+    Eigen::VectorXd column = p.problem.nuisance_columns().col(k);
+    column.tail(std::ssize(list)).setZero();
+    const double along = column.dot(impulse) / std::max(impulse.squaredNorm(), 1e-300);
+    scales.push_back((column - along * impulse).squaredNorm() <= 1e-6 * column.squaredNorm());
+  }
+  std::size_t k = 0;
+  std::erase_if(list, [&](const BalanceNuisance&) { return scales[k++] != 0; });
+  p.problem.set_nuisances(std::move(list));
+  return p;
+}
+
+}  // namespace shakedown

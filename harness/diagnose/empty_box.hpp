@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// A box without grains: no chaos and no contacts, so that one run of the engine is the model, and the
+// momentum balance is all there is to find.
+#pragma once
+#include "diagnosis.hpp"
+
+namespace shakedown {
+
+/// How far the model of each run's setup lies from what was recorded.
+struct SwingError {
+  double error = 0;   ///< m, rms over the frames of all runs
+  double chi2 = 0;    ///< by the camera's noise
+  double frames = 0;  ///< compared
+};
+
+/// `as_stated`: released from the setup's displacement at the first frame. Otherwise each run may start
+/// anywhere in the motion: from its first turning point, whose time and place (and the origin, where that is
+/// unknown) are fitted, and what comes before is left out.
+SwingError swing_error(const Measurement& measurement, const Engine& engine, bool as_stated);
+
+/// Fills in all of the diagnosis that follows from its momentum balance.
+void conclude_empty_box(const Setup& user, const Measurement& measurement, const Engine& engine,
+                        std::span<const EffectRecord* const> known, Diagnosis& diagnosis);
+
+}  // namespace shakedown

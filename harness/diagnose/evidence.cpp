@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "rules.hpp"
+
+namespace shakedown {
+
+double log_odds_of(const StrengthSeen& seen, double candidates) {
+  constexpr double impossible = -std::numeric_limits<double>::infinity();
+  if (!std::isfinite(seen.gain) || !std::isfinite(seen.value) || !std::isfinite(seen.error) ||
+      !std::isfinite(seen.odds) || !(seen.error > 0) || !(seen.typical > 0) || !(seen.odds > 0) ||
+      (seen.one_sided && seen.value <= 0))
+    return impossible;
+  const double ratio = seen.value / seen.typical;
+  const double density = (seen.one_sided ? 2 : 1) / (std::numbers::pi * seen.typical * (1 + ratio * ratio));
+  const double each = std::min(0.5, rules::expected_effects * seen.odds / std::max(1.0, candidates));
+  // A strength known worse than the prior takes nothing of it away.
+  const double share = std::min(1.0, density * seen.error * std::sqrt(2 * std::numbers::pi));
+  return seen.gain / 2 + std::log(share) + std::log(each / (1 - each));
+}
+
+double beyond_emulator_noise(double fitted_gain) { return fitted_gain - rules::emulator_noise; }
+
+double believed_gain(double linear, double fitted) {
+  const double fit = beyond_emulator_noise(fitted);
+  return fitted >= linear / 2 ? std::max(linear, fit) : fit;
+}
+
+void weigh(std::vector<Hypothesis>& table) {
+  constexpr double impossible = -std::numeric_limits<double>::infinity();
+  double most = impossible;
+  for (Hypothesis& h : table) {
+    if (!std::isfinite(h.log_odds)) h.log_odds = impossible;  // a NaN is no evidence
+    most = std::max(most, h.log_odds);
+  }
+  if (most == impossible) {
+    for (Hypothesis& h : table) h.probability = 0;
+    return;
+  }
+  double sum = 0;
+  for (const Hypothesis& h : table) sum += std::exp(h.log_odds - most);
+  for (Hypothesis& h : table) h.probability = std::exp(h.log_odds - most) / sum;
+  std::stable_sort(table.begin(), table.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.probability > b.probability; });
+}
+
+std::vector<Hypothesis> answer_set(const std::vector<Hypothesis>& table) {
+  std::vector<Hypothesis> set;
+  double sum = 0;
+  for (const Hypothesis& h : table) {
+    if (sum >= rules::answer_set) break;
+    set.push_back(h);
+    sum += h.probability;
+  }
+  return set;
+}
+
+std::vector<Hypothesis> combined(const std::vector<Hypothesis>& a, const std::vector<Hypothesis>& b) {
+  std::vector<Hypothesis> both;
+  for (const Hypothesis& one : a)
+    for (const Hypothesis& other : b) {
+      Hypothesis h{one.effects, one.log_odds + other.log_odds, one.probability * other.probability};
+      for (const std::string& effect : other.effects)
+        if (std::find(h.effects.begin(), h.effects.end(), effect) == h.effects.end())
+          h.effects.push_back(effect);
+      both.push_back(std::move(h));
+    }
+  std::stable_sort(both.begin(), both.end(),
+                   [](const Hypothesis& x, const Hypothesis& y) { return x.probability > y.probability; });
+  return both;
+}
+
+double probability_of_something(const std::vector<Hypothesis>& table) {
+  double sum = 0;
+  for (const Hypothesis& h : table)
+    if (!h.effects.empty()) sum += h.probability;
+  return sum;
+}
+
+std::vector<std::string> ties_of(const std::vector<Hypothesis>& set) {
+  std::vector<std::string> ties;
+  if (set.empty()) return ties;
+  const auto in = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  for (const Hypothesis& h : set)
+    for (const std::string& effect : h.effects)
+      if (!in(set.front().effects, effect) && !in(ties, effect)) ties.push_back(effect);
+  return ties;
+}
+
+}  // namespace shakedown

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// From how much each effect would explain to how probable it is: the table of hypotheses of a diagnosis. Pure
+// functions of what was measured.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace shakedown {
+
+/// A set of effects that may be missing beside what the model has; empty: nothing is.
+struct Hypothesis {
+  std::vector<std::string> effects;
+  double log_odds = 0;     ///< ln of its probability over that of nothing
+  double probability = 0;  ///< among the hypotheses of one table
+};
+
+/// What one effect would explain.
+struct StrengthSeen {
+  double gain = 0;         ///< fall of chi2
+  double value = 0;        ///< strength, from its absence, SI
+  double error = 0;        ///< standard error
+  double typical = 1;      ///< scale of the prior (Cauchy) of the strength
+  bool one_sided = false;  ///< it cannot be negative
+  double odds = 1;         ///< how likely beside a usual effect
+};
+
+/// ln of posterior over prior of nothing: the likelihood's maximum, the share of the prior that it leaves
+/// (Laplace), and the prior of one effect among `candidates`. Not finite input gives -infinity.
+double log_odds_of(const StrengthSeen& seen, double candidates);
+
+/// A gain that fits found, which differ by their emulators' noise: what is left beyond one standard
+/// deviation.
+double beyond_emulator_noise(double fitted_gain);
+
+/// The gain to believe of an effect with a linear estimate and a fit: the linear one (its noise is that of
+/// the data alone) where the fit keeps half of it, else what the fit shows beyond its own noise.
+double believed_gain(double linear, double fitted);
+
+/// Fills in probabilities; most probable first.
+void weigh(std::vector<Hypothesis>& table);
+
+/// The first hypotheses that together hold rules::answer_set; `table` is weighed.
+std::vector<Hypothesis> answer_set(const std::vector<Hypothesis>& table);
+
+/// Each hypothesis of one table with each of an independent one.
+std::vector<Hypothesis> combined(const std::vector<Hypothesis>& a, const std::vector<Hypothesis>& b);
+
+/// Probability that anything is missing; `table` is weighed.
+double probability_of_something(const std::vector<Hypothesis>& table);
+
+/// Effects that stand in some hypothesis of the set and not in the first: it may be they instead.
+std::vector<std::string> ties_of(const std::vector<Hypothesis>& set);
+
+}  // namespace shakedown

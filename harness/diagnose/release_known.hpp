@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+
+#include "known_effects.hpp"
+#include "measurement.hpp"
+
+namespace shakedown {
+
+/// The measurement with each run released from where it was seen to be, as far as what the user says of the
+/// release allows: a hand does not let go twice at the same place. Weighs what is known of the release
+/// (`[known]`, else half a millimetre) against the first frames and the camera's scale.
+Measurement with_measured_release(Measurement measurement, const Setup& setup,
+                                  std::span<const EffectRecord* const> known);
+
+}  // namespace shakedown

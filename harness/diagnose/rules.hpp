@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Every number with which a diagnosis decides: value, unit, source. `shakedown diagnose --rules` prints them.
+#pragma once
+#include <span>
+#include <string_view>
+
+namespace shakedown {
+
+struct Rule {
+  std::string_view name;
+  double value;
+  std::string_view unit, source;
+  constexpr operator double() const { return value; }
+};
+
+namespace rules {
+
+constexpr Rule adds_effect{
+    "adds_effect", 0.9, "probability",
+    "an effect is added when the hypotheses that something more is missing hold this much: "
+    "at the edge one in ten is wrong"};
+constexpr Rule answer_set{
+    "answer_set", 0.95, "probability",
+    "the smallest set of hypotheses that holds as much is the answer, as a 95 % interval is"};
+constexpr Rule expected_effects{
+    "expected_effects", 0.5, "effects",
+    "an experiment hides half an effect beforehand: as many hide something as hide "
+    "nothing, rounded down"};
+constexpr Rule emulator_noise{
+    "emulator_noise", 12.6, "chi2",
+    "rms difference of the fitted gains of two effects whose signatures agree (260 null "
+    "cases): what two fits differ by for no reason"};
+constexpr Rule doubtful{
+    "doubtful", 0.05, "p-value",
+    "a model below is looked at with effects that no linear estimate sees; one right model in "
+    "twenty is"};
+constexpr Rule holds_well{"holds_well", 0.3, "p-value",
+                          "a model as given above is not refitted: seven right models in ten pass"};
+constexpr Rule holds{"holds", 0.01, "p-value", "a model below is rejected: one right model in a hundred is"};
+constexpr Rule codes_differ{
+    "codes_differ", 1.4, "chi2 over its expectation",
+    "soft contacts of 0.2 to 0.43 ms judged by hard impacts of the same parameters: 1.1 to "
+    "1.33"};
+constexpr Rule stands_out{
+    "stands_out", 3.5, "standard errors",
+    "a number of the camera that is said to explain the recording; among ten such numbers one "
+    "experiment in 200 has one by chance"};
+constexpr Rule explains{
+    "explains", 4, "floors of noise and chaos",
+    "errors that an explanation leaves at most: right answers leave up to 1.5, foreign contact "
+    "laws that imitate an effect 5 to 15"};
+constexpr Rule most_effects{"most_effects", 3, "effects", "what a fit of some ten parameters carries"};
+constexpr Rule most_tried{"most_tried", 4, "effects", "fitted in one round: cost"};
+
+}  // namespace rules
+
+/// All of them, in this order.
+std::span<const Rule> diagnosis_rules();
+
+}  // namespace shakedown

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+// One round of the search: which effect, beside what the model has, would explain what is left?
+#include <algorithm>
+#include <cmath>
+
+#include "key_unit.hpp"
+#include "known_effects.hpp"
+#include "rules.hpp"
+#include "setup_keys.hpp"
+#include "state.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// A candidate on its way through a round.
+struct Rival {
+  const Candidate* candidate;
+  ScreenedEffect screened;
+  double log_odds = 0;
+  double gain = 0, held_out_gain = 0;  ///< of chi2, fitted
+  bool fitted = false;
+  DiagnosisState state;  ///< where it was fitted
+};
+
+bool is_joint(const Knob& knob) { return joined_keys(knob.key).size() > 1; }
+
+/// What moves together, each by itself.
+std::vector<Knob> taken_apart(const std::vector<Knob>& knobs) {
+  std::vector<Knob> parts;
+  for (const Knob& knob : knobs)
+    for (const std::string& key : joined_keys(knob.key)) {
+      parts.push_back(knob);
+      parts.back().key = key;
+    }
+  return parts;
+}
+
+/// A restitution had to go far from what the user believes: effects inside the contacts hide there.
+bool has_strayed(const Refit& fit) {
+  for (std::size_t k = 0; k < fit.values.size(); ++k)
+    if (is_believed(fit.knobs[k]) &&
+        std::abs(fit.values[k].value - fit.knobs[k].believed) > 1.5 * fit.knobs[k].believed_error)
+      return true;
+  return false;
+}
+
+/// Without the effect the restitutions were led astray: the box reaches from there to what the user gave.
+std::vector<Knob> covering_the_users_values(std::vector<Knob> knobs) {
+  for (Knob& knob : knobs) {
+    if (!is_believed(knob)) continue;
+    const double apart = std::abs(knob.centre - knob.believed);
+    knob.centre = (knob.centre + knob.believed) / 2;
+    knob.width = apart / 2 + 0.8 * knob.believed_error;
+  }
+  return knobs;
+}
+
+/// Elsewhere: the user's restitutions, and of the effect's first range the half in which the fit is not. The
+/// restitutions are known well only together, and friction with them: along that valley there may be two
+/// minima.
+std::vector<Knob> second_start(const Refit& fit, const std::vector<Knob>& first_range) {
+  std::vector<Knob> start = fit.knobs;
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    Knob& knob = start[k];
+    if (knob.exact) continue;
+    knob.centre = fit.values[k].value;
+    if (is_believed(knob)) knob.centre = knob.believed, knob.width = knob.believed_error;
+    for (const Knob& first : first_range)
+      if (first.key == knob.key) {
+        knob.width = 0.6 * first.width;
+        knob.centre = first.centre + (knob.centre < first.centre ? 0.5 : -0.5) * first.width;
+      }
+  }
+  return start;
+}
+
+/// Where the fit of a candidate begins: at the linear estimate, or over its whole usual range where there is
+/// none.
+std::vector<Knob> knobs_of(const Candidate& candidate, const ScreenedEffect& screened) {
+  std::vector<Knob> added = candidate.fitted_knobs();
+  for (Knob& knob : added) {
+    if (candidate.knobs.empty()) {  // a length, known by what it does
+      knob.width *= std::clamp(screened.value, knob.low, knob.high) / knob.centre;
+      knob.centre = std::clamp(screened.value, knob.low, knob.high);
+    } else if (candidate.always) {
+      knob.centre += knob.width;
+    } else {
+      knob.centre = std::clamp(screened.value, knob.low, knob.high);
+      knob.width = std::max(knob.width, 0.5 * std::abs(screened.value));
+    }
+  }
+  return added;
+}
+
+/// An exact knob of the camera that the candidate itself moves is no nuisance beside it.
+std::vector<Knob> without(std::vector<Knob> knobs, const std::vector<Knob>& these) {
+  std::erase_if(knobs, [&](const Knob& knob) {
+    return std::any_of(these.begin(), these.end(), [&](const Knob& other) { return other.key == knob.key; });
+  });
+  return knobs;
+}
+
+void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools, double lowest) {
+  const Candidate& candidate = *rival.candidate;
+  DiagnosisState& state = rival.state = before;
+  state.setup = prepared(before.setup, candidate, tools.known());
+  const std::vector<Knob> added = knobs_of(candidate, rival.screened);
+  state.found = together(before.found, added);
+  state.camera = without(before.camera, added);
+  state.missing.push_back(candidate.effect);
+  const bool costly = candidate.dear && !candidate.always;
+  const std::vector<Knob> knobs =
+      together(together(covering_the_users_values(before.theta), state.found), state.camera);
+  const std::string stage = "trying " + candidate.effect;
+  state.fit = tools.fit(state, stage, knobs, costly ? effort::attempt_when_dear : effort::attempt,
+                        &before.fit, lowest);
+  if (std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; })) {
+    const Refit other = tools.fit(state, stage + " from elsewhere", second_start(state.fit, added),
+                                  effort::attempt, &before.fit, std::min(lowest, state.fit.judged_chi2));
+    if (other.judged_chi2 < state.fit.judged_chi2) state.fit = other;
+  }
+  state.dear = before.dear || costly;
+  rival.fitted = true;
+  rival.gain = before.fit.judged_chi2 - state.fit.judged_chi2;
+  rival.held_out_gain = before.fit.judged_held_out_chi2 - state.fit.judged_held_out_chi2;
+}
+
+/// The fitted strength of a rival, as the prior counts it.
+StrengthSeen strength_fitted(const Rival& rival) {
+  StrengthSeen seen = rival.screened.seen;
+  const std::vector<Knob> added = rival.candidate->fitted_knobs();
+  for (const FittedValue& value : rival.state.fit.values)
+    for (const Knob& knob : added)
+      if (value.key == knob.key && rival.candidate->knobs.size() > 0) {
+        seen.value = value.value - when_absent(knob);
+        if (seen.one_sided) seen.value = std::abs(seen.value);
+        seen.error = value.error;
+      }
+  return seen;
+}
+
+void weigh_rival(Rival& rival, double candidates) {
+  StrengthSeen seen = rival.screened.seen;
+  if (rival.fitted) {
+    const double linear = rival.candidate->always ? 0 : rival.screened.gain;
+    seen = strength_fitted(rival);
+    seen.gain =
+        rival.candidate->always ? beyond_emulator_noise(rival.gain) : believed_gain(linear, rival.gain);
+  }
+  rival.log_odds = log_odds_of(seen, candidates);
+}
+
+RankedEffect ranked_as(const Rival& rival) {
+  RankedEffect ranked{rival.candidate->effect, rival.screened.gain,       std::nan(""), std::nan(""),
+                      rival.screened.value,    rival.screened.look_alikes};
+  if (!rival.fitted) return ranked;
+  ranked.fitted = true;
+  ranked.gain = rival.gain;
+  ranked.held_out_gain = rival.held_out_gain;
+  // of a difference of two chi2 of nested models
+  ranked.standard_error = 2 * std::sqrt(std::abs(rival.held_out_gain));
+  for (const FittedValue& value : rival.state.fit.values)
+    for (const Knob& knob : rival.candidate->fitted_knobs())
+      if (value.key == knob.key) ranked.value = value.value;
+  return ranked;
+}
+
+std::vector<Candidate> open_candidates(const DiagnosisState& state, DiagnosisTools& tools,
+                                       const std::vector<std::string>& seen_by_balance) {
+  std::vector<Candidate> candidates = candidates_for(state.setup, tools.options().effects, tools.known());
+  std::erase_if(candidates, [&](const Candidate& candidate) {
+    const auto judged = [&](const std::string& key) {
+      return std::find(seen_by_balance.begin(), seen_by_balance.end(), key) != seen_by_balance.end();
+    };
+    if (!candidate.knobs.empty()) return judged(candidate.knobs.front().key);
+    return !candidate.fixed.empty() && judged(candidate.fixed.front().first);
+  });
+  return candidates;
+}
+
+/// Physics is not named where the camera explains as much.
+void camera_first(std::vector<Rival*>& order, DiagnosisTools& tools) {
+  const auto of_camera = [&](const Rival* rival) {
+    const EffectRecord* record = find_record(tools.known(), rival->candidate->effect);
+    return record != nullptr && record->acts_on == ActsOn::camera;
+  };
+  if (order.size() > 1 && order[1]->log_odds > order[0]->log_odds - 1 && of_camera(order[1]) &&
+      !of_camera(order[0]))
+    std::swap(order[0], order[1]);
+}
+
+}  // namespace
+
+SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
+                         const std::vector<std::string>& seen_by_balance) {
+  SearchRound round{{{{}, 0, 0}}, {}, {}, false, state, "", {}};
+  const std::vector<Candidate> candidates = open_candidates(state, tools, seen_by_balance);
+  if (candidates.empty()) return round;
+  tools.begin("ranking the effects");
+  const int count = state.dear ? effort::rank_when_dear : effort::rank;
+  std::vector<Rival> rivals;
+  for (const ScreenedEffect& screened : screen(tools.features(state.setup), state.knobs(), candidates,
+                                               tools.workshop(), count, tools.next_batch()))
+    rivals.push_back({&candidates[screened.candidate], screened, 0, 0, 0, false, {}});
+  const double all = static_cast<double>(tools.known().size());
+  for (Rival& rival : rivals) weigh_rival(rival, all);
+  std::vector<Rival*> order;
+  for (Rival& rival : rivals) order.push_back(&rival);
+  const auto by_odds = [](const Rival* a, const Rival* b) { return a->log_odds > b->log_odds; };
+  std::stable_sort(order.begin(), order.end(), by_odds);
+  const bool in_doubt = state.fit.p_value <= rules::doubtful || has_strayed(state.fit);
+  double lowest = state.fit.judged_chi2;
+  int tried = 0;
+  bool mended = false;
+  const auto attempt = [&](Rival& rival) {
+    if (tried >= static_cast<int>(rules::most_tried) || (tools.spent() && tried > 0)) return;
+    ++tried;
+    try {
+      fit_rival(rival, state, tools, lowest);
+      lowest = std::min(lowest, rival.state.fit.judged_chi2);
+      weigh_rival(rival, all);
+      mended = mended || (rival.state.fit.p_value > rules::doubtful && rival.log_odds > 0);
+    } catch (const PhysicsError& error) {
+      round.notes.push_back(rival.candidate->effect + " could not be tried: " + error.what());
+    }
+  };
+  // What a linear estimate promises goes first; what only its full strength shows has its turn where the
+  // model is in doubt and nothing has mended it.
+  for (Rival* rival : order)
+    if (!rival->candidate->always && rival->log_odds > 0) attempt(*rival);
+  for (Rival* rival : order)
+    if (rival->candidate->always && in_doubt && !mended) attempt(*rival);
+  for (Rival* rival : order) {
+    if (!rival->candidate->always || rival->fitted) round.ranking.push_back(ranked_as(*rival));
+    if (std::isfinite(rival->log_odds) && (!rival->candidate->always || rival->fitted))
+      round.table.push_back({{rival->candidate->effect}, rival->log_odds, 0});
+  }
+  weigh(round.table);
+  if (probability_of_something(round.table) <= rules::adds_effect) return round;
+  std::vector<Rival*> fitted;
+  for (Rival* rival : order)
+    if (rival->fitted && rival->log_odds > 0) fitted.push_back(rival);
+  if (fitted.empty()) return round;
+  std::stable_sort(fitted.begin(), fitted.end(), by_odds);
+  camera_first(fitted, tools);
+  round.added = true;
+  round.next = fitted[0]->state.settled(tools.known());
+  if (fitted.size() > 1) {
+    const DiagnosisState second = fitted[1]->state.settled(tools.known());
+    round.runner_up = fitted[1]->candidate->effect;
+    round.runner_up_setup = second.setup;
+  }
+  return round;
+}
+
+DiagnosisState concluded(const DiagnosisState& state, DiagnosisTools& tools, const std::string& stage) {
+  DiagnosisState whole = state;
+  if (std::none_of(state.found.begin(), state.found.end(), is_joint)) {
+    whole.fit = tools.fit(state, stage, state.knobs(), effort::conclude);
+    return whole;
+  }
+  DiagnosisState apart = state;
+  apart.found = taken_apart(state.found);
+  for (Knob& part : apart.found) {
+    // one may be far from what both were together
+    const bool was_joint = std::none_of(state.found.begin(), state.found.end(),
+                                        [&](const Knob& knob) { return knob.key == part.key; });
+    if (was_joint)
+      part.width = std::max(part.width, 0.6 * (part.centre - part.low)),
+      part.centre = std::max(part.centre, part.low + part.width);
+  }
+  apart.fit = tools.fit(apart, stage, apart.knobs(), effort::apart);
+  // too many to follow
+  if ((apart.fit.scatter - state.fit.scatter) * apart.fit.degrees > rules::emulator_noise) {
+    whole.fit = tools.fit(state, stage, state.knobs(), effort::conclude);
+    return whole;
+  }
+  return apart;
+}
+
+DiagnosisState pruned(const DiagnosisState& state, DiagnosisTools& tools,
+                      const std::vector<std::string>& from_balance) {
+  if (state.missing.size() < 2) return state;
+  for (std::size_t i = 0; i + 1 < state.missing.size(); ++i) {
+    const std::string effect = state.missing[i];
+    if (std::find(from_balance.begin(), from_balance.end(), effect) != from_balance.end()) continue;
+    const bool stands =
+        std::any_of(state.fit.values.begin(), state.fit.values.end(), [&](const FittedValue& value) {
+          constexpr double beyond_doubt = 2;  // standard errors: what a 95 % interval leaves out
+          return effect_of(value.key) == effect && std::abs(value.value) > beyond_doubt * value.error;
+        });
+    if (stands) continue;
+    DiagnosisState less = state;
+    std::erase_if(less.setup.effects,
+                  [&](const EffectChoice& choice) { return choice.record->name == effect; });
+    std::erase_if(less.found, [&](const Knob& knob) { return effect_of(knob.key) == effect; });
+    less.missing.erase(less.missing.begin() + static_cast<std::ptrdiff_t>(i));
+    less.fit = tools.fit(less, "is " + effect + " still needed?", less.knobs(), effort::refit);
+    if (less.fit.p_value <= rules::holds &&
+        (less.fit.scatter - state.fit.scatter) * state.fit.degrees > rules::emulator_noise)
+      continue;
+    return pruned(less, tools, from_balance);
+  }
+  return state;
+}
+
+}  // namespace shakedown

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "sentences.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "key_unit.hpp"
+#include "known_effects.hpp"
+#include "quantity.hpp"
+#include "rules.hpp"
+#include "verdict.hpp"
+
+namespace shakedown {
+
+namespace {
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+std::string rounded(double value, const std::string& unit) {
+  const double near = std::stod(fmt::format("{:.3g}", value));
+  return unit.empty() ? write_number(near) : write_quantity(near, unit);
+}
+
+/// "linear damping of the box (blade_viscous_damping), 0.05 N s/m".
+std::string named(const std::string& effect, const Diagnosis& d, std::span<const EffectRecord* const> known) {
+  const EffectRecord* record = find_record(known, effect);
+  std::string words =
+      record && !record->label.empty() ? std::string(record->label) + " (" + effect + ")" : effect;
+  for (const DiagnosedParameter& parameter : d.parameters)
+    if (effect_of(parameter.name) == effect && parameter.word.empty())
+      return words + ", " + rounded(parameter.value, unit_of_key(parameter.name, known));
+  return words;
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string words;
+  for (const std::string& name : names) words += (words.empty() ? "" : "; ") + name;
+  return words;
+}
+
+/// The fall of the error, of the box or, where that shows more (a camera's bias), of the grains' centre.
+std::string what_it_brings(const Diagnosis& d) {
+  if (d.ladder.size() < 2) return "";
+  const LadderStep &given = d.ladder.front(), &last = d.ladder.back();
+  const double box = last.error_box / given.error_box, centre = last.error_centre / given.error_centre;
+  constexpr double hardly = 0.9;
+  const bool of_centre = box > hardly && centre < box;
+  std::string words = fmt::format(
+      " The rms error of the {} falls from {:.2f} mm (as given) to {:.2f} mm; noise and run-to-run spread "
+      "make "
+      "{:.2f} mm.",
+      of_centre ? "grains' centre" : "box", 1e3 * (of_centre ? given.error_centre : given.error_box),
+      1e3 * (of_centre ? last.error_centre : last.error_box),
+      1e3 * (of_centre ? last.floor_centre : last.floor_box));
+  return words;
+}
+
+std::string what_remains(const Diagnosis& d) {
+  const LadderStep& last = d.ladder.back();
+  if (last.p_value > rules::holds || last.scatter < rules::codes_differ) return "";
+  return fmt::format(
+      " What was found explains {} of the misfit as given; the data still reject the model (p = {:.2g}): "
+      "{:.2g} mm of no known form remain.",
+      percent(std::max(0.0, d.explained)), last.p_value, 1e3 * last.error_box);
+}
+
+std::string ties_in_words(const Diagnosis& d) {
+  std::vector<std::string> ties;
+  for (const std::string& tie : ties_of(d.answers))
+    if (std::find(d.missing.begin(), d.missing.end(), tie) == d.missing.end()) ties.push_back(tie);
+  if (ties.empty()) return "";
+  std::string words = " These measurements do not rule out ";
+  for (std::size_t i = 0; i < ties.size(); ++i)
+    words += (i == 0 ? "" : i + 1 < ties.size() ? ", " : " or ") + ties[i];
+  return words + (d.missing.empty() ? "." : " beside or instead of it.");
+}
+
+std::string of_the_unknown(const Diagnosis& d) {
+  const MomentumAudit& balance = d.momentum;
+  if (balance.unlisted)
+    return "Something that is not in the library acts on the box: no known force brings the momentum balance "
+           "into order.";
+  if (!balance.possible)
+    return "None of the known effects explains the measurements; there is no momentum balance to tell a "
+           "force "
+           "on the box from contacts (" +
+           balance.why_not + ").";
+  if (balance.unexplained)
+    return fmt::format(
+        "None of the known effects brings the momentum balance into order (p = {:.2g}); what was found "
+        "explains "
+        "{} of its misfit.",
+        balance.final_fit.p_value, percent(std::max(0.0, balance.explained)));
+  return "None of the known effects explains the measurements; momentum is in order, so the cause lies "
+         "inside "
+         "the contacts.";
+}
+
+std::string of_the_measurement(const Diagnosis& d, std::span<const EffectRecord* const> known) {
+  std::vector<std::string> names;
+  for (const NuisanceFound& nuisance : standing_out(d.camera)) names.push_back(words_of(nuisance, known));
+  return "No effect is missing: errors of camera, clock or balance within what such things have explain the "
+         "measurements: " +
+         list_of(names) + ".";
+}
+
+}  // namespace
+
+std::string words_of(const NuisanceFound& nuisance, std::span<const EffectRecord* const> known) {
+  const std::string key = nuisance.name.substr(0, nuisance.name.find(' '));
+  const EffectRecord* record = find_record(known, effect_of(key));
+  const std::string label = record && !record->label.empty() ? std::string(record->label) : nuisance.name;
+  return label + " " + rounded(nuisance.value, nuisance.unit) + " +- " +
+         rounded(nuisance.error, nuisance.unit);
+}
+
+std::string sentence_of(const Diagnosis& d, std::span<const EffectRecord* const> known) {
+  switch (d.verdict) {
+    case Verdict::adequate:
+      return fmt::format(
+          "The model holds as given: what remains is within camera noise and the spread from run to run "
+          "(p = {:.2g}).",
+          d.ladder.back().p_value);
+    case Verdict::refit:
+      return "No effect is missing: other values of the parameters explain the measurements." +
+             what_it_brings(d) + ties_in_words(d);
+    case Verdict::measurement: return of_the_measurement(d, known);
+    case Verdict::missing: {
+      std::vector<std::string> names;
+      for (const std::string& effect : d.missing) names.push_back(named(effect, d, known));
+      return "Missing in the model: " + list_of(names) + "." + what_it_brings(d) + ties_in_words(d) +
+             what_remains(d);
+    }
+    case Verdict::unknown: return of_the_unknown(d);
+  }
+  return "";
+}
+
+}  // namespace shakedown

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The sentences of a diagnosis.
+#pragma once
+#include "diagnosis.hpp"
+
+namespace shakedown {
+
+/// The verdict with its reason. `known` gives effects their labels.
+std::string sentence_of(const Diagnosis& diagnosis, std::span<const EffectRecord* const> known);
+
+/// "camera_shutter.time 1.4 ms (+- 0.2)".
+std::string words_of(const NuisanceFound& nuisance, std::span<const EffectRecord* const> known);
+
+}  // namespace shakedown

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "state.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "camera_features.hpp"
+#include "rules.hpp"
+#include "setup_file.hpp"
+#include "setup_keys.hpp"
+
+namespace shakedown {
+
+std::vector<Knob> together(std::vector<Knob> a, const std::vector<Knob>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+bool is_believed(const Knob& knob) { return knob.believed_error > 0 && find_setup_key(knob.key) != nullptr; }
+
+std::vector<Knob> DiagnosisState::knobs() const { return together(together(theta, found), camera); }
+
+DiagnosisState DiagnosisState::settled(std::span<const EffectRecord* const> known) const {
+  DiagnosisState at = *this;
+  for (std::vector<Knob>* list : {&at.theta, &at.found})
+    for (Knob& knob : *list)
+      for (const FittedValue& value : fit.values)
+        if (knob.key == value.key) {
+          knob.centre = value.value;
+          knob.width = std::clamp(2 * value.error, 0.1 * knob.width, knob.width);
+        }
+  // present from now on, so that it is no candidate again
+  for (const Knob& knob : at.found) set_knob(at.setup, knob, known);
+  return at;
+}
+
+LadderStep step_of(const std::string& name, const Refit& fit) {
+  return {name,
+          fit.error_box(),
+          fit.error_centre(),
+          fit.held_out_error_box,
+          fit.floor_box(),
+          fit.floor_centre(),
+          fit.p_value,
+          fit.scatter};
+}
+
+DiagnosisTools::DiagnosisTools(const Measurement& measurement, const Engine& engine,
+                               const DiagnoseOptions& options)
+    : measurement_(measurement),
+      options_(options),
+      budget_(options.budget > 0 ? options.budget : usual_budget(measurement)) {
+  workshop_.engine = &engine;
+  workshop_.known = options.known;
+  workshop_.threads = options.threads;
+  workshop_.stop = options.stop;
+  workshop_.runs = &runs_;
+  workshop_.pool = &pool_;
+  workshop_.journal = options.journal;
+  workshop_.done = [this](int) {
+    if (options_.progress && runs_ % 64 == 0)
+      options_.progress(stage_, static_cast<double>(runs_) / static_cast<double>(budget_));
+  };
+}
+
+std::vector<MeasuredFeatures> DiagnosisTools::features(const Setup& setup) const {
+  return features_with_camera(with_setup(measurement_, setup, options_.known), options_.known);
+}
+
+Refit DiagnosisTools::fit(const DiagnosisState& state, const std::string& stage,
+                          const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by,
+                          double look_again_below) {
+  stage_ = stage;
+  if (state.dear)
+    effort.count = std::min(effort.count, effort::most_when_dear),
+    effort.confirming = std::min(effort.confirming, effort::most_when_dear);
+  RefitOptions options;
+  options.rounds = effort.rounds;
+  options.count = effort.count;
+  options.judged_by = judged_by;
+  options.confirming = effort.confirming;
+  options.look_again_below = look_again_below;
+  if (effort.beside) options.look_beside_below = rules::doubtful;
+  options.first_run = next_batch();
+  return refit(features(state.setup), knobs, workshop_, options);
+}
+
+std::int64_t usual_budget(const Measurement& measurement) {
+  constexpr std::int64_t for_each_setup = 3500, at_least = 4;
+  std::set<std::string> different;
+  for (const Measurement::Run& run : measurement.runs) {
+    Setup of_run = run.setup;
+    of_run.run.duration = 1;  // repeats that end at different times share simulations
+    different.insert(digest(of_run));
+  }
+  return for_each_setup * std::max<std::int64_t>(at_least, std::ssize(different));
+}
+
+}  // namespace shakedown

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// A diagnosis on its way: values, and the tools that make the next one from it. Going back is not assigning.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "diagnosis.hpp"
+#include "evidence.hpp"
+#include "linear_screen.hpp"
+
+namespace shakedown {
+
+/// The model as far as it has been amended, and how it fits.
+struct DiagnosisState {
+  Setup setup;                       ///< with the effects found
+  std::vector<Knob> theta;           ///< what the user may refit
+  std::vector<Knob> found;           ///< strengths of the effects found
+  std::vector<Knob> camera;          ///< what is known of the camera to an error
+  std::vector<std::string> missing;  ///< effects found, in the order added
+  Refit fit;
+  bool dear = false;  ///< an effect makes runs cost several times a plain one
+
+  std::vector<Knob> knobs() const;
+  /// The same, its knobs at the values of its fit.
+  DiagnosisState settled(std::span<const EffectRecord* const> known) const;
+};
+
+/// How closely to look: re-centrings, simulations of each different setup in a fit's last round and at its
+/// solution.
+struct Effort {
+  int rounds, count, confirming;
+  bool beside = false;  ///< a poor one looks on both sides along what is known least
+};
+namespace effort {
+constexpr Effort look{1, 128, 0}, refit{2, 160, 128, true}, attempt{2, 128, 96}, attempt_when_dear{1, 72, 48},
+    conclude{1, 192, 160}, apart{2, 160, 128};
+constexpr int rank = 192, rank_when_dear = 128, most_when_dear = 80;
+}  // namespace effort
+
+/// What all steps share. Counts simulations and numbers the batches of random microstates.
+class DiagnosisTools {
+ public:
+  DiagnosisTools(const Measurement& measurement, const Engine& engine, const DiagnoseOptions& options);
+  DiagnosisTools(const DiagnosisTools&) = delete;
+  DiagnosisTools& operator=(const DiagnosisTools&) = delete;
+
+  const Measurement& measurement() const { return measurement_; }
+  const DiagnoseOptions& options() const { return options_; }
+  std::span<const EffectRecord* const> known() const { return options_.known; }
+  Workshop& workshop() { return workshop_; }
+  std::int64_t runs() const { return runs_; }
+  bool spent() const { return runs_ > budget_; }
+  int next_batch() { return 100000 * ++batch_; }
+  void begin(const std::string& stage) { stage_ = stage; }
+
+  /// The measured runs beside this setup, with what the camera does to them.
+  std::vector<MeasuredFeatures> features(const Setup& setup) const;
+  Refit fit(const DiagnosisState& state, const std::string& stage, const std::vector<Knob>& knobs,
+            Effort effort, const Refit* judged_by = nullptr,
+            double look_again_below = std::numeric_limits<double>::infinity());
+
+ private:
+  const Measurement& measurement_;
+  const DiagnoseOptions& options_;
+  std::int64_t budget_, runs_ = 0;
+  SimulationPool pool_;
+  Workshop workshop_;
+  std::string stage_;
+  int batch_ = 0;
+};
+
+/// One round of the search: what was weighed, and the state with the effect that was added (none: as before).
+struct SearchRound {
+  std::vector<Hypothesis> table;  ///< beside the state before; weighed
+  std::vector<RankedEffect> ranking;
+  std::vector<std::string> notes;
+  bool added = false;
+  DiagnosisState next;
+  std::string runner_up;  ///< the effect that explains nearly as well as the one added; empty: none
+  Setup runner_up_setup;  ///< as it was fitted
+};
+/// `seen_by_balance`: keys that the momentum balance has judged better.
+SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
+                         const std::vector<std::string>& seen_by_balance);
+
+/// The fit with full effort; strengths that were looked for as one are fitted by themselves where the data
+/// bear it.
+DiagnosisState concluded(const DiagnosisState& state, DiagnosisTools& tools, const std::string& stage);
+
+/// Without the effects that the later ones have made needless.
+DiagnosisState pruned(const DiagnosisState& state, DiagnosisTools& tools,
+                      const std::vector<std::string>& from_balance);
+
+/// A fit as a step of the ladder.
+LadderStep step_of(const std::string& name, const Refit& fit);
+
+std::vector<Knob> together(std::vector<Knob> a, const std::vector<Knob>& b);
+
+/// A restitution, of which the user believes something.
+bool is_believed(const Knob& knob);
+
+}  // namespace shakedown

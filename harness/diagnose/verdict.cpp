@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rules.hpp"
+
+namespace shakedown {
+
+Verdict verdict_of(const Findings& findings) {
+  const bool is_rejected = !(findings.p_value > rules::holds) && !(findings.scatter < rules::codes_differ);
+  if (findings.unlisted) return Verdict::unknown;
+  if (findings.anything_missing) return Verdict::missing;
+  if (is_rejected || !(findings.balance_p > balance_rejected)) return Verdict::unknown;
+  if (findings.camera_stands_out) return Verdict::measurement;
+  return findings.refitted ? Verdict::refit : Verdict::adequate;
+}
+
+bool explains(double p_value, double scatter, double scatter_before, double error, double floor) {
+  if (p_value > rules::holds || scatter <= 2 * rules::codes_differ) return true;
+  constexpr double most = 0.6;  // of the misfit: more than half must go
+  return scatter <= most * scatter_before && error <= rules::explains * floor;
+}
+
+std::vector<NuisanceFound> standing_out(const std::vector<NuisanceFound>& nuisances) {
+  std::vector<NuisanceFound> found;
+  for (const NuisanceFound& nuisance : nuisances)
+    if (nuisance.error > 0 && std::abs(nuisance.value) > rules::stands_out * nuisance.error)
+      found.push_back(nuisance);
+  std::stable_sort(found.begin(), found.end(), [](const NuisanceFound& a, const NuisanceFound& b) {
+    return std::abs(a.value / a.error) > std::abs(b.value / b.error);
+  });
+  return found;
+}
+
+}  // namespace shakedown

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// What a diagnosis says in the end, decided from what was found.
+#pragma once
+#include "balance_evidence.hpp"
+#include "diagnosis.hpp"
+
+namespace shakedown {
+
+/// What the verdict rests on.
+struct Findings {
+  bool unlisted = false;            ///< a force of no list acts on the box
+  bool anything_missing = false;    ///< effects were found
+  bool refitted = false;            ///< parameters had to move
+  bool camera_stands_out = false;   ///< something of the camera explains the recording
+  double p_value = 1, scatter = 1;  ///< of the final model
+  double balance_p = 1;             ///< of the final balance; 1: there is none
+};
+Verdict verdict_of(const Findings& findings);
+
+/// An effect that leaves a rejected model with most of the misfit, or with errors far above noise and chaos,
+/// is no explanation. `before`: without it.
+bool explains(double p_value, double scatter, double scatter_before, double error, double floor);
+
+/// What of the camera the data show beyond what is known of it, most certain first.
+std::vector<NuisanceFound> standing_out(const std::vector<NuisanceFound>& nuisances);
+
+}  // namespace shakedown

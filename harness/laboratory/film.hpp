@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// How a laboratory films a motion: the camera as it is, frame by frame. Written apart from the camera of the
+// model (observe/camera), which a test holds against it; a slip in one of them would otherwise stay unseen.
+#pragma once
+#include <vector>
+
+#include "camera.hpp"
+
+namespace shakedown {
+
+/// When the frames are taken, and what the table says of it.
+struct Frames {
+  std::vector<double> instant;  ///< s since release; before it box and grains rest
+  std::vector<double> stamp;    ///< s, time in the table but for the camera's own offset
+};
+
+/// An even clock that starts `late` (s) after the release and runs to `end` (s since release).
+Frames even_frames(double rate, double late, double end);
+
+/// What the table says of the motion. Between its samples the box follows cubics with its own velocity, the
+/// grains' centre cubics with slopes of parabolas.
+Recording filmed(const Camera& errors, const Frames& frames, const Trajectory& motion);
+
+}  // namespace shakedown

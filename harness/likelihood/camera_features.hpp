@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// What a camera that is known to an error may have done to the features of a measurement: derivatives of the
+// recording itself, which cost arithmetic and no simulation.
+#pragma once
+#include "emulator.hpp"
+#include "measurement.hpp"
+
+namespace shakedown {
+
+/// The features of every run, with their change by each parameter of the camera and by what each run has of
+/// its own.
+std::vector<MeasuredFeatures> features_with_camera(const Measurement& measurement,
+                                                   std::span<const EffectRecord* const> known);
+
+/// A knob for everything of the one camera that is known to an error, about what the setup says.
+std::vector<Knob> camera_knobs(const Setup& setup, const Measurement& measurement,
+                               std::span<const EffectRecord* const> known);
+
+}  // namespace shakedown

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "measurement.hpp"
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "errors.hpp"
+#include "experiment_file.hpp"
+#include "setup_file.hpp"
+
+namespace shakedown {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// How thick the layer is depends on the grains: runs with others have a plateau of their own.
+std::string grains_of(const MeasuredRun& run) {
+  std::string text;
+  for (const Override& override : run.overrides)
+    if (override.key.starts_with("grains.")) text += override.key + "=" + override.value + ";";
+  return text;
+}
+
+PlateauSlope plateau_slope(const std::vector<Measurement::Run>& runs) {
+  struct Sums {
+    double weight = 0, length = 0, plateau = 0;
+  };
+  std::map<std::string, Sums> means;
+  const auto each = [&](const auto& visit) {
+    for (const auto& [recorded, audit, setup] : runs)
+      if (std::isfinite(audit.plateau) && std::isfinite(recorded.box_length))
+        visit(means[grains_of(recorded)], 1 / (audit.plateau_error * audit.plateau_error),
+              recorded.box_length, audit.plateau);
+  };
+  each([](Sums& mean, double weight, double length, double plateau) {
+    mean.weight += weight, mean.length += weight * length, mean.plateau += weight * plateau;
+  });
+  double squares = 0, products = 0, spread = 0;
+  each([&](const Sums& mean, double weight, double length, double plateau) {
+    const double apart = length - mean.length / mean.weight;
+    spread += apart * apart;
+    squares += weight * apart * apart;
+    products += weight * apart * (plateau - mean.plateau / mean.weight);
+  });
+  constexpr double least_apart = 1e-3;  // m, else it is one length
+  if (!(spread > least_apart * least_apart)) return {nothing, nothing};
+  return {products / squares, 1 / std::sqrt(squares)};
+}
+
+}  // namespace
+
+Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known) {
+  return with_overrides(setup, run.overrides, known);
+}
+
+Measurement measurement_of(const Setup& setup, Experiment experiment,
+                           std::span<const EffectRecord* const> known) {
+  std::vector<Setup> setups;
+  for (const MeasuredRun& run : experiment.runs) setups.push_back(setup_of_run(setup, run, known));
+  return measurement_of(setups, std::move(experiment));
+}
+
+Measurement measurement_of(const std::vector<Setup>& setups, Experiment experiment) {
+  EXPECT(setups.size() == experiment.runs.size());
+  Measurement measurement{std::move(experiment.title),
+                          std::move(experiment.file),
+                          std::move(experiment.notes),
+                          {},
+                          experiment.known,
+                          {},
+                          {}};
+  std::vector<const MeasuredRun*> recorded;
+  std::vector<RunAudit*> audits;
+  for (std::size_t r = 0; r < setups.size(); ++r) {
+    RunAudit audit = audit_run(experiment.runs[r]);
+    measurement.runs.push_back({std::move(experiment.runs[r]), std::move(audit), setups[r]});
+  }
+  for (Measurement::Run& run : measurement.runs)
+    recorded.push_back(&run.recorded), audits.push_back(&run.audit);
+  pool_noise(recorded, audits);
+  for (const RunAudit* audit : audits)
+    for (std::string& warning : warnings_of(*audit)) measurement.warnings.push_back(std::move(warning));
+  measurement.plateau = plateau_slope(measurement.runs);
+  return measurement;
+}
+
+std::vector<KnownValue> known_of(const Measurement& measurement, const Measurement::Run& run) {
+  Experiment of_all;
+  of_all.known = measurement.known;
+  return known_of(of_all, run.recorded);
+}
+
+Measurement with_setup(Measurement measurement, const Setup& changed,
+                       std::span<const EffectRecord* const> known) {
+  for (Measurement::Run& run : measurement.runs) run.setup = setup_of_run(changed, run.recorded, known);
+  return measurement;
+}
+
+}  // namespace shakedown

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// An experiment ready to be compared with a model: each run with what its frames tell and the setup that goes
+// with it.
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "audit.hpp"
+#include "experiment.hpp"
+
+namespace shakedown {
+
+/// |x_com - x_box| of the packed layer is (1 - b)(1 + s)(L/2 - h): its slope against L tells a camera's bias
+/// or scale from the mass.
+struct PlateauSlope {
+  double slope = 0, error = 0;  ///< per m of box length; 1/2 expected; NaN with one length only
+};
+
+struct Measurement {
+  /// One recorded run, whole.
+  struct Run {
+    MeasuredRun recorded;
+    RunAudit audit;
+    Setup setup;  ///< the user's, with the run's own keys
+  };
+  std::string title, file;
+  std::vector<std::string> notes;     ///< what was assumed in reading, in words
+  std::vector<std::string> warnings;  ///< what the frames give reason to say, sentences for people
+  std::vector<KnownValue> known;      ///< what was weighed and measured, and how well
+  PlateauSlope plateau;
+  std::vector<Run> runs;
+};
+
+/// The setup of one run: the user's, with the run's own keys. Throws InputError that names the run's line for
+/// a key that does not exist or does not fit.
+Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known);
+
+/// Audits the frames, and gives each run its setup. Throws as setup_of_run does.
+Measurement measurement_of(const Setup& setup, Experiment experiment,
+                           std::span<const EffectRecord* const> known);
+
+/// The same with setups made elsewhere, one for each run.
+Measurement measurement_of(const std::vector<Setup>& setups, Experiment experiment);
+
+/// What is known of one run: its own values, and the measurement's where it has none.
+std::vector<KnownValue> known_of(const Measurement& measurement, const Measurement::Run& run);
+
+/// The same measurement beside another setup of the user: each run gets it with the run's own keys.
+Measurement with_setup(Measurement measurement, const Setup& changed,
+                       std::span<const EffectRecord* const> known);
+
+}  // namespace shakedown

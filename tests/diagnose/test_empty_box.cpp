@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// A box that rings down alone, in closed form: whatever damps it is told from its amplitudes, at any phase
+// and origin of the recording.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "diagnosis.hpp"
+#include "effects.hpp"
+#include "engines.hpp"
+#include "random.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+struct RingDown {
+  double viscous = 0, dry = 0, quadratic = 0;  // N s/m, N, N s^2/m^2
+  double start = 0, origin = 0;                // s after release, m
+};
+
+shakedown::Setup empty_box() {
+  shakedown::Setup setup;
+  setup.grains.count = 0;
+  return setup;
+}
+
+/// By leapfrog in steps of 0.1 ms: 1e-8 of the amplitude.
+Experiment recorded(const RingDown& what, std::uint64_t seed) {
+  const shakedown::Setup setup = empty_box();
+  const double mass = setup.box.mass,
+               stiffness = mass * std::pow(2 * std::numbers::pi * setup.spring.frequency, 2);
+  constexpr double rate = 250, duration = 20, noise = 1e-4;
+  constexpr int steps = 40;
+  const double step = 1 / (rate * steps);
+  Random random(seed, 0, Stream::camera);
+  Experiment experiment;
+  MeasuredRun& run = experiment.runs.emplace_back();
+  run.name = "empty";
+  run.box_length = setup.box.length;
+  run.frame_rate = rate;
+  double x = setup.release.displacement, v = 0;
+  for (int frame = 0; frame < static_cast<int>(duration * rate); ++frame) {
+    const double t = frame / rate;
+    if (t >= what.start) {
+      run.time.push_back(t - what.start);
+      run.x_box.push_back(x + what.origin + noise * random.normal());
+    }
+    for (int i = 0; i < steps; ++i) {
+      v += (-stiffness * x - what.viscous * v - what.quadratic * v * std::abs(v)) / mass * step;
+      const double friction = what.dry / mass * step;
+      v = std::abs(v) < friction ? 0 : v - std::copysign(friction, v);
+      x += v * step;
+    }
+  }
+  return experiment;
+}
+
+void expect_named(RingDown what, const std::string& effect, double truth, double tolerance) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  DiagnoseOptions options;
+  options.known = all_effects();
+  std::uint64_t seed = 1;
+  for (const auto& [start, origin] : {std::pair(0.0, 0.0), {0.23, 0.012}, {0.61, -0.03}}) {
+    what.start = start, what.origin = origin;
+    const Diagnosis d =
+        diagnose(empty_box(), measurement_of({empty_box()}, recorded(what, seed++)), *engine, options);
+    EXPECT_EQ(d.verdict, Verdict::missing) << d.sentence;
+    ASSERT_FALSE(d.hypotheses.empty());
+    EXPECT_EQ(d.hypotheses.front().effects, std::vector<std::string>{effect}) << start;
+    EXPECT_GT(d.explained, 0.95);
+    ASSERT_EQ(d.momentum.terms.size(), 1u) << d.sentence;
+    EXPECT_NEAR(d.momentum.terms.front().value, truth, tolerance) << start;
+  }
+}
+
+TEST(EmptyBox, ViscousDampingIsNamed) {
+  expect_named({.viscous = 0.03}, "blade_viscous_damping", 0.03, 1e-3);
+}
+
+TEST(EmptyBox, DryFrictionIsNamed) { expect_named({.dry = 0.01}, "clamp_dry_friction", 0.01, 5e-4); }
+
+TEST(EmptyBox, QuadraticDragIsNamed) { expect_named({.quadratic = 0.1}, "blade_quadratic_drag", 0.1, 5e-3); }
+
+TEST(EmptyBox, WithoutFrictionNothingIsMissing) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  DiagnoseOptions options;
+  options.known = all_effects();
+  const Diagnosis d =
+      diagnose(empty_box(), measurement_of({empty_box()}, recorded({.start = 0.4, .origin = 0.01}, 9)),
+               *engine, options);
+  EXPECT_TRUE(d.missing.empty()) << d.sentence;
+  EXPECT_NE(d.verdict, Verdict::unknown) << d.sentence;
+}
+
+}  // namespace

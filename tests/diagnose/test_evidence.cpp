@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// From gains to probabilities, against closed forms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "evidence.hpp"
+#include "rules.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// A strength seen at so many errors from nothing; its scale beforehand is 1.
+StrengthSeen seen_at(double value, double error, bool one_sided = false) {
+  return {std::pow(value / error, 2), value, error, 1, one_sided, 1};
+}
+
+/// ln of the likelihood over that of nothing, averaged over the prior: trapezium rule about the maximum,
+/// whose error for a bell is far below 1e-6.
+double integrated(const StrengthSeen& seen) {
+  constexpr int steps = 20000;
+  const double low = std::max(seen.one_sided ? 0 : -infinite, seen.value - 12 * seen.error),
+               step = (seen.value + 12 * seen.error - low) / steps;
+  double sum = 0;
+  for (int i = 0; i <= steps; ++i) {
+    const double strength = low + i * step, ratio = strength / seen.typical;
+    const double prior = (seen.one_sided ? 2 : 1) / (std::numbers::pi * seen.typical * (1 + ratio * ratio));
+    sum += prior * step * std::exp(-std::pow((strength - seen.value) / seen.error, 2) / 2);
+  }
+  return seen.gain / 2 + std::log(sum);
+}
+
+double sum_of(const std::vector<Hypothesis>& table) {
+  return std::accumulate(table.begin(), table.end(), 0.0,
+                         [](double sum, const Hypothesis& h) { return sum + h.probability; });
+}
+
+/// Nothing, one effect, the other, both.
+std::vector<Hypothesis> weighed_table(double of_a, double of_b) {
+  std::vector<Hypothesis> table{{{}, 0, 0}, {{"a"}, of_a, 0}, {{"b"}, of_b, 0}};
+  weigh(table);
+  return table;
+}
+
+TEST(Evidence, IsTheLikelihoodAveragedOverThePrior) {
+  // Laplace leaves out the curvature of the prior: by its second derivative up to (error/typical)^2 in ln.
+  for (const bool one_sided : {false, true})
+    for (const double error : {0.003, 0.03, 0.1, 0.3})
+      for (const double sigmas : {4.0, 6.0, 12.0, 30.0}) {
+        const StrengthSeen seen = seen_at(sigmas * error, error, one_sided);
+        const double prior = std::log(rules::expected_effects / 20 / (1 - rules::expected_effects / 20));
+        EXPECT_NEAR(log_odds_of(seen, 20), integrated(seen) + prior, 1.5 * error * error + 1e-4)
+            << sigmas << " errors of " << error;
+      }
+}
+
+TEST(Evidence, AStrengthKnownWorseThanThePriorTakesNothingOfIt) {
+  const StrengthSeen vague = seen_at(1, 50);
+  const double prior = std::log(0.05 / 0.95);
+  EXPECT_NEAR(log_odds_of(vague, 10), vague.gain / 2 + prior, 1e-12);
+  // ... and gains no more than the likelihood at its maximum; the average over the prior is near nothing's.
+  EXPECT_LT(std::abs(log_odds_of(vague, 10) - prior - integrated(vague)), 0.1);
+}
+
+TEST(Evidence, ACandidateAmongManyIsLessLikelyBeforehand) {
+  const StrengthSeen seen = seen_at(0.5, 0.1);
+  const auto prior = [](double candidates) {
+    return std::log(rules::expected_effects / candidates / (1 - rules::expected_effects / candidates));
+  };
+  EXPECT_NEAR(log_odds_of(seen, 5) - log_odds_of(seen, 50), prior(5) - prior(50), 1e-12);
+  StrengthSeen rare = seen;
+  rare.odds = 0.1;
+  EXPECT_NEAR(log_odds_of(seen, 50) - log_odds_of(rare, 5), prior(50) - prior(50), 1e-12);
+}
+
+TEST(Evidence, TheWrongSignIsImpossible) {
+  EXPECT_EQ(log_odds_of(seen_at(-0.5, 0.1, true), 10), -infinite);
+  EXPECT_TRUE(std::isfinite(log_odds_of(seen_at(-0.5, 0.1, false), 10)));
+}
+
+TEST(Evidence, WhatIsNoNumberIsImpossibleAndNeverAProbability) {
+  const StrengthSeen good = seen_at(0.5, 0.1);
+  for (const double bad : {std::nan(""), infinite, -infinite})
+    for (double StrengthSeen::*field : {&StrengthSeen::gain, &StrengthSeen::value, &StrengthSeen::error,
+                                        &StrengthSeen::typical, &StrengthSeen::odds}) {
+      StrengthSeen seen = good;
+      seen.*field = bad;
+      EXPECT_EQ(log_odds_of(seen, 10), -infinite) << bad;
+    }
+  for (const double bad : {0.0, -1.0}) {
+    StrengthSeen seen = good;
+    seen.error = bad;
+    EXPECT_EQ(log_odds_of(seen, 10), -infinite) << bad;
+  }
+  std::vector<Hypothesis> table = weighed_table(-infinite, 1);
+  EXPECT_EQ(table.back().probability, 0);
+  EXPECT_NEAR(sum_of(table), 1, 1e-12);
+  table = weighed_table(std::nan(""), 1);
+  EXPECT_NEAR(sum_of(table), 1, 1e-12);
+}
+
+TEST(Evidence, AFavouriteAmongFewStaysAProbability) {
+  StrengthSeen favourite = seen_at(0.5, 0.1);
+  favourite.odds = 4;  // half an effect, four times as likely: more than one
+  EXPECT_FALSE(std::isnan(log_odds_of(favourite, 1)));
+}
+
+TEST(Evidence, WeighedHypothesesSumToOneAndTheMostProbableComesFirst) {
+  const std::vector<Hypothesis> table = weighed_table(3, 800);  // exp(800) is no double
+  EXPECT_NEAR(sum_of(table), 1, 1e-12);
+  EXPECT_EQ(table.front().effects, std::vector<std::string>{"b"});
+  EXPECT_NEAR(table.front().probability, 1, 1e-12);
+  const std::vector<Hypothesis> even = weighed_table(0, std::log(2.0));
+  EXPECT_NEAR(even[0].probability, 0.5, 1e-12);
+  EXPECT_NEAR(even[1].probability, 0.25, 1e-12);
+  EXPECT_TRUE(even[1].effects.empty());  // of equals the first stays first
+  EXPECT_NEAR(probability_of_something(even), 0.75, 1e-12);
+  std::vector<Hypothesis> none;
+  weigh(none);
+  EXPECT_TRUE(none.empty());
+}
+
+TEST(Evidence, TheAnswerIsTheFewestThatHold95Percent) {
+  const std::vector<Hypothesis> table{{{"a"}, 0, 0.6}, {{"b"}, 0, 0.3}, {{}, 0, 0.06}, {{"c"}, 0, 0.04}};
+  EXPECT_EQ(answer_set(table).size(), 3u);
+  EXPECT_EQ(answer_set({{{"a"}, 0, 0.96}, {{}, 0, 0.04}}).size(), 1u);
+  EXPECT_TRUE(answer_set({}).empty());
+}
+
+TEST(Evidence, IndependentTablesMultiply) {
+  const std::vector<Hypothesis> a = weighed_table(2, 1), b = weighed_table(0.5, -1), both = combined(a, b);
+  ASSERT_EQ(both.size(), 9u);
+  EXPECT_NEAR(sum_of(both), 1, 1e-12);
+  EXPECT_NEAR(both.front().probability, a.front().probability * b.front().probability, 1e-12);
+  for (std::size_t i = 1; i < both.size(); ++i) EXPECT_LE(both[i].probability, both[i - 1].probability);
+  for (const Hypothesis& h : both)  // an effect of both tables stands once
+    EXPECT_FALSE(h.effects.size() == 2 && h.effects[0] == h.effects[1]);
+  const auto nothing =
+      std::find_if(both.begin(), both.end(), [](const auto& h) { return h.effects.empty(); });
+  EXPECT_NEAR(nothing->probability, (1 - probability_of_something(a)) * (1 - probability_of_something(b)),
+              1e-12);
+}
+
+TEST(Evidence, TiesAreWhatItMayBeInstead) {
+  EXPECT_EQ(ties_of({{{"a"}, 0, 0.5}, {{"a", "b"}, 0, 0.2}, {{"c"}, 0, 0.2}, {{"b"}, 0, 0.06}}),
+            (std::vector<std::string>{"b", "c"}));
+  EXPECT_TRUE(ties_of({{{"a"}, 0, 0.9}, {{}, 0, 0.06}}).empty());
+  EXPECT_TRUE(ties_of({}).empty());
+}
+
+TEST(Evidence, TheLinearGainIsBelievedWhereTheFitKeepsHalfOfIt) {
+  const double noise = rules::emulator_noise;
+  EXPECT_EQ(beyond_emulator_noise(100), 100 - noise);
+  EXPECT_EQ(believed_gain(100, 60), 100);
+  EXPECT_EQ(believed_gain(100, 140), 140 - noise);
+  EXPECT_EQ(believed_gain(100, 104), 100);
+  EXPECT_EQ(believed_gain(100, 40), 40 - noise);
+  EXPECT_EQ(believed_gain(0, 5), 0);
+}
+
+}  // namespace

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// The numbers with which a diagnosis decides are few, and each says where it comes from.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "rules.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+std::string text_of(const std::string& file) {
+  std::ifstream in(std::string(PROJECT_ROOT) + "/harness/" + file);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::size_t count_of(const std::string& text, const std::string& pattern) {
+  const std::regex expression(pattern);
+  return static_cast<std::size_t>(
+      std::distance(std::sregex_iterator(text.begin(), text.end(), expression), std::sregex_iterator()));
+}
+
+TEST(Rules, AreFewerThanTwentyWithThoseOfTheBalance) {
+  const std::size_t of_balance =
+      count_of(text_of("balance/balance_rules.hpp"), "(^|\n)constexpr (double|int|Rule) ");
+  EXPECT_GE(of_balance, 1u);
+  EXPECT_LT(diagnosis_rules().size() + of_balance, 20u);
+}
+
+TEST(Rules, EachHasAUnitAndASource) {
+  std::set<std::string_view> names;
+  for (const Rule& rule : diagnosis_rules()) {
+    EXPECT_GE(rule.unit.size(), 3u) << rule.name;
+    EXPECT_GE(count_of(std::string(rule.source), "\\S+"), 4u) << rule.name << ": " << rule.source;
+    EXPECT_GT(rule.value, 0) << rule.name;
+    EXPECT_TRUE(names.insert(rule.name).second) << rule.name;
+  }
+}
+
+TEST(Rules, EveryOneIsInTheList) {
+  EXPECT_EQ(count_of(text_of("diagnose/rules.hpp"), "\nconstexpr Rule "), diagnosis_rules().size());
+}
+
+// A number of the balance has its reason in the comment right above it.
+TEST(Rules, OfTheBalanceFollowAComment) {
+  const std::string text = text_of("balance/balance_rules.hpp");
+  EXPECT_EQ(count_of(text, "\n/// [^\n]*(\n/// [^\n]*)*\nconstexpr "), count_of(text, "\nconstexpr "));
+}
+
+TEST(Rules, ThatAreProbabilitiesAreBetweenNoneAndOne) {
+  for (const Rule& rule : diagnosis_rules())
+    if (rule.unit == "probability" || rule.unit == "p-value") {
+      EXPECT_LT(rule.value, 1) << rule.name;
+    }
+}
+
+}  // namespace

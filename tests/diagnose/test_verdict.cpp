@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What a diagnosis says, from what it found: all combinations.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "rules.hpp"
+#include "verdict.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+TEST(Verdict, OfEveryCombination) {
+  for (int flags = 0; flags < 128; ++flags) {
+    const auto is = [&](int bit) { return (flags >> bit & 1) != 0; };
+    Findings f;
+    f.unlisted = is(0), f.anything_missing = is(1), f.refitted = is(2), f.camera_stands_out = is(3);
+    f.p_value = is(4) ? 0.001 : 0.4, f.scatter = is(5) ? 3 : 1, f.balance_p = is(6) ? 1e-5 : 0.4;
+    const bool fails = (is(4) && is(5)) || is(6);
+    const Verdict expected = f.unlisted           ? Verdict::unknown
+                             : f.anything_missing ? Verdict::missing
+                             : fails              ? Verdict::unknown
+                             : is(3)              ? Verdict::measurement
+                             : is(2)              ? Verdict::refit
+                                                  : Verdict::adequate;
+    EXPECT_EQ(verdict_of(f), expected) << "combination " << flags;
+  }
+}
+
+TEST(Verdict, AtTheEdges) {
+  EXPECT_EQ(verdict_of({}), Verdict::adequate);
+  Findings f;
+  f.scatter = 2;
+  f.p_value = rules::holds;  // at the bound it is rejected
+  EXPECT_EQ(verdict_of(f), Verdict::unknown);
+  f.p_value = rules::holds * 1.01;
+  EXPECT_EQ(verdict_of(f), Verdict::adequate);
+  f.p_value = 0;  // two codes differ by as much
+  f.scatter = rules::codes_differ * 0.99;
+  EXPECT_EQ(verdict_of(f), Verdict::adequate);
+}
+
+TEST(Verdict, WhatIsNoNumberIsNotInOrder) {
+  Findings f;
+  f.balance_p = std::nan("");
+  EXPECT_EQ(verdict_of(f), Verdict::unknown);
+  f = {};
+  f.p_value = std::nan("");
+  f.scatter = 3;
+  EXPECT_EQ(verdict_of(f), Verdict::unknown);
+  f.scatter = std::nan("");
+  EXPECT_EQ(verdict_of(f), Verdict::unknown);
+}
+
+TEST(Verdict, AnExplanationLeavesLittleOfTheMisfit) {
+  const double floor = 1e-4;
+  EXPECT_TRUE(explains(0.2, 50, 50, 1, floor));     // accepted: whatever is left
+  EXPECT_TRUE(explains(1e-4, 2.5, 2.6, 1, floor));  // as two codes differ
+  EXPECT_TRUE(explains(1e-4, 10, 50, 3.9 * floor, floor));
+  EXPECT_FALSE(explains(1e-4, 10, 50, 4.1 * floor, floor));  // far above noise and chaos
+  EXPECT_FALSE(explains(1e-4, 31, 50, 2 * floor, floor));    // most of the misfit stays
+  EXPECT_FALSE(explains(1e-4, std::nan(""), 50, 2 * floor, floor));
+  EXPECT_FALSE(explains(1e-4, 10, 50, std::nan(""), floor));
+}
+
+TEST(Verdict, WhatStandsOutIsSortedByCertainty) {
+  const double bound = rules::stands_out;
+  const std::vector<NuisanceFound> found = standing_out({{"lens", "", 1, 0.9 * bound, 1},
+                                                         {"shutter", "s", 1, -1.1 * bound, 1},
+                                                         {"origin", "m", 1, 3 * bound, 2},
+                                                         {"scale", "", 1, 5, 0},
+                                                         {"trigger", "s", 1, std::nan(""), 1},
+                                                         {"depth", "", 1, 5, std::nan("")}});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].name, "origin");
+  EXPECT_EQ(found[1].name, "shutter");
+  EXPECT_TRUE(standing_out({}).empty());
+}
+
+}  // namespace

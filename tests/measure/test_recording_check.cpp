@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// Recordings with one mistake each: it is named, with what to write; a good recording is left in peace.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "random.hpp"
+#include "recording_check.hpp"
+#include "rough_motion.hpp"
+
+namespace shakedown {
+namespace {
+
+using DamperSetup = shakedown::Setup;
+
+/// A box that swings with linear decay, and grains that fly straight until an end wall takes them along.
+MeasuredRun recorded(const std::string& name, double box_length) {
+  constexpr double interval = 2e-3, release = 0.1075, decay = 8e-3, noise = 2e-4, layer = 8e-3;
+  constexpr double omega = 2 * std::numbers::pi * 1.1;
+  const double room = box_length / 2 - layer;
+  MeasuredRun run;
+  run.name = name;
+  run.box_length = box_length;
+  run.origin_stated = true;
+  Random random(1, 0, Stream::packing);
+  double grains = release + room, speed = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double t = i * interval, amplitude = release - decay * t;
+    const double box = amplitude * std::cos(omega * t), box_speed = -omega * amplitude * std::sin(omega * t);
+    grains += speed * interval;
+    if (grains > box + room) grains = box + room, speed = std::min(speed, box_speed);
+    if (grains < box - room) grains = box - room, speed = std::max(speed, box_speed);
+    run.time.push_back(t);
+    run.x_box.push_back(box + noise * random.normal());
+    run.x_com.push_back(grains + noise * random.normal());
+  }
+  return run;
+}
+
+Experiment three_runs() {
+  Experiment experiment;
+  experiment.runs = {recorded("a", 0.04), recorded("b", 0.065), recorded("c", 0.085)};
+  return experiment;
+}
+
+std::vector<DamperSetup> setups_for(const Experiment& experiment) {
+  std::vector<DamperSetup> setups(experiment.runs.size());
+  for (std::size_t i = 0; i < setups.size(); ++i) setups[i].box.length = experiment.runs[i].box_length;
+  return setups;
+}
+
+struct Said {
+  std::string notes, impossible;
+};
+
+Said said_of(const Experiment& experiment, const std::vector<DamperSetup>& setups) {
+  const RecordingCheck check = check_recordings(experiment, setups);
+  Said said;
+  for (const std::string& note : check.notes) said.notes += note + "\n";
+  for (const Violation& violation : check.impossible) said.impossible += to_string(violation) + "\n";
+  return said;
+}
+Said said_of(const Experiment& experiment) { return said_of(experiment, setups_for(experiment)); }
+
+void expect_parts(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+/// x to a x + b in every run, box and grains.
+Experiment changed(double factor, double shift) {
+  Experiment experiment = three_runs();
+  for (MeasuredRun& run : experiment.runs)
+    for (std::vector<double>* series : {&run.x_box, &run.x_com})
+      for (double& x : *series) x = factor * x + shift;
+  return experiment;
+}
+
+TEST(RecordingCheck, LeavesAGoodRecordingInPeace) {
+  const Said said = said_of(three_runs());
+  EXPECT_EQ(said.notes, "");
+  EXPECT_EQ(said.impossible, "");
+}
+
+TEST(RecordingCheck, SeesRoughNumbers) {
+  const MeasuredRun run = recorded("a", 0.04);
+  const RoughMotion motion = rough_motion(run.time, run.x_box);
+  EXPECT_NEAR(motion.frequency, 1.1, 0.01);     // from turning points between frames
+  EXPECT_NEAR(motion.amplitude, 0.1065, 1e-3);  // half a swing later 3.6 mm less
+  EXPECT_NEAR(motion.centre, 0, 5e-4);
+  EXPECT_NEAR(motion.noise, 2e-4, 2e-5);
+  EXPECT_NEAR(motion.unbroken, 1, 1e-9);
+}
+
+TEST(RecordingCheck, PowersOfTenAreNamedWithTheUnit) {
+  expect_parts(said_of(changed(0.1, 0)).impossible,
+               {"off by a factor of 10", "unit = \"cm\"", "likewise b, c"});
+  expect_parts(said_of(changed(10, 0)).impossible,
+               {"off by a factor of 10", "unit = \"mm\" where it says cm"});
+  expect_parts(said_of(changed(1000, 0)).impossible, {"unit = \"mm\" where it says m"});
+  Experiment microseconds = three_runs();
+  for (MeasuredRun& run : microseconds.runs)
+    for (double& t : run.time) t *= 1e6;
+  expect_parts(said_of(microseconds).impossible, {"the clock is in another unit", "unit = \"us\""});
+  Experiment slow = three_runs();
+  for (MeasuredRun& run : slow.runs)
+    for (double& t : run.time) t *= 2;
+  const Said half = said_of(slow);
+  EXPECT_EQ(half.impossible, "");
+  expect_parts(half.notes, {"swings at 0.55", "frame_rate"});
+}
+
+TEST(RecordingCheck, AnOriginThatIsOffIsNamed) {
+  const Said little = said_of(changed(1, 2e-3));
+  EXPECT_EQ(little.impossible, "");
+  expect_parts(little.notes, {"swings about x = 2", "move the origin"});
+  Experiment far = changed(1, 0.25);
+  for (MeasuredRun& run : far.runs) run.origin_stated = false;
+  expect_parts(said_of(far).impossible, {"write origin = \"250 mm\""});
+  std::vector<DamperSetup> empty = setups_for(far);
+  for (DamperSetup& setup : empty) setup.grains.count = 0;
+  EXPECT_EQ(said_of(far, empty).impossible, "");  // unknown, and fitted
+}
+
+TEST(RecordingCheck, TheOtherSideIsNamed) {
+  expect_parts(said_of(changed(-1, 0)).impossible, {"starts on the other side", "reversed = true"});
+}
+
+TEST(RecordingCheck, SwappedColumnsAreNamed) {
+  Experiment experiment = three_runs();
+  for (MeasuredRun& run : experiment.runs) std::swap(run.x_box, run.x_com);
+  expect_parts(said_of(experiment).notes, {"are the two columns swapped?"});
+}
+
+TEST(RecordingCheck, LateStartsAndLeadInsAreNamed) {
+  Experiment early = three_runs();
+  for (MeasuredRun& run : early.runs) {
+    const std::size_t rest = 150;
+    for (double& t : run.time) t += 0.3;
+    for (std::size_t i = 0; i < rest; ++i) {
+      run.time.insert(run.time.begin(), 0.3 - 0.002 * static_cast<double>(i + 1));
+      run.x_box.insert(run.x_box.begin(), run.x_box[2 * i]);
+      run.x_com.insert(run.x_com.begin(), run.x_com[2 * i]);
+    }
+    for (std::size_t i = 0; i < rest; ++i) run.x_box[i] = 0.1075 + (i % 2 ? 1e-4 : -1e-4);
+  }
+  expect_parts(said_of(early).notes, {"stands still for the first 0.29", "release_time = \"0.29"});
+  Experiment late = three_runs();
+  for (MeasuredRun& run : late.runs) {
+    run.time.resize(run.time.size() - 25);
+    run.x_box.erase(run.x_box.begin(), run.x_box.begin() + 25);
+    run.x_com.erase(run.x_com.begin(), run.x_com.begin() + 25);
+  }
+  expect_parts(said_of(late).notes, {"after a release from rest", "release_time = \"-0.05"});
+  Experiment offset = three_runs();
+  for (MeasuredRun& run : offset.runs)
+    for (double& t : run.time) t += 12.5;
+  expect_parts(said_of(offset).notes, {"first frame is at 12.5 s", "release_time = \"12.5 s\""});
+}
+
+TEST(RecordingCheck, TooManyMissingFramesAreRefused) {
+  Experiment experiment = three_runs();
+  Random random(2, 0, Stream::packing);
+  for (double& x : experiment.runs[1].x_box)
+    if (random.uniform() < 0.7) x = NAN;
+  expect_parts(said_of(experiment).impossible, {"b: box_position", "has too few frames in a row"});
+  experiment = three_runs();
+  for (std::size_t i = 0; i < experiment.runs[0].x_com.size(); ++i)
+    if (i % 4) experiment.runs[0].x_com[i] = NAN;  // every fourth frame tracked
+  for (double& x : experiment.runs[1].x_box)
+    if (random.uniform() < 0.05) x = NAN;
+  EXPECT_EQ(said_of(experiment).impossible, "");
+}
+
+TEST(RecordingCheck, ARunUnderTheWrongLengthIsNamed) {
+  const Experiment experiment = three_runs();
+  std::vector<DamperSetup> setups = setups_for(experiment);
+  setups[0].box.length = 0.045;
+  expect_parts(said_of(experiment, setups).notes, {"a: box_length", "box_length = \"40", "not 45 mm"});
+  setups = setups_for(experiment);
+  Experiment more = experiment;
+  more.runs.push_back(recorded("d", 0.104));
+  setups.push_back(setups[0]);
+  setups[3].box.length = 0.104;
+  std::swap(setups[1].box.length, setups[3].box.length);
+  expect_parts(said_of(more, setups).notes, {"b: box_length", "Exchanged with d?"});
+}
+
+TEST(RecordingCheck, WhatIsKnownIsHeldAgainstTheSetup) {
+  Experiment experiment = three_runs();
+  experiment.known = {{"box.mass", 0.5, 0.002, {}}, {"grains.mass", 4.04e-3, 1e-5, {}}};
+  const Said said = said_of(experiment);
+  expect_parts(said.notes, {"box.mass is 434 g in the setup, and known to be 500 g +- 2 g"});
+  EXPECT_EQ(said.notes.find("grains.mass"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace shakedown

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "ring_down.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "effects.hpp"
+#include "engines.hpp"
+#include "ring_down_signal.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+shakedown::Setup swinging(double damping) {
+  shakedown::Setup setup;
+  setup.grains.count = 0;
+  setup.run.duration = 20;
+  set_number(setup, "blade_viscous_damping.damping", damping, all_effects());
+  return setup;
+}
+
+RecordingSettings white(double noise) {
+  RecordingSettings recording;
+  recording.box_noise = noise;
+  recording.frame_rate = 100;
+  return recording;
+}
+
+double signal_of(const shakedown::Setup& truth, const RecordingSettings& recording) {
+  const auto engine = engine_named("hard");
+  return signals_of(truth, {"blade_viscous_damping.damping"}, recording, *engine, all_effects()).at(0);
+}
+
+}  // namespace
+
+TEST(RingDowns, TheSignalOfWeakDampingIsThatOfTheClosedForm) {
+  // x = A exp(-g t) cos: d x/d ln g = -g t x, and the free amplitude takes the mean of t out: in n frames
+  // over T the variance of t is T^2/12, that of the cosine 1/2.
+  const double damping = 1e-4, rate = damping / (2 * 0.434), noise = 1e-3;
+  const double closed = 0.1075 * rate * 20 / std::sqrt(12.0) * std::sqrt(2001 / 2.0) / noise;
+  EXPECT_NEAR(signal_of(swinging(damping), white(noise)) / closed, 1, 0.02);
+}
+
+TEST(RingDowns, WanderAndJitterTakeTheirPartOfTheSignal) {
+  const shakedown::Setup truth = swinging(0.01);
+  RecordingSettings noise = white(1e-4);
+  const double alone = signal_of(truth, noise);
+  noise.wander = 1e-4;
+  noise.wander_time = 1e-4;  // forgotten from frame to frame: one more white noise of the same size
+  EXPECT_NEAR(signal_of(truth, noise) / alone, std::sqrt(0.5), 1e-4);
+  noise.wander_time = 0.3;
+  EXPECT_LT(signal_of(truth, noise), alone);
+  noise.wander = 0;
+  noise.jitter = 1e-3;
+  const double jittered = signal_of(truth, noise);
+  EXPECT_LT(jittered, 0.7 * alone);
+  noise.stamped = true;
+  EXPECT_DOUBLE_EQ(signal_of(truth, noise), alone);
+}
+
+TEST(RingDowns, AreDrawnAsStatedAndTheSameAgain) {
+  const auto engine = engine_named("hard");
+  for (int number = 0; number < 20; ++number) {
+    const RingDown one = draw_ring_down(3, number, *engine, all_effects());
+    EXPECT_GE(one.frames_a_period, 7.9);
+    EXPECT_GE(one.weakest(), 4);
+    EXPECT_LE(one.hidden.size(), 3u);
+    EXPECT_TRUE(one.trial.hidden.believed.effects.empty());
+    EXPECT_EQ(one.trial.hidden.truth.grains.count, 0);
+  }
+  const RingDown once = draw_ring_down(3, 7, *engine, all_effects()),
+                 again = draw_ring_down(3, 7, *engine, all_effects());
+  EXPECT_EQ(write_setup(once.trial.hidden.truth), write_setup(again.trial.hidden.truth));
+  EXPECT_EQ(once.signals, again.signals);
+}
+
+TEST(RingDowns, AreJudgedByTheirPhysics) {
+  RingDown drawn;
+  drawn.hidden = {"blade_viscous_damping", "clamp_dry_friction"};
+  drawn.signals = {20, 30};
+  const auto judged_as = [&](const char* verdict, std::vector<std::string> missing) {
+    return judged(drawn, {verdict, std::move(missing), "", false, 0}, all_effects());
+  };
+  EXPECT_TRUE(judged_as("missing", {"clamp_dry_friction", "blade_viscous_damping"}).right);
+  EXPECT_TRUE(judged_as("missing", {"clamp_dry_friction", "camera_origin", "blade_viscous_damping"}).right);
+  EXPECT_FALSE(judged_as("missing", {"clamp_dry_friction"}).right);
+  EXPECT_FALSE(judged_as("missing", {"clamp_dry_friction"}).invented);
+  EXPECT_TRUE(judged_as("missing", {"clamp_dry_friction", "oscillating_acceleration"}).invented);
+  EXPECT_TRUE(judged_as("unknown", {}).invented);
+  RingDownResult stopped =
+      judged(drawn, {"", {}, "frequency is not a finite number", false, 0}, all_effects());
+  EXPECT_FALSE(stopped.right);
+  EXPECT_FALSE(stopped.invented);
+  const std::string table = ring_down_table({judged_as("missing", {"clamp_dry_friction"}), stopped});
+  EXPECT_NE(table.find("two laws"), std::string::npos);
+  EXPECT_EQ(table.find("three laws"), std::string::npos) << "no line of nothing";
+  const std::string csv = ring_down_csv({stopped});
+  EXPECT_NE(csv.find("blade_viscous_damping clamp_dry_friction,20.0 30.0,white"), std::string::npos) << csv;
+}
