@@ -74,9 +74,8 @@ TEST_F(SoftEffects, ForcedBoxFollowsTheClosedForm) {
 }
 
 TEST_F(SoftEffects, CubicSpringHasDuffingsPeriod) {
-  shakedown::Setup setup = empty_box({[](const EffectChoice&, int, Physics& physics) {
-    physics.spring_cubic = 0.5 / (start * start);
-  }});
+  shakedown::Setup setup = empty_box(
+      {[](const EffectChoice&, int, Physics& physics) { physics.spring_cubic = 0.5 / (start * start); }});
   setup.run.duration = 3;
   setup.run.sample_rate = 5000;
   const Trajectory result = run(setup);
