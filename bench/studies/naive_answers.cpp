@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "camera_features.hpp"
 #include "linear_model.hpp"
 #include "parameter_knobs.hpp"
 #include "refit.hpp"
@@ -134,7 +135,7 @@ class Naive {
 }  // namespace
 
 NaiveAnswers naive_answers(const Setup& setup, const Measurement& measurement, const Workshop& workshop) {
-  const std::vector<MeasuredFeatures> measured = features_of(measurement);
+  const std::vector<MeasuredFeatures> measured = features_with_camera(measurement, workshop.known);
   std::vector<Knob> theta = free_parameters(setup);
   RefitOptions options;
   options.count = 96;

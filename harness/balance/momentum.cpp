@@ -362,6 +362,12 @@ MomentumAudit audit_momentum(const Measurement& measurement, std::span<const Eff
     }
   }
   describe(p, selection, sets, known, audit);
+  if (options.formulas && !audit.unlisted && !audit.terms.empty()) {
+    const std::vector<std::vector<std::string>> alike = formulas_like_known_terms(p, selection);
+    for (std::size_t i = 0; i < audit.terms.size(); ++i)
+      audit.terms[i].look_alikes.insert(audit.terms[i].look_alikes.end(), alike[i + 1].begin(),
+                                        alike[i + 1].end());
+  }
   audit.unexplained = audit.final_fit.p_value <= balance_rejected;
   return audit;
 }

@@ -10,14 +10,16 @@ std::optional<KnownCandidate> best_known(const SelectionProblem& p, const Select
   const Eigen::MatrixXd basis = orthonormal_basis(columns_of(p, selection.chosen));
   const double price = std::log(static_cast<double>(p.problem.size())) + price_of_a_term;
   std::optional<KnownCandidate> best;
-  for (int term = 0; p.is_known(term); ++term) {
+  // A camera's scale would merely shrink what is left.
+  for (const int term : terms_seen(p)) {
     if (std::any_of(selection.chosen.begin(), selection.chosen.end(),
                     [&](const ChosenTerm& c) { return c.term == term; }))
       continue;
     const PreparedTerm& prepared = p.terms[static_cast<std::size_t>(term)];
     const Gain gain =
         gain_of(selection.fit.residual, basis, p.problem.column(prepared), prepared.never_negative);
-    if (gain.gain > 0 && (!best || gain.gain - price > best->surplus))
+    if (gain.gain > 0 && (term == 0 || p.known[static_cast<std::size_t>(term)].possible(gain.strength)) &&
+        (!best || gain.gain - price > best->surplus))
       best = KnownCandidate{{term, 0}, gain.gain - price};
   }
   return best;

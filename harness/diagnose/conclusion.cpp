@@ -11,6 +11,7 @@
 #include "rules.hpp"
 #include "sentences.hpp"
 #include "setup_file.hpp"
+#include "unlisted_force.hpp"
 #include "verdict.hpp"
 
 namespace shakedown {
@@ -143,13 +144,9 @@ void advise_by_simulation(const DiagnosisState& final, DiagnosisTools& tools, Di
 
 void set_formula(Diagnosis& d) {
   if (d.momentum.formulas.empty()) return;
-  const ForceFormula& found = d.momentum.formulas.front();
-  std::string constants;
-  for (const FormulaConstant& c : found.constants)
-    constants += (constants.empty() ? "" : ", ") + c.name + " = \"" + write_quantity(c.value, c.unit) + "\"";
-  d.force_formula = "[[effect]]\nname = \"user_force\"\non = \"box\"\nforce = \"" + found.formula +
-                    "\"\nconstants = {" + constants + "}\n";
-  for (const std::string& alike : found.look_alikes) d.notes.push_back("the force could as well be " + alike);
+  d.force_formula = as_table(sum_of(d.momentum.formulas));
+  for (const std::string& alike : d.momentum.formulas.front().look_alikes)
+    d.notes.push_back("the force could as well be " + alike);
 }
 
 void complete_ranking(Diagnosis& d) {

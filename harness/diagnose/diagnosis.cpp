@@ -19,6 +19,7 @@
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
 #include "state.hpp"
+#include "unlisted_force.hpp"
 #include "verdict.hpp"
 
 namespace shakedown {
@@ -148,18 +149,21 @@ class Course {
     if (accepted && given.fit.p_value > rules::holds_well)
       return conclude(user_, given, given, false, tools_, result_);
     DiagnosisState refitted = refit_of(state);
-    result_.ladder.push_back(step_of(step_name(refitted.missing), refitted.fit));
-    if (refitted.missing.empty()) note_failures(refitted.fit, result_);
+    result_.ladder.push_back(step_of(
+        step_name(refitted.missing) + (balance.unlisted ? " + the force of the formula" : ""), refitted.fit));
+    if (refitted.missing.empty() && !balance.unlisted) note_failures(refitted.fit, result_);
     // A fit may end along the valley of the restitutions where fresh simulations find nothing gained: effects
     // are to beat the better of the two.
     const bool no_better = accepted && refitted.missing.empty() && given.fit.p_value > refitted.fit.p_value;
-    DiagnosisState final = search(refitted);
+    // Beside a force that is known by its trace alone nothing else can be told for sure.
+    DiagnosisState final = balance.unlisted ? refitted : search(refitted);
     if (final.missing.empty() && accepted) return conclude(user_, given, given, false, tools_, result_);
     if (!final.missing.empty() && final.missing != refitted.missing &&
         !explains(final.fit.p_value, final.fit.scatter, refitted.fit.scatter, final.fit.error_box(),
                   final.fit.floor_box()))
       final = refitted;
-    if (!final.missing.empty()) {
+    // What the balance found was refitted with full effort already.
+    if (!final.missing.empty() && final.missing != refitted.missing) {
       final = concluded(final, tools_, "refitting with what was found");
       if (result_.ladder.back().step == step_name(final.missing)) result_.ladder.pop_back();
       result_.ladder.push_back(step_of(step_name(final.missing), final.fit));
@@ -199,12 +203,14 @@ class Course {
       const std::vector<std::string>& fixed = tools_.options().fixed;
       return std::find(fixed.begin(), fixed.end(), knob.key) != fixed.end();
     });
-    if (!balance.unlisted)
-      state = with_balance(state, balance, tools_.measurement(), tools_.options(), result_.notes);
-    state.fit = tools_.fit(
-        state,
-        state.missing.empty() ? "refitting the parameters" : "refitting with what the momentum balance found",
-        state.knobs(), effort::refit);
+    state = with_balance(state, balance, tools_.measurement(), tools_.options(), result_.notes);
+    const bool by_formula = balance.unlisted && allowed(tools_.options(), "user_force");
+    if (by_formula) state.setup = with_force(state.setup, sum_of(balance.formulas), tools_.known());
+    state.fit =
+        tools_.fit(state,
+                   state.missing.empty() && !by_formula ? "refitting the parameters"
+                                                        : "refitting with what the momentum balance found",
+                   state.knobs(), effort::refit);
     return state.settled(tools_.known());
   }
 

@@ -115,7 +115,9 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
   const std::string stage = "trying " + candidate.effect;
   state.fit = tools.fit(state, stage, knobs, costly ? effort::attempt_when_dear : effort::attempt,
                         &before.fit, lowest);
-  if (std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; })) {
+  // A second minimum matters only where the first one does not explain the data.
+  if (state.fit.p_value <= rules::doubtful &&
+      std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; })) {
     const Refit other = tools.fit(state, stage + " from elsewhere", second_start(state.fit, added),
                                   effort::attempt, &before.fit, std::min(lowest, state.fit.judged_chi2));
     if (other.judged_chi2 < state.fit.judged_chi2) state.fit = other;

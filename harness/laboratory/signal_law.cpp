@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "camera_features.hpp"
 #include "candidates.hpp"
 #include "momentum.hpp"
 #include "parameter_knobs.hpp"
@@ -46,7 +48,12 @@ Refit refit_of(const Sight& sight, const Setup& believed, const std::vector<Cand
     for (Measurement::Run& run : measurement.runs) run.setup = prepared(run.setup, effect, tools.known);
   }
   const Workshop workshop{tools.model, tools.known, tools.threads, tools.stop, {}, nullptr};
-  return refit(features_of(measurement), knobs, workshop, options);
+  const std::vector<Knob> camera = camera_knobs(believed, measurement, tools.known);
+  std::copy_if(camera.begin(), camera.end(), std::back_inserter(knobs), [&](const Knob& of_camera) {
+    return std::none_of(knobs.begin(), knobs.end(),
+                        [&](const Knob& knob) { return knob.key == of_camera.key; });
+  });
+  return refit(features_with_camera(measurement, tools.known), knobs, workshop, options);
 }
 
 }  // namespace

@@ -28,6 +28,9 @@ constexpr std::size_t fewest = 20;  // differences that make a standard deviatio
 /// Differences of this order and of the next agree within this share where they see noise alone, and no more
 /// than this share of them lies beyond 2.5 standard deviations (1.2 % of a normal distribution do).
 constexpr double orders_agree = 0.25, most_beyond = 0.1;
+/// Differences of noise alone are as large as what they are taken of; where a motion is resolved they are
+/// less than this share of it.
+constexpr double resolved = 0.5;
 
 std::vector<double> finite_of(const std::vector<double>& values) {
   std::vector<double> kept;
@@ -65,6 +68,16 @@ bool are_noise(const std::vector<double>& found, const std::vector<double>& next
   // Few differences know their own deviation badly.
   const double allowed = orders_agree + 3 / std::sqrt(std::max(count, 1.0));
   return beyond < most_beyond * count && !(std::abs(of_next / deviation - 1) > allowed);
+}
+
+/// Standard deviation of what is recorded, motion and noise.
+double whole_deviation(const NoiseSeries& series) {
+  std::vector<double> moving;
+  for (std::size_t i = 0; i < series.x->size(); ++i)
+    if (series.moving[i] && std::isfinite((*series.x)[i])) moving.push_back((*series.x)[i]);
+  if (moving.empty()) return 0;
+  const Eigen::Map<const Eigen::ArrayXd> x(moving.data(), std::ssize(moving));
+  return std::sqrt((x - x.mean()).square().mean());
 }
 
 /// Weights of length 1 on frames at these places under which polynomials of lower order vanish: those of
@@ -231,7 +244,8 @@ void set_deviation(const NoiseSeries& series, NoiseFound& noise) {
     noise.quantum = step;
   }
   double found = clipped_deviation(seen);
-  const bool told = series.order > 0 && are_noise(seen, differences(used, noise.order + 2), found);
+  const bool told = series.order > 0 && found < resolved * whole_deviation(series) &&
+                    are_noise(seen, differences(used, noise.order + 2), found);
   found /= gain;
   noise.source = told ? NoiseSource::frames : NoiseSource::bound;
   if (noise.declared > 0 && !(told && std::isfinite(found)) && !(found < noise.declared)) {

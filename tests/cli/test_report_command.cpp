@@ -115,7 +115,7 @@ TEST_F(SlowReportCommand, ComparisonsLaddersFitsAndSweepsAreShownAlone) {
 
 TEST_F(ReportCommand, DiagnoseKeepsWhatIsKnownOtherwise) {
   ASSERT_EQ(shakedown_program({"hide", example("L040.toml"), "--engine", "hard", "--lengths", "40mm",
-                               "--duration", "1 s", "--camera", "fps=100", "--out", in_folder("case")})
+                               "--duration", "2 s", "--camera", "fps=100", "--out", in_folder("case")})
                 .code,
             0);
   const Outcome wrong = shakedown_program(

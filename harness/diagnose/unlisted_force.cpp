@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "unlisted_force.hpp"
+
+#include <cctype>
+
+#include "quantity.hpp"
+#include "setup_file.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// The formula with this name, where it stands as a whole word, replaced.
+std::string renamed(const std::string& formula, const std::string& name, const std::string& to) {
+  std::string out;
+  for (std::size_t i = 0; i < formula.size();) {
+    std::size_t end = i;
+    while (end < formula.size() &&
+           (std::isalnum(static_cast<unsigned char>(formula[end])) || formula[end] == '_'))
+      ++end;
+    if (end == i) {
+      out += formula[i++];
+      continue;
+    }
+    const std::string word = formula.substr(i, end - i);
+    out += word == name ? to : word;
+    i = end;
+  }
+  return out;
+}
+
+}  // namespace
+
+UnlistedForce sum_of(const std::vector<ForceFormula>& formulas) {
+  UnlistedForce sum;
+  for (std::size_t i = 0; i < formulas.size(); ++i) {
+    std::string formula = formulas[i].formula;
+    for (const FormulaConstant& constant : formulas[i].constants) {
+      const std::string name = constant.name + (i > 0 ? std::to_string(i + 1) : "");
+      if (i > 0) formula = renamed(formula, constant.name, name);
+      sum.constants.emplace_back(name, write_quantity(constant.value, constant.unit));
+    }
+    sum.formula += (i > 0 && !formula.starts_with('-') ? "+" : "") + formula;
+  }
+  return sum;
+}
+
+std::string as_table(const UnlistedForce& force) {
+  if (force.formula.empty()) return "";
+  std::string constants;
+  for (const auto& [name, value] : force.constants)
+    constants += (constants.empty() ? "" : ", ") + name + " = \"" + value + "\"";
+  return "[[effect]]\nname = \"user_force\"\non = \"box\"\nforce = \"" + force.formula + "\"\nconstants = {" +
+         constants + "}\n";
+}
+
+Setup with_force(const Setup& setup, const UnlistedForce& force, std::span<const EffectRecord* const> known) {
+  const std::string origin = "force found by the momentum balance";
+  std::vector<Override> overrides{{"user_force.on", "box", origin},
+                                  {"user_force.force", "\"" + force.formula + "\"", origin}};
+  for (const auto& [name, value] : force.constants)
+    overrides.push_back({"user_force.constants." + name, value, origin});
+  return with_overrides(setup, overrides, known);
+}
+
+}  // namespace shakedown

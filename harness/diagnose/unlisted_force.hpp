@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// A force that no effect of the library describes, as the effect user_force: ready to add.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "force_formula.hpp"
+#include "setup.hpp"
+
+namespace shakedown {
+
+struct UnlistedForce {
+  std::string formula;                                         ///< of x, v and t; empty: none
+  std::vector<std::pair<std::string, std::string>> constants;  ///< name and quantity
+};
+
+/// The sum of all formulas; constants of the second and later ones are numbered (c, c2).
+UnlistedForce sum_of(const std::vector<ForceFormula>& formulas);
+
+/// As a table of a setup file.
+std::string as_table(const UnlistedForce& force);
+
+/// The setup with this force on the box in place of a user_force that it may have.
+Setup with_force(const Setup& setup, const UnlistedForce& force, std::span<const EffectRecord* const> known);
+
+}  // namespace shakedown
