@@ -5,23 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "distributions.hpp"
 #include "errors.hpp"
 
 namespace shakedown {
 
 namespace {
-
-/// P(|T| < sqrt(nu) tan(angle)): with t = sqrt(nu) tan(a) the density is c cos(a)^(nu - 1). Simpson's rule.
-double probability_within(double angle, double nu) {
-  constexpr int steps = 400;
-  const auto density = [&](double a) { return std::pow(std::cos(a), nu - 1); };
-  double sum = density(0) + density(angle);
-  for (int i = 1; i < steps; ++i) sum += (i % 2 == 1 ? 4 : 2) * density(angle * i / steps);
-  const double norm = std::exp(std::lgamma((nu + 1) / 2) - std::lgamma(nu / 2)) / std::sqrt(std::numbers::pi);
-  return 2 * norm * sum * angle / (3.0 * steps);
-}
 
 /// Welch and Satterthwaite; the two numbers are the squared standard errors of the means.
 double welch_degrees_of_freedom(double first, int first_n, double second, int second_n) {
@@ -46,17 +36,6 @@ const char* to_string(Agreement verdict) {
   }
   EXPECT(!"a verdict");
   return "";
-}
-
-double student_95(double degrees_of_freedom) {
-  EXPECT(degrees_of_freedom >= 1);
-  // t is at most 12.71 (one degree of freedom), so the angle lies below 15 / sqrt(nu).
-  double low = 0, high = std::min(1.5, 15 / std::sqrt(degrees_of_freedom));
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (low + high) / 2;
-    (probability_within(middle, degrees_of_freedom) < 0.95 ? low : high) = middle;
-  }
-  return std::sqrt(degrees_of_freedom) * std::tan(low);
 }
 
 Equivalence equivalence_of(const Statistic& first, const Statistic& second, double margin) {

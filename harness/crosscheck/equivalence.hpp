@@ -35,7 +35,4 @@ Equivalence equivalence_of(const Statistic& first, const Statistic& second, doub
 /// "equivalent", "differ by 4.2 standard errors", "cannot tell: more runs (about 30)".
 std::string in_words(const Equivalence& equivalence);
 
-/// t with P(|T| < t) = 0.95 for Student's distribution; degrees of freedom real and at least 1.
-double student_95(double degrees_of_freedom);
-
 }  // namespace shakedown

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ensemble.hpp"
+#include "interval.hpp"
 
 namespace shakedown {
 
@@ -26,11 +27,6 @@ struct DecayMeasurement {
   Statistic slope;            ///< m/s
   Statistic curvature;        ///< m/s^2, 2c of a + b t + c t^2
   Statistic whole_rms_ratio;  ///< the same ratio over all peaks above 10 mm before 8 s
-};
-
-struct Interval {
-  double low = 0, high = 0;
-  bool contains(double value) const { return low <= value && value <= high; }
 };
 
 /// Stored intervals for the means over at least `fewest_runs`, and where they come from.

@@ -42,34 +42,25 @@ std::string series_csv(const Trajectory& trajectory) {
   return text;
 }
 
-void MeanSeries::Moments::add(const std::vector<double>& values, int number) {
-  mean.resize(values.size(), 0.0);
-  squares.resize(values.size(), 0.0);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double deviation = values[i] - mean[i];
-    mean[i] += deviation / number;
-    squares[i] += deviation * (values[i] - mean[i]);
-  }
-}
-
 void MeanSeries::add(const Trajectory& trajectory) {
-  if (runs_ == 0) time_ = trajectory.time;
+  if (time_.empty()) time_ = trajectory.time;
   EXPECT(trajectory.time.size() == time_.size());
-  ++runs_;
-  x_box_.add(trajectory.x_box, runs_);
-  x_com_.add(trajectory.x_com, runs_);
-  energy_.add(trajectory.total_energy, runs_);
+  const auto add_to = [&](std::vector<RunningStatistic>& statistics, const std::vector<double>& values) {
+    statistics.resize(time_.size());
+    for (std::size_t i = 0; i < time_.size(); ++i) statistics[i].add(values[i]);
+  };
+  add_to(x_box_, trajectory.x_box);
+  add_to(x_com_, trajectory.x_com);
+  add_to(energy_, trajectory.total_energy);
 }
 
 std::string MeanSeries::csv() const {
   std::string text =
       "t_s,x_box_mean_m,x_box_sd_m,x_com_mean_m,x_com_sd_m,total_energy_mean_J,total_energy_sd_J\n";
-  const auto sd = [&](const Moments& moments, std::size_t i) {
-    return std::sqrt(moments.squares[i] / (runs_ - 1.0));
-  };
-  for (std::size_t i = 0; i < time_.size(); ++i)
-    text += csv_line({time_[i], x_box_.mean[i], sd(x_box_, i), x_com_.mean[i], sd(x_com_, i), energy_.mean[i],
-                      sd(energy_, i)});
+  for (std::size_t i = 0; i < time_.size(); ++i) {
+    const Statistic box = x_box_[i].statistic(), com = x_com_[i].statistic(), energy = energy_[i].statistic();
+    text += csv_line({time_[i], box.mean, box.sd, com.mean, com.sd, energy.mean, energy.sd});
+  }
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "running_statistic.hpp"
 #include "trajectory.hpp"
 
 namespace shakedown {
@@ -22,14 +23,8 @@ class MeanSeries {
   std::string csv() const;
 
  private:
-  /// Running mean and sum of squares (Welford), one entry a sample.
-  struct Moments {
-    std::vector<double> mean, squares;
-    void add(const std::vector<double>& values, int number);
-  };
-  int runs_ = 0;
   std::vector<double> time_;
-  Moments x_box_, x_com_, energy_;
+  std::vector<RunningStatistic> x_box_, x_com_, energy_;  ///< one a sample
 };
 
 /// One line of comma-separated numbers, ten significant digits, NaN as an empty cell.

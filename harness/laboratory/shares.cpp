@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "distributions.hpp"
+
 namespace shakedown {
 
 Share share_of(int hits, int trials) {
   if (trials == 0) return {};
-  constexpr double z = 1.959963984540054;
+  constexpr double z = normal_95;
   const double n = trials, p = hits / n, wide = 1 + z * z / n;
   const double middle = (p + z * z / (2 * n)) / wide,
                half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n)) / wide;

@@ -68,16 +68,11 @@ void RunCurves::add(const Trajectory& t) {
     first_box_ = thinned(t.x_box, step, 1e3);
     first_centre_ = thinned(t.x_com, step, 1e3);
     log_ = t.collision_log;
-    for (Moments& m : moments_)
-      m = {std::vector<double>(time_.size(), 0), std::vector<double>(time_.size(), 0)};
+    for (auto& statistics : statistics_) statistics.resize(time_.size());
   }
   for (std::size_t s = 0; s < series.size(); ++s) {
     const std::vector<double> values = thinned(*series[s], step, 1e3);
-    for (std::size_t i = 0; i < std::min(values.size(), time_.size()); ++i) {
-      const double change = values[i] - moments_[s].mean[i];
-      moments_[s].mean[i] += change / runs_;
-      moments_[s].squares[i] += change * (values[i] - moments_[s].mean[i]);
-    }
+    for (std::size_t i = 0; i < std::min(values.size(), time_.size()); ++i) statistics_[s][i].add(values[i]);
   }
 }
 
@@ -108,17 +103,22 @@ Report RunCurves::report(const Ensemble& ensemble, const Setup& setup, const std
          plus_minus(ensemble.over_runs([c](const RunResult& r) { return r.observables.energy_loss[c]; }), 100,
                     "%"),
          "of the initial energy", Tone::plain});
+  const auto means = [&](std::size_t s) {
+    std::vector<double> values;
+    for (const RunningStatistic& running : statistics_[s]) values.push_back(running.statistic().mean);
+    return values;
+  };
   const auto position = [&](const char* title, std::size_t s, const std::vector<double>& first) {
     ReportPlot plot = time_plot(title, "position, mm", log_ ? "run" : "", time_);
     if (runs_ > 1) {
       std::vector<double> low, high;
-      for (std::size_t i = 0; i < time_.size(); ++i) {
-        const double sd = std::sqrt(moments_[s].squares[i] / (runs_ - 1));
-        low.push_back(moments_[s].mean[i] - 2 * sd);
-        high.push_back(moments_[s].mean[i] + 2 * sd);
+      for (const RunningStatistic& running : statistics_[s]) {
+        const Statistic found = running.statistic();
+        low.push_back(found.mean - 2 * found.sd);
+        high.push_back(found.mean + 2 * found.sd);
       }
       plot.curves = band("two standard deviations of a run", low, high);
-      plot.curves.push_back({"mean", CurveRole::other, moments_[s].mean});
+      plot.curves.push_back({"mean", CurveRole::other, means(s)});
     }
     plot.curves.push_back({"first run", CurveRole::model, first});
     return plot;
@@ -129,8 +129,7 @@ Report RunCurves::report(const Ensemble& ensemble, const Setup& setup, const std
   if (setup.grains.count > 0) motion.plots.push_back(position("Centre of the grains", 1, first_centre_));
   ReportSection energies;
   energies.title = "Where the energy goes";
-  energies.plots = {energy_plot(log_ ? "run" : "", time_, moments_[2].mean,
-                                {moments_[3].mean, moments_[4].mean, moments_[5].mean})};
+  energies.plots = {energy_plot(log_ ? "run" : "", time_, means(2), {means(3), means(4), means(5)})};
   report.sections = {motion, peaks_section(ensemble), energies};
   if (log_) {
     const double first_landing = 0.25 / setup.spring.frequency;

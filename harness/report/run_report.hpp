@@ -2,6 +2,7 @@
 #pragma once
 #include "ensemble.hpp"
 #include "report.hpp"
+#include "running_statistic.hpp"
 
 namespace shakedown {
 
@@ -16,10 +17,7 @@ class RunCurves {
  private:
   int runs_ = 0;
   std::vector<double> time_;
-  struct Moments {
-    std::vector<double> mean, squares;
-  };
-  std::array<Moments, 6> moments_;  ///< x_box, x_com, energy, losses
+  std::array<std::vector<RunningStatistic>, 6> statistics_;  ///< x_box, x_com, energy, losses; mm, mJ
   std::vector<double> first_box_, first_centre_;
   std::shared_ptr<const CollisionLog> log_;
 };

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "interpolation.hpp"
+#include "least_squares.hpp"
+#include "local_polynomial.hpp"
+#include "running_statistic.hpp"
+#include "within.hpp"
+
+using namespace shakedown;
+
+TEST(LocalPolynomial, HasTheWeightsOfSavitzkyAndGolay) {
+  // Their table I: quadratic or cubic, five and seven points.
+  const Eigen::MatrixXd five = local_polynomial(2, 3), seven = local_polynomial(3, 2);
+  const double table_5[] = {-3, 12, 17, 12, -3}, table_7[] = {-2, 3, 6, 7, 6, 3, -2};
+  for (int i = 0; i < 5; ++i) WITHIN(five(0, i), table_5[i] / 35, 4e-15, 2.8e-16);
+  for (int i = 0; i < 7; ++i) WITHIN(seven(0, i), table_7[i] / 21, 2e-15, 1.3e-16);
+  // Their table IV: first derivative, cubic, five points.
+  const double slope[] = {1, -8, 0, 8, -1};
+  for (int i = 0; i < 5; ++i) WITHIN(five(1, i), slope[i] / 12, 1e-14, 1e-15);
+}
+
+TEST(LocalPolynomial, TakesACubicAtAnyPlacesAndUnit) {
+  Eigen::VectorXd times(7), values(7);
+  times << -0.031, -0.02, -0.011, 0.001, 0.008, 0.021, 0.04;
+  for (int i = 0; i < 7; ++i) values[i] = 2 + times[i] * (3 + times[i] * (-50 + times[i] * 700));
+  const Eigen::VectorXd found = local_polynomial(times, 3) * values;
+  const double expected[] = {2, 3, -50, 700};
+  for (int k = 0; k < 4; ++k) WITHIN(found[k] / expected[k], 1, 2e-13, 1.5e-14);
+}
+
+TEST(Interpolation, FollowsStraightLinesAndEndsWithTheSamples) {
+  const std::vector<double> places{0, 1, 3}, values{10, 20, 0};
+  EXPECT_EQ(interpolated(places, values, 0), 10);
+  EXPECT_EQ(interpolated(places, values, 0.25), 12.5);
+  EXPECT_EQ(interpolated(places, values, 2.5), 5);
+  EXPECT_EQ(interpolated(places, values, 3), 0);
+  EXPECT_TRUE(std::isnan(interpolated(places, values, -1e-9)));
+  EXPECT_TRUE(std::isnan(interpolated(places, values, 3.001)));
+  EXPECT_TRUE(std::isnan(interpolated(places, values, std::nan(""))));
+  EXPECT_TRUE(std::isnan(interpolated({}, {}, 0)));
+}
+
+TEST(RunningStatistic, IsTheStatisticOfTheValues) {
+  const std::vector<double> values{1e9 + 1, 1e9 + 4, std::nan(""), 1e9 + 4, 1e9 + 7};
+  RunningStatistic running;
+  EXPECT_TRUE(std::isnan(running.statistic().mean));
+  for (const double value : values) running.add(value);
+  const Statistic found = running.statistic(), expected = statistic_of(values);
+  EXPECT_EQ(found.n, 4);
+  EXPECT_EQ(found.mean, 1e9 + 4);
+  EXPECT_DOUBLE_EQ(found.sd, std::sqrt(6));  // a sum of squares less the square of the sum would find none
+  EXPECT_DOUBLE_EQ(found.sd, expected.sd);
+}
+
+TEST(LeastSquares, LineWithErrorsByHand) {
+  Eigen::MatrixXd columns(4, 2);
+  columns << 1, 0, 1, 1, 1, 2, 1, 3;
+  const LeastSquares fit = least_squares(columns, Eigen::Vector4d(1, 3, 2, 4));
+  WITHIN(fit.coefficients[0], 1.3, 2e-15, 4.5e-16);
+  WITHIN(fit.coefficients[1], 0.8, 2e-15, 4.5e-16);
+  WITHIN(fit.rms, std::sqrt(1.8 / 4), 2e-15, 4.5e-16);
+  // variance 0.9; (X'X)^-1 = [[0.7, -0.3], [-0.3, 0.2]]
+  const double expected[] = {0.7, -0.3, -0.3, 0.2};
+  for (int i = 0; i < 4; ++i) WITHIN(fit.covariance(i / 2, i % 2), 0.9 * expected[i], 2e-15, 4.5e-16);
+  WITHIN(fit.errors[1], std::sqrt(0.18), 2e-15, 4.5e-16);
+  EXPECT_TRUE(std::isnan(least_squares(columns.topRows(2), Eigen::Vector2d(1, 3)).errors[0]));
+}
