@@ -47,6 +47,15 @@ TEST(Rules, EveryOneIsInTheList) {
   EXPECT_EQ(count_of(text_of("diagnose/rules.hpp"), "\nconstexpr Rule "), diagnosis_rules().size());
 }
 
+TEST(Rules, AreThoseOfTheDocument) {
+  const std::string document = text_of("diagnose/README.md");
+  for (const Rule& rule : diagnosis_rules()) {
+    std::ostringstream row;
+    row << "| `" << rule.name << "` | " << rule.value << " | " << rule.unit << " | " << rule.source << " |";
+    EXPECT_NE(document.find(row.str()), std::string::npos) << row.str();
+  }
+}
+
 // A number of the balance has its reason in the comment right above it.
 TEST(Rules, OfTheBalanceFollowAComment) {
   const std::string text = text_of("balance/balance_rules.hpp");
