@@ -162,7 +162,7 @@ std::array<AllPairs::Touch, K> AllPairs::first_touches(const std::array<int, K>&
   return touches;
 }
 
-/// As one lane would find it.
+/// The same time that a lane of the vectorised search finds.
 double AllPairs::wait_for_touch(int i, int j) const {
   const Flight3 self = flight(i);
   Flight3 other = flight(j);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Flight of the box on its spring between two kicks, in closed form. Both engines use it.
+// Flight of the box on its spring between two kicks, in closed form.
 //   M x'' = -k x      =>  x(t) = x0 cos W(t - t0) + (v0 / W) sin W(t - t0),  W = sqrt(k / M)
 // The state is (x, v) at the last kick (physics: amplitude and phase are outputs), so no arctangent and no
 // growing phase enters.
@@ -62,7 +62,7 @@ class BoxMotion {
   double amplitude() const { return amplitude_; }                               ///< m, of the present arc
   double top_speed() const { return amplitude_ * angular_frequency_; }          ///< m/s
   double top_acceleration() const { return top_speed() * angular_frequency_; }  ///< m/s^2, bound of |x''|
-  /// Until when at() and the bounds hold without a restart, s: for ever.
+  /// Time until which at() and the bounds hold without a restart, s: there is no end.
   static constexpr double valid_until() { return std::numeric_limits<double>::infinity(); }
   double x() const { return x_; }        ///< at the last kick
   double v() const { return v_; }        ///< after the last kick

@@ -92,7 +92,7 @@ class CalendarQueue {
   }
 
   void insert(std::size_t k) {
-    // Dates of the past (of rounding) belong to today.
+    // A date that rounding has put into the past is filed under today.
     Date& date = dates_[k];
     const double day = std::clamp((date.time - year_start_) * per_second_, 0.0, static_cast<double>(days()));
     const std::size_t d = std::max(static_cast<std::size_t>(static_cast<std::int64_t>(day)), today_);
@@ -144,7 +144,7 @@ class CalendarQueue {
     }
   }
 
-  /// Of the dates that come into sight when today moves on to `day`.
+  /// Calls `tell` for each date that comes within `days_ahead` when today moves on to `day`.
   template <class Ahead>
   void tell_of(int days_ahead, std::size_t day, Ahead&& tell) const {
     const std::size_t in_sight = std::min(day + static_cast<std::size_t>(days_ahead), days() - 1);

@@ -15,7 +15,7 @@ constexpr double least_edge = 1 + 1e-6;
 constexpr int most_cells = 65000;  // along an axis
 
 #ifdef __AVX512F__
-/// Of three offsets along an axis, which goes into each of 27 sums of one a axis.
+/// Which of an axis's three offsets enters each of the 27 sums of one offset an axis.
 constexpr std::array<std::int32_t, 32> digits(std::int32_t step) {
   std::array<std::int32_t, 32> which{};
   for (std::int32_t n = 0; n < 27; ++n) which[static_cast<std::size_t>(n)] = n / step % 3;

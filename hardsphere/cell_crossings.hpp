@@ -37,7 +37,7 @@ class CellCrossings : public ScheduledGrains {
   }
   /// Grain i crosses into the next cell.
   void leave_neighbourhood(int i, double now);
-  /// From a to b, the nearest image.
+  /// Vector from a to the nearest image of b.
   std::array<double, 3> separation(const Flight3& a, const Flight3& b) const;
   double bytes_per_grain() const;
 

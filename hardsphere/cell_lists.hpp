@@ -45,7 +45,7 @@ class CellLists : public ScheduledGrains {
   }
   /// Renews the list of a grain that has reached its leeway.
   void leave_neighbourhood(int i, double now);
-  /// From a to b, the nearest image.
+  /// Vector from a to the nearest image of b.
   std::array<double, 3> separation(const Flight3& a, const Flight3& b) const;
   double bytes_per_grain() const;
 

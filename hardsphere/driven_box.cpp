@@ -105,7 +105,7 @@ void DrivenBox::restart(double t, double x, double v) {
 void DrivenBox::go_on() {
   const Point point = at(valid_until_);
   account(valid_until_);
-  // A standstill sooner than a time can resolve is now: else the piece would begin anew for ever.
+  // A standstill closer than the resolution of time counts as now: else pieces would begin without end.
   const double least = std::max(1e-12 * (top_speed() + 1e-6), 5e-16 * valid_until_ * top_acceleration_);
   const bool turning = forces_.dry_friction.sum() > 0 && std::abs(point.v) <= least;
   restart(valid_until_, point.x, turning ? 0.0 : point.v);

@@ -36,7 +36,7 @@ class EventLoop {
   void execute(const LoggedEvent& event);
   /// Moves the clock on; no event of the log may lie before.
   void wait_until(double t) { scene_.now = t; }
-  /// Of everything that the motion goes on from: FNV-1a over the bits of all flights, spins and the box.
+  /// Digest of the whole state: FNV-1a over the bits of all flights, spins and the box.
   std::uint64_t digest() const;
 
   double time() const { return scene_.now; }

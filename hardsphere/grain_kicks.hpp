@@ -26,7 +26,7 @@ class GrainKicks {
   void act();
 
  private:
-  /// To one effect's drag, N s.
+  /// Impulses of one effect's drag on the box, N s: along the axis and across.
   struct Reaction {
     double on_box = 0, across = 0;
   };

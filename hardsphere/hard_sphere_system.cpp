@@ -57,7 +57,7 @@ void check_cell(const Setup& setup, const State& state) {
                          "make box.length and box.width larger, or the grains smaller or less unequal"}});
 }
 
-/// Whoever made the state. Through cells, so that it costs no more than the first neighbour lists.
+/// Also of states read from a file. Through cells, so that it costs no more than the first neighbour lists.
 void check_overlap(const Setup& setup, const State& state) {
   if (state.size() < 2) return;
   constexpr double allowed = 1e-12;  // m

@@ -80,7 +80,7 @@ class HeldBonds {
  private:
   struct Pull {
     double since;    ///< s
-    double impulse;  ///< N s, what has turned the two round and driven them apart since then
+    double impulse;  ///< N s, what has turned the two round and driven them apart since `since`
   };
   double force_, range_;
   std::vector<double> last_touch_;

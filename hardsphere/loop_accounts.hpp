@@ -48,7 +48,7 @@ class LoopAccounts {
   }
   /// Anything else gives a grain an impulse, at the time of the last catch_up().
   void grain_pushed(const Vec3& impulse) { grain_momentum_ += impulse; }
-  /// From outside on the box and grains along the axis, N s.
+  /// Enters an impulse from outside on box and grains along the axis, N s.
   void pushed_from_outside(double impulse) { outer_impulse_ += impulse; }
   /// To be called before the box is kicked.
   void before_kick() {

@@ -70,10 +70,10 @@ class Scene {
     box.go_on();
     box_time_ = -1;
   }
-  /// Of the spring alone from the last kick to the moment of box_now(), N s.
+  /// Impulse of the spring alone from the last kick to the moment of box_now(), N s.
   double spring_impulse() const { return spring_impulse_; }
 
-  /// As seen from the box across, and from the lab along the axis.
+  /// Positions across the axis are seen from the box, along it from the lab.
   State state(double t) const;
 
   double now = 0;  ///< s

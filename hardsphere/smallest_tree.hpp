@@ -36,7 +36,7 @@ class SmallestTree {
     }
     used_ = size;
   }
-  /// Of equal ones the first.
+  /// The smallest number; of equal ones the first.
   Smallest smallest() const {
     if (node_.empty()) return shakedown::smallest(numbers_, numbers_.size());
     Smallest found = shakedown::smallest(node_.back(), node_.back().size());

@@ -105,7 +105,7 @@ class BulletRun {
   }
 
   void fly_box(double from, double step) {
-    // What Bullet's overlap correction has moved the box by: it did no work on velocities, but the spring
+    // By how far Bullet's overlap correction has moved the box: it did no work on velocities, but the spring
     // feels it.
     const double pushed = bodies_.x_box() - (from + step * bodies_.v_box());
     double x = from;

@@ -6,7 +6,7 @@
 
 namespace shakedown {
 
-/// Engine "bullet": Bullet's own rigid bodies and impulse solver, the third opinion a user of Bullet would
+/// Engine "bullet": Bullet's own rigid bodies and impulse solver, the result that a user of Bullet would
 /// get. With the settings that make its restitution right (no speculative contacts, no energy from overlap
 /// correction, no sleeping) binary impacts are exact; simultaneous ones are not. With bullet.defaults = true
 /// the settings are as Bullet ships them, to show what that does: slow impacts do not bounce, fast ones

@@ -26,7 +26,7 @@ struct Contact {
   double dashpot = 1;
   double attraction = 0;
   Vec3 stretch = Vec3::Zero();  ///< m, of the tangential spring
-  // Of the last evaluation.
+  // Forces found at the last evaluation.
   double normal_force = 0;               ///< N, on i along the normal
   double elastic_force = 0;              ///< N, the share of overlap alone in it
   Vec3 tangential_force = Vec3::Zero();  ///< N, on i

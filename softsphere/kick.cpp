@@ -172,7 +172,7 @@ class HalfKick {
     }
   }
 
-  /// Of one effect's drag on all grains, W.
+  /// Power of one effect's drag on all grains, W.
   double drag_power(const AirDrag& drag) const {
     const double box_speed = mean_velocity(bodies_.box()).x();
     double power = 0;

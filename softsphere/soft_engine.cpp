@@ -19,7 +19,7 @@ namespace {
 /// cost the same within 5 %, in the dense layer, in a long box and with 1e4 grains.
 constexpr double skin_in_diameters = 0.15;
 constexpr int implicit_passes = 3;
-/// Fewer and the contact oscillator is no longer resolved at all (Verlet is unstable below pi / 2).
+/// With fewer steps the contact oscillator is not resolved (Verlet is unstable below pi / 2).
 constexpr double fewest_steps_per_contact = 5;
 /// Above this the bounce is visibly not what the setup says.
 constexpr double largest_quiet_restitution_error = 5e-3;

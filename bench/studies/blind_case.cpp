@@ -190,7 +190,7 @@ void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Overri
       drawn.more.push_back(
           {"empty",
            {{"box.length", "\"40 mm\"", ""}, {"grains.count", "0", ""}, {"run.duration", "\"12 s\"", ""}}});
-      // What is late is late by a distance that grows with the release; a push is not.
+      // A late clock shifts the box by a distance that grows with the release; a push at release does not.
       drawn.more.push_back({"half",
                             {{"box.length", "\"40 mm\"", ""},
                              {"release.displacement",

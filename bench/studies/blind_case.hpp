@@ -9,7 +9,7 @@
 namespace shakedown {
 
 /// `films`: physics or none through a camera as it is (lens, shutter, depth, wander, trigger, release), in
-/// the hands of whoever weighs to half a per cent and says so.
+/// a laboratory that weighs to half a per cent and says so in [known].
 enum class BlindKind { null, parameters, single, camera, pair, unlisted, twins, films };
 constexpr std::array<std::string_view, 8> blind_kind_names{"nulls", "parameters", "singles", "camera",
                                                            "pairs", "unlisted",   "twins",   "films"};

@@ -242,7 +242,7 @@ void twins(const std::vector<OpenedCase>& cases, Table& table) {
   };
   table.at_least("twins: both named as look-alikes (of those that were seen)", count(cases, detected, both),
                  0.80);
-  // Who is right without a look-alike has told apart what was thought to be too weak for it.
+  // Naming the hidden one alone counts too: the pair was told apart although the signal is weak.
   table.beside(
       "twins: both named, or the hidden one alone",
       count(cases, detected, [&](const OpenedCase& one) { return both(one) || one.judgement.named; }));
@@ -256,7 +256,7 @@ void twins(const std::vector<OpenedCase>& cases, Table& table) {
           [](const OpenedCase& one) { return one.after_more->named; }));
 }
 
-/// What luck and prejudice come to, on the same cases.
+/// Guesses scored on the same cases: an effect at random, always the effect hidden most often.
 void baselines(const std::vector<OpenedCase>& cases, Table& table) {
   std::set<std::string> all;
   for (const Hideable& hideable : hideable_effects()) all.insert(std::string(hideable.effect->name));

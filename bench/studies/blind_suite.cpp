@@ -127,7 +127,7 @@ class Suite {
     const std::string twins = strength_name("", BlindKind::twins);
     for (const std::string& id : needed) {
       if (table.contains(id)) continue;
-      // Of the experiment as designed: a worse one is given the same strengths.
+      // Strengths are measured in the experiment as designed; a worse variant gets the same ones.
       const bool twin = id.starts_with(twins);
       const std::vector<PlannedRun> runs =
           twin ? twin_runs() : (options_.small ? small_design() : full_design()).runs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Faulty parts handed to a diagnosis from outside, one at a time: a trial is worth something when its figures
+// Faulty parts handed to a diagnosis from outside, one at a time: a study is worth something when its figures
 // notice them.
 #pragma once
 #include <array>

@@ -63,7 +63,7 @@ std::set<std::string> with_look_alikes(const Json& diagnosis, const Names& missi
   return names;
 }
 
-/// Of a camera as it is nobody can be asked for the camera's errors: physics alone is judged.
+/// In `films` every run has camera errors, which no answer needs to name: only physics is scored.
 TrialJudgement judgement_of_physics(const std::string& verdict, const Names& missing, const Names& hidden) {
   Names truth = hidden;
   std::sort(truth.begin(), truth.end());

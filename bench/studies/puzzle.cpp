@@ -78,7 +78,7 @@ PuzzleModel unfitted(const std::string& name, const Setup& setup, const Experime
                             .runs);
 }
 
-/// What is missing, if the drop test is believed and nothing but L = 40 mm was filmed?
+/// The diagnosis when the restitution of the drop test is held fixed and only L = 40 mm was filmed.
 Diagnosis diagnosed(const Experiment& experiment, const PuzzleOptions& options) {
   DiagnoseOptions how;
   how.threads = options.threads;

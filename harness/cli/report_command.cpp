@@ -24,7 +24,7 @@ bool is_result_file(const std::filesystem::path& file) {
          stream.read(beginning.data(), static_cast<std::streamsize>(magic.size())) && beginning == magic;
 }
 
-/// By the last part of their paths; those that share it by the whole path.
+/// Names for folders: the last part of the path, or the whole path where two share it.
 std::vector<std::string> names_of(const std::vector<std::string>& places) {
   std::vector<std::string> paths, names;
   for (const std::string& place : places)

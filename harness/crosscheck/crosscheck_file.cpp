@@ -131,7 +131,7 @@ std::string limit_table(const ContactTimeLimit& limit) {
   return text;
 }
 
-/// As a CSV cell that may hold commas and quotes.
+/// The text as a CSV cell that may hold commas and quotes.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char letter : text) result += letter == '"' ? "\"\"" : std::string(1, letter);

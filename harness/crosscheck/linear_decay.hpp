@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The regression check on the decay of the paper's damper: |peak| falls along a nearly straight line while
-// the grains collect and collide (t < 8 s, peaks above 10 mm; physics.md, 5).
+// the grains collect and collide (t < 8 s, peaks above 10 mm).
 #pragma once
 #include <optional>
 #include <string>
@@ -12,9 +12,9 @@
 namespace shakedown {
 
 /// rms about the straight line over rms about the exponential must stay below this, over the first eight
-/// peaks: the regime in which the layer is collected and collides once a half period, as physics.md 5 lists
-/// it. Down to 10 mm the decay bends more (0.41 at 65 mm, where |peak| falls more slowly at the end):
-/// reported beside it, not required.
+/// peaks: the regime in which the layer is collected and collides once a half period.
+/// Down to 10 mm the decay bends more (0.41 at 65 mm, where |peak| falls more slowly at the end): reported
+/// beside it, not required.
 constexpr double largest_rms_ratio = 0.35;
 constexpr std::size_t regime_peaks = 8;
 

@@ -81,7 +81,7 @@ std::string differences_of(const EffectRecord& effect) {
   return text;
 }
 
-/// Of both lengths that were measured, mm/s.
+/// Difference of the engines at both lengths that were measured, mm/s.
 std::string shortly(std::string_view effect) {
   std::string text;
   for (const double length : {0.040, 0.104})

@@ -48,7 +48,7 @@ extern const EffectRecord grain_cohesion{
                 {"soft",
                  {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
     // What matters to moving grains is force times range. Ranges beyond the gaps of the packing let the hard
-    // engine's wells hold the layer at the wall for good, and so do stronger forces. Dry grains of some
+    // engine's wells hold the layer at the wall without end, and so do stronger forces. Dry grains of some
     // millimetres rarely stick: exp(-2).
     .search = {.strengths = {{.parameters = "force",
                               .typical = 8e-3,

@@ -9,7 +9,7 @@ namespace shakedown {
 
 constexpr int summary_schema_version = 1;
 
-/// The results as JSON (README, "summary.json"): of one run plain numbers, of an ensemble each number as
+/// The results as JSON (README.md, "summary.json"): of one run plain numbers, of an ensemble each number as
 /// {mean, sd, n}, of the promises of `health` also the largest. null: there is no such number. Everything but
 /// wall_seconds and collisions_per_second is the same to the last byte whenever setup, engine, seed and
 /// program are.

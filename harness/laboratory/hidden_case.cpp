@@ -34,7 +34,7 @@ const EffectRecord& effect_named(const std::string& name, const std::string& ori
                      : "did you mean '" + std::string(near) + "'? `shakedown effects` lists them"}});
 }
 
-/// What must be given, at its example or its default.
+/// Values for the parameters that must be given: their examples or defaults.
 std::vector<Override> examples(const EffectRecord& record, const std::string& origin) {
   std::vector<Override> overrides;
   for (const Parameter& parameter : record.parameters) {
@@ -47,7 +47,7 @@ std::vector<Override> examples(const EffectRecord& record, const std::string& or
   return overrides;
 }
 
-/// At its typical strength, by the first of its strengths; of what has none an example.
+/// The effect at the typical value of its first strength; an effect without strengths at its example.
 std::vector<Override> typical(const EffectRecord& record, const Setup& believed, const std::string& origin) {
   const Search search = search_of(record);
   if (search.strengths.empty()) return examples(record, origin);

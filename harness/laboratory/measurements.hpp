@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A laboratory that exists only here: an engine runs the damper as it truly is, a camera records it, and what
-// comes out looks like an experiment. What the damper truly is stays with whoever asked.
+// comes out looks like an experiment. The truth stays with the caller.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -43,7 +43,7 @@ struct RecordingSettings {
   bool declared = true;    ///< the noise stands in the experiment file
 };
 
-/// What whoever made the experiment knows of it, and how well: the box weighed to half a per cent, the grains
+/// What the experimenter knows, and how well: the box weighed to half a per cent, the grains
 /// to a quarter, the release read on a ruler to half a millimetre, the scale from a ruler in the picture to
 /// half a per cent, the clock started within two milliseconds; worse where the laboratory is worse. Values
 /// are those that the user believes.

@@ -23,9 +23,9 @@ struct Signal {
   double most() const { return std::max(by_balance, by_ensembles); }
 };
 
-/// Of the hidden case, measured with a camera of the default noise. Of a force in no list: what the balance
-/// keeps with the known effects that imitate it best, since no method can miss an effect whose place another
-/// takes.
+/// The signal of the hidden case, measured with a camera of the default noise. Of a force in no list: what
+/// the balance keeps with the known effects that imitate it best, since no method can miss an effect whose
+/// place another takes.
 Signal signal_to_noise(const HiddenCase& hidden, std::uint64_t seed, const SignalSettings& settings,
                        const TrialTools& tools);
 

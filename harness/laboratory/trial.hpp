@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A diagnosis on trial: measure what is hidden, diagnose without being told, judge.
+// A diagnosis tried out: measure what is hidden, diagnose without the answer, compare with the answer.
 #pragma once
 #include <string>
 #include <vector>
@@ -38,7 +38,7 @@ Experiment measured_in(const Trial& trial, const TrialTools& tools);
 /// Measures in memory and diagnoses the believed setup. Throws what these throw.
 Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools);
 
-/// What somebody who knows the answer says of a diagnosis.
+/// How a diagnosis compares with the answer.
 struct TrialJudgement {
   bool detected = false;  ///< it says that something is missing, known or unknown
   bool named =

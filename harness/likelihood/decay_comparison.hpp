@@ -16,7 +16,7 @@ struct MeasuredNumber {
 
 struct DecayComparison {
   std::string run;
-  MeasuredNumber frequency;           ///< Hz, of the first ten zero crossings (physics.md, 5)
+  MeasuredNumber frequency;           ///< Hz, of the first ten zero crossings
   MeasuredNumber slope;               ///< m/s, of |peaks| until 10 mm
   std::vector<MeasuredNumber> peaks;  ///< m, signed: the first ones
   std::string why_not;                ///< why there are no peaks; empty where there are

@@ -26,7 +26,7 @@ double frame_interval_of(const std::vector<double>& time) {
 }
 
 /// The frames of one series, where another of the run may have more: grains tracked in every fourth frame are
-/// neighbours of each other all the same.
+/// still neighbours of each other.
 struct OwnFrames {
   std::vector<double> time, x;
   std::vector<std::size_t> at;  ///< place in the run
@@ -109,9 +109,8 @@ void count_gaps(const std::vector<double>& time, const std::vector<double>& x, d
   noise.missing = std::max(0, frames - present - noise.outliers);
 }
 
-/// The packed layer rests at its largest distance from the centre: the mean of the recorded distance over
-/// frames whose smoothed value is within one standard deviation of the largest smoothed one, over the first
-/// four half periods.
+/// The packed layer rests at its largest distance from the centre: the 95 % quantile of the recorded
+/// distance, smoothed over 20 ms, in the first two seconds.
 void find_plateau(const MeasuredRun& run, const RunAudit& audit, double& plateau, double& error) {
   plateau = nothing;
   error = nothing;

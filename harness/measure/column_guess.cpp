@@ -146,7 +146,7 @@ std::vector<const TableColumn*> every_column(const Table& table) {
   return columns;
 }
 
-/// Of x and y of one track the one that moves more.
+/// The one of a track's x and y that moves more.
 const TableColumn* along_the_motion(const Table& table, const TableColumn* column,
                                     const std::set<std::string>& taken) {
   if (!column) return nullptr;

@@ -17,7 +17,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double usual_noise = 1e-3;       // m, of a camera of which nothing is known
 constexpr double without_a_camera = 1e-9;  // m, in positions that a simulation gave as they are
 constexpr int lowest_order = 4, highest_order = 14;
-/// Of the motion a difference may keep so much of what it keeps of the noise: 2 % of the deviation.
+/// Motion that a difference keeps over noise that it keeps, at most: it adds 2 % to the deviation.
 constexpr double leak_allowed = 0.2;
 /// The noise is told where the box's excursion exceeds this share of the whole range; at rest rounding hides
 /// it.

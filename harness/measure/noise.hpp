@@ -11,7 +11,7 @@ namespace shakedown {
 
 constexpr int colour_lags = 5;
 
-/// From where the standard deviation is known.
+/// How the standard deviation is known.
 enum class NoiseSource {
   frames,    ///< found in the frames
   bound,     ///< from the frames too, but the motion between them may be part of it: at most this
@@ -65,7 +65,8 @@ std::array<double, colour_lags> colour_of(const std::vector<NoiseSeries>& series
 /// Where frames do not tell it, the declared one is taken, and without that the best bound.
 void set_deviation(const NoiseSeries& series, NoiseFound& noise);
 
-/// As if the noise were white, m: the start of everything else. NaN where too few frames follow each other.
+/// Standard deviation, m, if the noise were white; other estimates start from it. NaN: too few frames in a
+/// row.
 double white_deviation(const NoiseSeries& series);
 
 /// The step in which numbers were recorded, m: the smallest gap between levels that repeats and of which

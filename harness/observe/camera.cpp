@@ -35,7 +35,7 @@ double before_lens(double lens, double seen) {
   return x;
 }
 
-/// Of the distance from the middle of the box to the centre of the grains.
+/// Share that the camera shows of the distance from the middle of the box to the grains' centre.
 double share_seen(const Camera& camera, double box) {
   const double share = 1 - camera.centre_bias;
   return camera.arc_length > 0 ? share * std::cos(1.5 * box / camera.arc_length) : share;

@@ -20,7 +20,7 @@ struct Recording {
 /// The trajectory as the camera sees it (Physics::Camera).
 Recording recorded_by(const Camera& camera, const Trajectory& trajectory);
 
-/// A recording as if the camera had been between the motion and it, so that a camera can be put on top of
+/// The recording that a camera makes of another recording, so that a camera can be put on top of
 /// another. Positions that are NaN stay NaN. Where the shutter moves a frame in time, the position follows a
 /// local cubic (moved_in_time.hpp): of the paper's swing it is off by 4e-9 m at 500 frames a second, 4e-8 m
 /// at 240 (2 ms for 0.4 m), and some micrometres in the few frames around an impact.

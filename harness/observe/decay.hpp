@@ -10,7 +10,7 @@ namespace shakedown {
 
 constexpr double absent = std::numeric_limits<double>::quiet_NaN();  ///< "there is no such number"
 
-/// The peaks by which a decay is judged (physics.md, 5): t < 8 s, up to the last one before the first below
+/// The peaks from which slope and linearity are computed: t < 8 s, up to the last one before the first below
 /// 10 mm.
 std::vector<Peak> peaks_of_the_decay(const std::vector<Peak>& peaks);
 

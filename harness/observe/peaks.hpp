@@ -21,7 +21,7 @@ std::vector<double> zero_crossings(const SampledMotion& motion, double shortest)
 /// release, and is excluded; so is the half period that the record cuts short.
 std::vector<Peak> largest_extrema(const SampledMotion& motion, const std::vector<double>& crossings);
 
-/// 4.5 / (t10 - t1) of the first ten zero crossings, Hz (physics.md, 5); NaN when there are fewer.
+/// 4.5 / (t10 - t1) of the first ten zero crossings, Hz; NaN when there are fewer.
 double frequency_of(const std::vector<double>& crossings);
 
 }  // namespace shakedown

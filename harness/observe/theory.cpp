@@ -45,7 +45,7 @@ const char* to_string(LandingPhase phase) {
 
 double layer_thickness(const Setup& setup) {
   const double half_constant =
-      0.71 * setup.grains.diameter;  // physics.md 4: every other site of a square grid of a/2
+      0.71 * setup.grains.diameter;  // of fcc layers: every other site of a square grid of a/2
   const auto sites = [&](double width) {
     return std::floor((width - setup.grains.diameter) / half_constant * (1 + 1e-12)) + 1;
   };

@@ -7,8 +7,8 @@
 
 namespace shakedown {
 
-/// What an event-driven run was, in the fewest bytes: where it began, and then who met whom and when. With
-/// the setup that is all: the same impacts executed in the same order give the same motion, bit for bit,
+/// What an event-driven run was, in the fewest bytes: where it began, and then which grains met and when.
+/// With the setup that is all: the same impacts executed in the same order give the same motion, bit for bit,
 /// without searching for a single event.
 struct CollisionLog {
   State initial;

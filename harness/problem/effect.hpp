@@ -101,7 +101,7 @@ struct Search {
   std::vector<SearchedStrength> strengths{};                   ///< each an alternative of its own (x, y, z)
   std::vector<std::pair<std::string_view, double>> besides{};  ///< parameters that its presence needs, SI
   std::optional<SearchedHarmonic> harmonic{};
-  /// What a run with it costs: as one without; three to five times that; ten times that.
+  /// Cost of a run with it: plain as one without, slow three to five times that, dear ten times that.
   enum class Cost { plain, slow, dear } cost = Cost::plain;
   /// How likely it is in such an experiment beside a usual effect (viscous damping, friction): a prior.
   double odds = 1;
@@ -110,8 +110,8 @@ struct Search {
   std::string_view not_searched{};  ///< why no diagnosis looks for it; empty: one does
 };
 
-/// Of what a camera or clock does: how well it is known. It is then no effect that may be missing unless the
-/// data ask for much more of it.
+/// How well an error of camera or clock is known beforehand. It is then no effect that may be missing unless
+/// the data ask for much more of it.
 struct CameraError {
   std::string_view known_as{};  ///< in [known] of an experiment: "camera.lens"; empty: taken for perfect
   double usual = 0;             ///< standard deviation where the experiment does not say it, SI
@@ -120,7 +120,7 @@ struct CameraError {
 };
 
 struct EffectRecord {
-  std::string_view name{};   ///< snake_case id, fixed for ever
+  std::string_view name{};   ///< snake_case id, never changed
   std::string_view label{};  ///< short name for people, "linear damping of the box"
   /// Effects of one family look alike, and naming the family is half an answer; empty: has no look-alikes.
   std::string_view family{};

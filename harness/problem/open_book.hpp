@@ -14,7 +14,7 @@ class OpenBook {
     worst_ = std::max(worst_, std::abs(open));
     most_ = std::max(most_, std::abs(held));
   }
-  /// As a fraction; infinity where something is open and nothing was ever held.
+  /// The error as a fraction of `scale`; infinity where something is open and nothing was ever held.
   double error(double scale) const { return worst_ > 0 ? worst_ / (scale > 0 ? scale : most_) : 0; }
 
  private:

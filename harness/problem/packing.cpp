@@ -229,7 +229,7 @@ std::vector<Vec3> packed_centres(const Setup& setup, Packing packing, const std:
   if (setup.grains.count == 0) return {};
   check_room_of_the_largest(setup, radius);
   std::vector<Vec3> centres = placed_centres(setup, packing, run);
-  // As large as the packing takes them for: a single grain of another size is not.
+  // True when all grains have the size that the packing assumes.
   const double usual = setup.grains.diameter / 2;
   const bool equal = std::all_of(radius.begin(), radius.end(), [=](double r) { return r == usual; });
   const bool damper = setup.domain == Domain::damper;

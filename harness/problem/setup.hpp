@@ -19,7 +19,7 @@ enum class Domain { damper, closed, periodic };
 /// must each hold a grain, with something to spare for rounding.
 constexpr double least_period_in_diameters = 3 * (1 + 1e-6);
 
-/// Arrangement of the grains at release (README, "Packings").
+/// Arrangement of the grains at release (harness/setup_file/README.md, "Packings").
 enum class Packing { fcc, square, random, spread };
 
 struct Setup {
@@ -71,13 +71,13 @@ struct Setup {
     std::uint64_t seed = 1;
   } run;
 
-  /// Regularisation of inelastic collapse in the event-driven engine (README, "Inelastic collapse").
+  /// Regularisation of inelastic collapse in the event-driven engine (hardsphere/README.md).
   struct Hard {
     double wall_elastic_fraction = 0.02;  ///< end-wall impacts slower than this times the box's current top
                                           ///< speed are elastic (paper, Eq. elasticlimit)
     double pair_elastic_speed = 1e-3;     ///< m/s; grain-grain impacts slower than this are elastic
     double wall_elastic_speed = 0;  ///< m/s; end- and side-wall impacts slower than this are elastic; both
-                                    ///< are raised where layers are pressed on walls (README)
+                                    ///< are raised where layers are pressed on walls (as above)
     double kick_interval =
         2e-3;  ///< s; drag and formulas act on grains in impulses so far apart, second order in it
   } hard;

@@ -20,7 +20,7 @@ constexpr std::uint8_t no_contact = 3;
 constexpr double bent_flight_step = 1e-2;  // s
 constexpr double box_step = 2e-3;          // s; the box bends by 3 um in it
 
-/// To the page's units, 2 us and 2 um, as decimal numbers that files hold in few digits.
+/// Rounds to the page's units, 2 us and 2 um, so that files hold few digits.
 double rounded(double value) { return std::round(value * 5e5) / 5e5; }
 
 void add(Track& track, double time, const Vec3& at, std::uint8_t contact) {

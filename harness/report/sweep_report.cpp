@@ -150,7 +150,7 @@ class Sheet {
     return {plot};
   }
 
-  /// At most as many as can be told apart.
+  /// Values across, at most four: more curves cannot be told apart by colour.
   std::vector<double> some_across() const {
     constexpr std::size_t most = 4;
     if (across_.size() <= most) return across_;

@@ -43,7 +43,7 @@ std::string remedy_for(std::string_view word, std::span<const std::string_view> 
          listed(candidates);
 }
 
-// ---- overrides: written into the tree before anything is read, so that one reader judges both ----
+// ---- overrides: written into the tree before anything is read, so that one reader checks both ----
 
 TomlValue value_of(const Override& override) {
   const SourcePlace place{override.origin, 0, 0};
@@ -330,7 +330,7 @@ TomlValue table_of(const EffectChoice& choice, const Setup& setup) {
   return table;
 }
 
-/// What overrides change only a part of: effects of the setup, and lists of which one component is set.
+/// Keys of which an override changes only a part: effects of the setup, and one component of a list.
 TomlValue changed_in_part(const Setup& setup, std::span<const Override> overrides) {
   TomlValue root;
   for (const Override& override : overrides) {

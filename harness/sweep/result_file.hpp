@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Results of a sweep in one SQLite file, a row a run. A row is there, whole, once add() has returned: a
 // program killed at any moment loses what it was computing and nothing else. Several processes may add to one
-// file; nothing depends on who came first.
+// file; nothing depends on their order.
 #pragma once
 #include <filesystem>
 #include <memory>

@@ -8,8 +8,8 @@ namespace shakedown {
 int threads_or_all(int threads);
 
 /// Calls work(0) ... work(count - 1), several at a time on `threads` threads (the caller's is one of them).
-/// What each call returns is then called one at a time in ascending order: to whoever receives the results it
-/// looks as if all had been done one after the other, whatever the number of threads; and no more results
+/// What each call returns is then called one at a time in ascending order: the receiver of the results sees
+/// the order of one thread, whatever the number of threads; and no more results
 /// than 16 a thread wait in memory. When one throws, no more are begun and the exception of the lowest number
 /// is thrown on, after everything below it was delivered.
 void work_in_parallel_deliver_in_order(int count, int threads,

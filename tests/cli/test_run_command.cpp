@@ -19,7 +19,7 @@ TEST_F(RunCommand, WritesSeriesSummarySetupAndProvenance) {
       "t_s,x_box_m,v_box_m_per_s,x_com_m,total_energy_J,loss_grain_grain_J,loss_end_wall_J,loss_side_wall_J");
   EXPECT_EQ(std::count(series.begin(), series.end(), '\n'), 1 + 1201);
   const json summary = json::parse(contents(folder / "out/summary.json"));
-  EXPECT_NEAR(summary["frequency_hz"], 1.048, 0.002);  // physics.md, 5: 1.0478 (.0001)
+  EXPECT_NEAR(summary["frequency_hz"], 1.048, 0.002);  // seen: 1.0478 (.0001)
   EXPECT_NEAR(summary["slope_mm_per_s"], -8.20, 0.3);  // -8.20 (.05) of the full fit to 8 s
   EXPECT_NEAR(summary["peaks_mm"][7], 76.4, 1.0);
   EXPECT_LT(summary["ledger_error"], 1e-12);

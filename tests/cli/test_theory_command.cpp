@@ -17,7 +17,7 @@ TEST_F(TheoryCommand, GivesThePapersNumbers) {
   EXPECT_NEAR(theory["spring"]["stiffness_N_per_m"], 25.92, 0.005);
   EXPECT_NEAR(theory["loaded_frequency_hz"], 1.0608, 1e-4);
   EXPECT_NEAR(theory["optimal_length_m"], 0.3113, 1e-4);
-  // The third peak is 96.1 mm (physics.md, 5): k (107.5 - 96.1) mm / 6.
+  // The third peak is 96.1 mm: k (107.5 - 96.1) mm / 6.
   EXPECT_NEAR(theory["friction"]["effective_friction_N"], 25.92 * (0.1075 - 0.0961) / 6, 0.004);
 }
 
