@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "summary_file.hpp"
 
-#include <toml++/toml.h>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
+#include "paper_values.hpp"
 #include "provenance.hpp"
 #include "setup_file.hpp"
+#include "toml_document.hpp"
 
 namespace shakedown {
 
@@ -163,13 +164,31 @@ Json joined(const std::vector<const Json*>& trees, bool extremes) {
   return result;
 }
 
-/// The setup as the setup file has it, quantities with their units.
-Json setup_json(const Setup& setup) {
-  const toml::table table = toml::parse(write_setup(setup));
-  std::ostringstream text;
-  text << toml::json_formatter(table);
-  return Json::parse(text.str());
+/// Keys in the order of the alphabet, which this kind of JSON keeps by itself.
+nlohmann::json json_of(const TomlValue& value) {
+  using Kind = TomlValue::Kind;
+  nlohmann::json json;
+  switch (value.kind) {
+    case Kind::text:
+    case Kind::date: return value.text;
+    case Kind::integer: return value.integer;
+    case Kind::number: return value.number;
+    case Kind::boolean: return value.boolean;
+    case Kind::array:
+      json = nlohmann::json::array();
+      for (const TomlValue& item : value.items) json.push_back(json_of(item));
+      return json;
+    case Kind::table:
+      json = nlohmann::json::object();
+      for (const TomlEntry& entry : value.entries) json[entry.key] = json_of(entry.value);
+      return json;
+  }
+  EXPECT(!"a kind of value");
+  return json;
 }
+
+/// The setup as the setup file has it, quantities with their units.
+Json setup_json(const Setup& setup) { return json_of(parse_toml(write_setup(setup), "setup")); }
 
 }  // namespace
 
@@ -179,6 +198,7 @@ std::string summary_json(const Ensemble& ensemble, const Setup& setup) {
             {"program", {{"name", "shakedown"}, {"version", program.version}, {"commit", program.commit}}},
             {"engine", ensemble.engine},
             {"setup", setup_json(setup)},
+            {"taken_from_paper", taken_from_paper(setup)},
             {"seed", setup.run.seed},
             {"runs", {{"requested", ensemble.requested}, {"finished", ensemble.runs.size()}}},
             {"interrupted", ensemble.interrupted}};

@@ -163,7 +163,12 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+/// No unit that people write is as long; brackets within brackets are read by recursion.
+constexpr std::size_t longest_unit = 200;
+
 ValueOrReason<Scale> parse_scale(std::string_view text) {
+  if (text.size() > longest_unit)
+    return "has a unit of more than " + std::to_string(longest_unit) + " characters";
   UnitReader reader{trimmed(text), {}};
   if (reader.rest.empty()) return Scale{};
   const Scale scale = reader.rest.starts_with("/") ? Scale{} : reader.expression();

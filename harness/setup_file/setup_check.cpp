@@ -123,17 +123,21 @@ void check_claims(Findings& findings) {
           {effects[i].place, name,
            "sets what " + claims + text_of(place_of(findings.setup, claims)) + " sets too",
            "keep one of the two"});
-    for (std::size_t j = 0; j < i; ++j) {
-      if (effects[j].record == &record)
-        findings.found.push_back({effects[i].place, name,
-                                  "is named twice (first" + text_of(effects[j].place) + ")",
-                                  "keep one of them"});
-      else if (!claims.empty() && effects[j].record->claims == claims)
-        findings.found.push_back({effects[i].place, name,
-                                  "replaces the " + claims + ", and so does " +
-                                      std::string(effects[j].record->name) + text_of(effects[j].place),
-                                  "keep one of the two"});
-    }
+    // One message each: with the first that it repeats, or else the first whose part it replaces.
+    const auto before = effects.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto same = std::find_if(effects.begin(), before,
+                                   [&](const EffectChoice& other) { return other.record == &record; });
+    const auto rival = std::find_if(effects.begin(), before, [&](const EffectChoice& other) {
+      return !claims.empty() && other.record->claims == claims;
+    });
+    if (same != before)
+      findings.found.push_back(
+          {effects[i].place, name, "is named twice (first" + text_of(same->place) + ")", "keep one of them"});
+    else if (rival != before)
+      findings.found.push_back({effects[i].place, name,
+                                "replaces the " + claims + ", and so does " +
+                                    std::string(rival->record->name) + text_of(rival->place),
+                                "keep one of the two"});
   }
 }
 

@@ -13,9 +13,11 @@ struct TomlAssertion {};
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
+#include <memory>
 #include <sstream>
 
 namespace shakedown {
@@ -83,6 +85,77 @@ int line_of_assertion(std::string_view text) {
   return line;
 }
 
+/// What the parser, which recurses, is handed at most. Setups and experiments stay far below: they nest 3
+/// deep.
+constexpr std::size_t most_bytes = 16'000'000;
+constexpr int deepest = 64;
+
+/// Walks over a TOML text, leaving out texts and comments, and counts brackets within brackets and parts of a
+/// dotted key.
+class Depth {
+ public:
+  explicit Depth(std::string_view text) : text_(text) {}
+
+  /// The first line that goes deeper than allowed; 0 when none does.
+  int line_too_deep() {
+    for (; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      if (c == '"' || c == '\'')
+        skip_text(c);
+      else if (c == '#')
+        at_ = std::min(text_.find('\n', at_), text_.size()) - 1;
+      else
+        count(c);
+      if (brackets_ > deepest || dots_ > deepest) return line_;
+    }
+    return 0;
+  }
+
+ private:
+  void count(char c) {
+    if (c == '\n') ++line_;
+    if (c == '[' || c == '{') ++brackets_;
+    if ((c == ']' || c == '}') && brackets_ > 0) --brackets_;
+    if (c == '.') ++dots_;
+    if (c == '\n' || c == '=' || c == ',' || c == '{' || c == '[') dots_ = 0;
+  }
+
+  /// To the last character of the text that begins here; to the end of the line when it is not closed.
+  void skip_text(char quote) {
+    const std::string three(3, quote);
+    const bool long_one = text_.substr(at_).starts_with(three);
+    at_ += long_one ? 3 : 1;
+    for (; at_ < text_.size(); ++at_) {
+      if (text_[at_] == '\n') ++line_;
+      if (text_[at_] == '\n' && !long_one) return;
+      if (text_[at_] == '\\' && quote == '"') {
+        ++at_;
+      } else if (long_one ? text_.substr(at_).starts_with(three) : text_[at_] == quote) {
+        at_ += long_one ? 2 : 0;
+        return;
+      }
+    }
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  int line_ = 1, brackets_ = 0, dots_ = 0;
+};
+
+void refuse_what_no_parser_should_see(std::string_view text, const std::string& name) {
+  if (text.size() > most_bytes)
+    throw InputError({{{name, 0, 0},
+                       "",
+                       "is too large for a TOML file of this program (" + std::to_string(text.size()) +
+                           " bytes; 16 MB are the most)",
+                       "check that it is the file you mean"}});
+  if (const int line = Depth(text).line_too_deep(); line > 0)
+    throw InputError({{{name, line, 1},
+                       "",
+                       "nests deeper than " + std::to_string(deepest) + " brackets or parts of a key",
+                       "write it flatter: a setup needs [section], key = value and [[effect]] alone"}});
+}
+
 constexpr const char* syntax_remedy =
     "correct the syntax: a text stands in quotation marks, every key once, one key = value a line";
 
@@ -108,6 +181,7 @@ std::string_view describe(TomlValue::Kind kind) {
 }
 
 TomlValue parse_toml(std::string_view text, const std::string& name) {
+  refuse_what_no_parser_should_see(text, name);
   try {
     return converted(toml::parse(text, name), name);
   } catch (const toml::parse_error& error) {
@@ -123,13 +197,21 @@ std::string read_text_file(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw FileError(file.string() + ": is a folder, not a file; name the file in it");
-  std::ifstream input(file, std::ios::binary);
-  std::ostringstream text;
-  if (input) text << input.rdbuf();
-  if (!input || input.bad())
+  const auto refuse = [&] {
     throw FileError(file.string() + ": cannot be read (" + std::strerror(errno) +
                     "); check the path and its permissions");
-  return text.str();
+  };
+  // C's streams tell a read error from the end of the file; those of C++ do not.
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
+  if (!stream) refuse();
+  std::string text;
+  std::array<char, 65536> part;
+  for (std::size_t n = 1; n > 0;) {
+    n = std::fread(part.data(), 1, part.size(), stream.get());
+    text.append(part.data(), n);
+  }
+  if (std::ferror(stream.get()) != 0) refuse();
+  return text;
 }
 
 }  // namespace shakedown

@@ -38,10 +38,11 @@ struct TomlEntry {
 /// "a text", "a whole number" ... for messages.
 std::string_view describe(TomlValue::Kind kind);
 
-/// `name` stands for the file in places. Throws InputError with the place of a syntax error.
+/// `name` stands for the file in places. Throws InputError with the place of a syntax error, and for a text
+/// of more than 16 MB or one that nests deeper than 64.
 TomlValue parse_toml(std::string_view text, const std::string& name);
 
-/// The whole file; throws FileError.
+/// The whole file; throws FileError, also when reading fails half way.
 std::string read_text_file(const std::filesystem::path& file);
 
 }  // namespace shakedown
