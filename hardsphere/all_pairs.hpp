@@ -70,7 +70,7 @@ class AllPairs {
 
  private:
   Meeting meeting_of(int i, int j) const;
-  /// Of a grain with any other, from the time of its flight.
+  /// The next touch of a grain with any other, counted from the time of its flight.
   struct Touch {
     double wait = never;  ///< s
     std::int32_t partner = no_partner;

@@ -32,7 +32,7 @@ class HardSphereSystem {
   /// Writes down every event; to be called before the first, with the state that this was made from. Not for
   /// periodic cells.
   void log_collisions(State initial);
-  /// What was written until now.
+  /// The log that was written so far.
   CollisionLog collision_log() const;
 
   double time() const;

@@ -7,7 +7,7 @@
 
 namespace shakedown {
 
-/// m; some thousand units in the last place of a position, a tenth of the overlap that is promised.
+/// m: a tenth of the overlap that is promised, some thousand units in the last place of a position.
 constexpr double lowest_bounce = 1e-13;
 
 /// A bounce on an accelerated wall lower than positions resolve would never end, so every rebound goes at

@@ -62,7 +62,7 @@ constexpr std::array<std::string_view, 7> variant_names{
 /// frames lost; 5 % of the positions jump; grains not tracked. Throws InputError for another name.
 BlindDesign varied(BlindDesign design, std::string_view variant, const std::string& origin = "--variant");
 
-/// Of each hideable thing, by strength_name().
+/// Signal against strength of everything that can be hidden, by strength_name().
 using SignalLaws = std::map<std::string, SignalLaw, std::less<>>;
 
 /// In the twins' small experiment a strength is worth less than in the full one.

@@ -166,7 +166,7 @@ class Suite {
     write_file(file, Json{{"schema_version", 2}, {"signals", values}}.dump(2) + "\n");
   }
 
-  /// What these cases hide; drawn once with no table to learn it.
+  /// Names of what these cases hide, found by drawing them once without a table of strengths.
   std::vector<std::string> needed_ids() const {
     std::vector<std::string> ids;
     for (const BlindCase& one :

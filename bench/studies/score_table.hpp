@@ -21,7 +21,7 @@ class ScoreTable {
   void between(const std::string& what, const Count& count, double low, double high);
   void plain(const std::string& what, const std::string& aim, const std::string& found,
              BlindFigure::Verdict kept);
-  /// Told beside the aims.
+  /// A figure that has no aim.
   void beside(const std::string& what, const Count& count);
 
   std::vector<BlindFigure> rows;

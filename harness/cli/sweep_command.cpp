@@ -27,7 +27,7 @@ namespace shakedown {
 
 namespace {
 
-/// What becomes of the results.
+/// Where the results go.
 struct Presentation {
   JsonOutput json;
   ReportOutput report;

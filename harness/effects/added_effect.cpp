@@ -65,7 +65,7 @@ std::vector<Override> parsed(const std::vector<std::string>& values) {
   return overrides;
 }
 
-/// What the amended file must read back to.
+/// The setup that the amended file must give when it is read back.
 Setup wanted(const std::string& text, const std::filesystem::path& file, const EffectRecord& record,
              const std::vector<Override>& values) {
   if (has(parse_setup(text, file.string(), all_effects(), {}, file.parent_path()), record))

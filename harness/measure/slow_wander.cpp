@@ -22,7 +22,7 @@ struct Blocks {
   double length = 0;  ///< s
 };
 
-/// What is left of the values without their mean and a slowly changing swing of this angular frequency.
+/// The values without their mean and a slowly changing swing of this angular frequency.
 Eigen::VectorXd without_swing(const Eigen::ArrayXd& time, const Eigen::VectorXd& values, double frequency) {
   Eigen::MatrixXd columns(time.size(), 5);
   const Eigen::ArrayXd late = (time - time[0]) / (time[time.size() - 1] - time[0]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every report ends with.
+// The parts with which every report ends.
 #pragma once
 #include <array>
 

@@ -197,7 +197,7 @@ TEST(SlowDiagnosis, FindsAForceOnTheBoxAndTheErrorFalls) {
   // The ensembles do not bend what the balance knows better.
   ASSERT_EQ(d.momentum.terms.size(), 1u);
   const FoundTerm& balance = d.momentum.terms.front();
-  // What needs no simulation is a suspect all the same.
+  // What the balance finds without a simulation stands in the ranking too.
   ASSERT_FALSE(d.ranking.empty());
   EXPECT_EQ(d.ranking.front().effect, balance.effect);
   EXPECT_EQ(d.ranking.front().gain, balance.gain);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page holds everything and asks nobody; a report survives its file.
+// The page holds everything and loads nothing; a report read back from its file is the same.
 #include "report.hpp"
 
 #include <gtest/gtest.h>
