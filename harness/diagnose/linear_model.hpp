@@ -32,7 +32,7 @@ BesideFitted beside_fitted(const std::vector<MeasuredFeatures>& measured, const 
                            const std::vector<Candidate>& candidates, const std::vector<std::size_t>& members,
                            std::span<const EffectRecord* const> known);
 
-/// With kicks rarer than a fit needs. Drag on grains comes in kicks that cost more than all else: at 60 ms
+/// With a kick every 40 ms, rarer than a fit needs. Drag on grains comes in kicks that cost most: at 60 ms
 /// the slope of the decay differs by less than its error over 128 runs, 0.004 mm/s of 8.4, of which drag of
 /// 3 mN s/m makes 0.23.
 std::vector<MeasuredFeatures> kicked_rarely(std::vector<MeasuredFeatures> measured);

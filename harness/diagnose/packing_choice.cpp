@@ -71,7 +71,7 @@ struct Misfit {
   double chi2;  ///< up to what all packings share; the less certain places of a wide packing count against it
 };
 
-/// Of measured - scale * modelled. The scale is free within a tenth where box lengths tell it.
+/// Misfit of measured - scale * modelled. Where box lengths tell the scale it is free from 0.88 to 1.1.
 Misfit misfit_up_to_scale(const std::vector<ReleasedCentre>& measured,
                           const std::vector<LaidCentre>& modelled) {
   double cross = 0, square = 0, low = 1e9, high = 0;
