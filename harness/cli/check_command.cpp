@@ -86,7 +86,7 @@ void add_ensemble_options(CLI::App& command, LinearDecayArguments& arguments) {
       ->default_str("hard,soft");
   command.add_option("--lengths", arguments.lengths_mm, "lengths of the box, separated by commas")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("MM")
       ->default_str("40,65,85,104");
   command
@@ -96,9 +96,7 @@ void add_ensemble_options(CLI::App& command, LinearDecayArguments& arguments) {
       ->type_name("N")
       ->capture_default_str();
   add_threads_option(command, arguments.threads);
-  command.add_option("--seed", arguments.seed, "seed of the random numbers")
-      ->type_name("N")
-      ->capture_default_str();
+  add_seed_option(command, arguments.seed, "seed of the random numbers");
 }
 
 Command add_linear_decay_check(CLI::App& check) {

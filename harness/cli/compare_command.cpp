@@ -163,7 +163,7 @@ nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum,
 }
 
 int compare(const CompareArguments& arguments) {
-  const Setup setup = arguments.setup.read();
+  const Setup setup = arguments.setup.read(given_by_measurements);
   const Measurement measurement = measurement_of(setup, read_measured(arguments.data, setup), all_effects());
   arguments.json.check();
   arguments.report.check();
@@ -193,7 +193,9 @@ int compare(const CompareArguments& arguments) {
   }
   const MomentumAudit momentum = audit_momentum(measurement, all_effects());
   const bool holds = fit.p_value > rejected && momentum.holds();
-  const std::string document = json_of(fit, momentum, decays, holds).dump(2) + "\n";
+  const PaperValues taken(setup, given_by_measurements);
+  const std::string document = taken.added_to(json_of(fit, momentum, decays, holds).dump());
+  taken.print(arguments.json.for_people());
   fmt::print(arguments.json.for_people(), "{}", readable(fit, momentum, decays, holds));
   if (folder) folder->write("compare.json", document);
   if (arguments.report.wanted(arguments.out)) {

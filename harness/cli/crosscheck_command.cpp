@@ -102,6 +102,9 @@ int run(const CrosscheckArguments& arguments) {
   if (!arguments.folder.empty()) folder.emplace(arguments.folder);
   CrosscheckOptions options = options_of(arguments);
 
+  PaperValues taken(cases.front().setup);
+  for (const Case& one : cases) taken.join(PaperValues(one.setup));
+  taken.print(arguments.json.for_people());
   std::vector<Crosscheck> found;
   bool differ = false, cannot_tell = false;
   for (const Case& one : cases) {
@@ -124,7 +127,7 @@ int run(const CrosscheckArguments& arguments) {
   if (arguments.report.wanted(arguments.folder))
     fmt::print(arguments.json.for_people(), "{}",
                arguments.report.write(report_of(found, cases.back().setup), arguments.folder));
-  arguments.json.write(crosscheck_json(found));
+  arguments.json.write(taken.added_to(crosscheck_json(found)));
   return differ ? exit_model_rejected : exit_done;
 }
 
@@ -134,16 +137,16 @@ void add_margin_options(CLI::App& command, CrosscheckArguments& arguments) {
           "--slope-margin", arguments.slope_margin_mm_per_s,
           "difference of slopes that counts as none; without it 0.10, 0.5, 0.6, 0.8 mm/s for boxes of "
           "40, 65, 85, 104 mm and 3 % of the slope for others")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("MM/S");
   command.add_option("--frequency-margin", arguments.options.margins.frequency, "the same of frequencies")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("HZ")
       ->capture_default_str();
   command
       .add_option("--share-margin", arguments.options.margins.share,
                   "the same of the shares of the initial energy that each class of contact takes")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("FRACTION")
       ->capture_default_str();
 }
@@ -173,6 +176,7 @@ void add_setup_options(CLI::App& command, CrosscheckArguments& arguments) {
                   "every setup once with each value, e.g. box.length=40mm,65mm; may be repeated")
       ->type_name("KEY=V1,V2...")
       ->allow_extra_args(false);
+  add_strict_option(command, arguments.changes.strict);
   command.add_option("--rate", arguments.changes.rate, "samples per second (run.sample_rate)")
       ->type_name("HZ");
   command.add_option("--seed", arguments.changes.seed, "seed of the random numbers (run.seed)")

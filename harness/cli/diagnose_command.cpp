@@ -120,7 +120,7 @@ std::string what_is_kept(const SimulationJournal* journal) {
 }
 
 int diagnose_data(const DiagnoseArguments& arguments) {
-  const Setup setup = arguments.setup.read();
+  const Setup setup = arguments.setup.read(given_by_measurements);
   const Experiment experiment = read_measured(arguments.data, setup);
   const Measurement measurement = measurement_of(setup, experiment, all_effects());
   check_names(arguments);
@@ -151,7 +151,9 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   } catch (const Interrupted&) {
     throw Interrupted(what_is_kept(journal.get()));
   }
-  const std::string document = diagnosis_json(diagnosis);
+  const PaperValues taken(setup, given_by_measurements);
+  const std::string document = taken.added_to(diagnosis_json(diagnosis));
+  taken.print(arguments.json.for_people());
   fmt::print(arguments.json.for_people(), "{}", diagnosis_text(diagnosis));
   if (folder) {
     folder->write("setup.toml", amended_setup(diagnosis));
@@ -192,10 +194,10 @@ Command add_diagnose_command(CLI::App& program) {
       .add_option(
           "--budget", arguments->budget,
           "simulations at most; default: 3500 for each different setup among the runs, for four at least")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("RUNS");
   command.add_option("--seconds", arguments->seconds, "choose the budget for about this time and say which")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command.add_flag(
       "--resume", arguments->resume,
       "go on with an interrupted diagnosis in --out DIR: what was simulated is not simulated again");

@@ -2,9 +2,16 @@
 // Options of every command that simulates ensembles.
 #pragma once
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <string>
 
 namespace shakedown {
+
+/// Positive and finite: CLI11's own check takes nan.
+CLI::Validator positive_number();
+
+/// A whole number from 0 that a setup takes as a seed: CLI11 by itself makes 2^64 - 1 of -1.
+void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& words);
 
 /// --threads T: 0 to 1024. The variable must outlive the parsing.
 void add_threads_option(CLI::App& command, int& threads,

@@ -36,7 +36,7 @@ struct FitArguments {
 };
 
 int fit(const FitArguments& arguments) {
-  const Setup setup = arguments.setup.read();
+  const Setup setup = arguments.setup.read(given_by_measurements);
   const Measurement measurement = measurement_of(setup, read_measured(arguments.data, setup), all_effects());
   const std::vector<Knob> knobs = free_parameters(arguments.free, setup, all_effects());
   arguments.json.check();
@@ -59,11 +59,14 @@ int fit(const FitArguments& arguments) {
     };
     found = fit_parameters(setup, measurement, knobs, *engine_named("hard"), options);
   }
+  const PaperValues taken(setup, given_by_measurements);
+  const std::string document = taken.added_to(fit_json(found));
+  taken.print(arguments.json.for_people());
   fmt::print(arguments.json.for_people(), "{}", fit_text(found));
   if (folder) {
     folder->write("setup.toml",
                   "# Fitted by `shakedown fit` to " + arguments.data + "\n" + write_setup(found.fitted));
-    folder->write("fit.json", fit_json(found));
+    folder->write("fit.json", document);
   }
   if (arguments.report.wanted(arguments.out)) {
     CurveOptions drawn;
@@ -75,7 +78,7 @@ int fit(const FitArguments& arguments) {
     fmt::print(arguments.json.for_people(), "{}",
                arguments.report.write(report_of(found, measurement, curves), arguments.out));
   }
-  arguments.json.write(fit_json(found));
+  arguments.json.write(document);
   return exit_done;
 }
 

@@ -15,7 +15,9 @@
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
+#include "paper_values.hpp"
 #include "progress_display.hpp"
+#include "setup_arguments.hpp"
 #include "toml_document.hpp"
 #include "trial.hpp"
 #include "value_reading.hpp"
@@ -29,7 +31,7 @@ struct HideArguments {
   std::vector<std::string> effects, parameters, camera, runs, known;
   std::uint64_t seed = 1;
   int threads = 0;
-  bool power = false;
+  bool power = false, strict = false;
   int repeats = 20;
   std::int64_t budget = 0;
   JsonOutput json;
@@ -63,6 +65,7 @@ HiddenCase hidden_case(const HideArguments& arguments) {
             [&](const std::string& text) { truth.push_back(parse_override(text)); });
   if (!found.empty()) throw InputError(std::move(found));
   truth.insert(truth.begin(), common.begin(), common.end());
+  if (arguments.strict) refuse_paper_values(believed, arguments.setup, given_by_measurements);
   return {believed, read_setup(arguments.setup, all_effects(), truth)};
 }
 
@@ -148,14 +151,13 @@ int hide(const HideArguments& arguments, const Trial& trial) {
              experiment.runs.size(), folder.path().string(), truth.string());
   fmt::print(people, "shakedown diagnose {0}/setup.toml --data {0}/experiment.toml\n",
              folder.path().string());
+  const PaperValues taken(trial.hidden.believed, given_by_measurements);
+  taken.print(people);
   std::vector<std::string> names;
   for (const MeasuredRun& run : experiment.runs) names.push_back(run.name);
-  arguments.json.write(nlohmann::ordered_json{{"schema_version", 1},
-                                              {"folder", folder.path().string()},
-                                              {"truth", truth.string()},
-                                              {"runs", names}}
-                           .dump(2) +
-                       "\n");
+  arguments.json.write(taken.added_to(nlohmann::ordered_json{
+      {"schema_version", 1}, {"folder", folder.path().string()}, {"truth", truth.string()}, {"runs", names}}
+                                          .dump()));
   return exit_done;
 }
 
@@ -245,7 +247,8 @@ Command add_hide_command(CLI::App& program) {
   command.add_option("--duration", a->duration, "of each run, e.g. \"20 s\"; default: the setup's")
       ->type_name("TIME");
   command.add_option("--title", a->title, "of the experiment");
-  command.add_option("--seed", a->seed, "of initial states and noise")->capture_default_str();
+  add_seed_option(command, a->seed, "of initial states and noise");
+  add_strict_option(command, a->strict);
   add_threads_option(command, a->threads);
   command.add_flag(
       "--power", a->power,
@@ -256,7 +259,7 @@ Command add_hide_command(CLI::App& program) {
   command
       .add_option("--budget", a->budget,
                   "with --power: simulations of one diagnosis at most; default: as `shakedown diagnose`")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("RUNS");
   add_json_option(command, a->json);
   return {&command, [a] { return hide_or_measure_power(*a); }};

@@ -18,10 +18,12 @@
 #include "measured_data.hpp"
 #include "momentum.hpp"
 #include "output_file.hpp"
+#include "paper_values.hpp"
 #include "parameter_knobs.hpp"
 #include "progress_display.hpp"
 #include "refit.hpp"
 #include "report_output.hpp"
+#include "setup_arguments.hpp"
 
 namespace shakedown {
 
@@ -31,7 +33,7 @@ struct LadderArguments {
   std::vector<std::string> setups;
   std::string data;
   int runs = 128, threads = 0;
-  bool refit = false;
+  bool refit = false, strict = false;
   JsonOutput json;
   ReportOutput report;
   std::string out;
@@ -142,6 +144,7 @@ int ladder(const LadderArguments& arguments) {
   for (const std::string& file : arguments.setups) {
     try {
       setups.push_back(read_setup(file, all_effects()));
+      if (arguments.strict) refuse_paper_values(setups.back(), file, given_by_measurements);
     } catch (const InputError& error) {
       wrong.insert(wrong.end(), error.violations.begin(), error.violations.end());
     }
@@ -154,8 +157,11 @@ int ladder(const LadderArguments& arguments) {
   std::unique_ptr<OutputFolder> folder;
   if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
   const std::vector<Rung> rungs = climb_all(arguments, setups, measurement);
+  PaperValues taken(setups.front(), given_by_measurements);
+  for (const Setup& setup : setups) taken.join(PaperValues(setup, given_by_measurements));
+  taken.print(arguments.json.for_people());
   fmt::print(arguments.json.for_people(), "{}", readable(rungs, arguments.refit));
-  const std::string document = json_of(rungs, arguments.refit);
+  const std::string document = taken.added_to(json_of(rungs, arguments.refit));
   if (folder) folder->write("ladder.json", document);
   if (arguments.report.wanted(arguments.out))
     fmt::print(
@@ -177,6 +183,7 @@ Command add_ladder_command(CLI::App& program) {
   command.add_flag(
       "--refit", arguments->refit,
       "refit both restitutions and the frequency of each, and predict each box length from the others");
+  add_strict_option(command, arguments->strict);
   add_simulations_option(command, arguments->runs);
   add_threads_option(command, arguments->threads);
   command

@@ -95,6 +95,7 @@ int run(const RunArguments& arguments) {
   const Ensemble ensemble = ensemble_of(arguments, *engine, setup, results, curves);
   if (ensemble.runs.empty()) throw Interrupted("no run had finished, nothing was kept");
   if (results) results->finish(ensemble, setup, provenance);
+  PaperValues(setup).print(arguments.json.for_people());
   fmt::print(arguments.json.for_people(), "{}", readable_summary(ensemble, setup));
   if (results)
     fmt::print(arguments.json.for_people(), "  results in {}\n", results->folder().path().string());

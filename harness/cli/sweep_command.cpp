@@ -82,7 +82,7 @@ nlohmann::ordered_json json_of(const std::vector<ResultRow>& rows, const SweepId
 
 /// What is in the file at the end, for people and as table and JSON.
 void present(const ResultFile& file, const std::string& name, const Presentation& how, bool complete,
-             std::size_t jobs = 0) {
+             std::size_t jobs = 0, const PaperValues* taken = nullptr) {
   const std::vector<ResultRow> rows = file.rows();
   if (!how.table.empty()) write_file(how.table, summary_csv(file.identity(), summaries_of(rows)));
   const std::string missing =
@@ -91,7 +91,8 @@ void present(const ResultFile& file, const std::string& name, const Presentation
              results_digest(rows));
   if (how.report.wanted(""))
     fmt::print(how.json.for_people(), "{}", how.report.write(report_of(file, name), ""));
-  how.json.write(json_of(rows, file.identity(), complete).dump(2) + "\n");
+  const std::string document = json_of(rows, file.identity(), complete).dump(2) + "\n";
+  how.json.write(taken != nullptr ? taken->added_to(document) : document);
 }
 
 /// Processes that share a file must not refuse what the others have begun.
@@ -132,15 +133,24 @@ int estimate(const SweepArguments& arguments, const SweepPlan& plan, const Engin
   return outcome.failed > 0 ? exit_promise_broken : exit_done;
 }
 
+std::vector<std::string_view> keys_of(const std::vector<SweepAxis>& axes) {
+  std::vector<std::string_view> keys;
+  for (const SweepAxis& axis : axes) keys.push_back(axis.key);
+  return keys;
+}
+
 int sweep(const SweepArguments& arguments) {
   const JobShare share =
       arguments.shard.empty() ? share_from_launcher(process_environment()) : parse_share(arguments.shard);
-  const Setup setup = arguments.setup.read();
+  const std::vector<SweepAxis> axes = parse_axes(arguments.vary, all_effects());
+  const std::vector<std::string_view> varied = keys_of(axes);
+  const Setup setup = arguments.setup.read(varied);
+  const PaperValues taken(setup, varied);
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
-  const SweepPlan plan =
-      plan_sweep(setup, parse_axes(arguments.vary, all_effects()), arguments.runs, *engine, all_effects());
+  const SweepPlan plan = plan_sweep(setup, axes, arguments.runs, *engine, all_effects());
   arguments.results.check();
   for (const std::string& note : plan.notes) fmt::print(stderr, "note: {}\n", note);
+  taken.print(arguments.results.json.for_people());
   if (arguments.estimate) return estimate(arguments, plan, *engine, share);
   expect_writable(arguments.out);
   ResultFile file(arguments.out, identity_of(plan, *engine), opening_of(arguments, share));
@@ -165,7 +175,7 @@ int sweep(const SweepArguments& arguments) {
   const SweepOutcome outcome = run_sweep(*engine, plan, file, options);
   display.reset();
   present(file, arguments.out, arguments.results, !outcome.interrupted,
-          plan.points.size() * static_cast<std::size_t>(plan.runs));
+          plan.points.size() * static_cast<std::size_t>(plan.runs), &taken);
   if (outcome.failed > 0)
     fmt::print(stderr, "{} runs failed and are kept as such; the first: {}\n", outcome.failed,
                outcome.first_failure);

@@ -156,8 +156,10 @@ int estimate(const TheoryArguments& arguments) {
             "run.duration", "there is no curve (the run has fewer than three peaks)", "run longer"}});
     write_file(arguments.curve, curve_csv(friction->oscillator, setup));
   }
+  const PaperValues taken(setup);
+  taken.print(arguments.json.for_people());
   fmt::print(arguments.json.for_people(), "{}", readable(theory, friction, arguments.engine));
-  arguments.json.write(json_of(theory, friction, arguments.engine));
+  arguments.json.write(taken.added_to(json_of(theory, friction, arguments.engine)));
   return exit_done;
 }
 

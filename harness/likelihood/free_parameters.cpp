@@ -75,7 +75,15 @@ std::vector<Knob> free_parameters(std::string_view text, const Setup& setup,
   std::vector<Violation> found;
   for (const std::string& keys : split(text)) {
     try {
-      for (const std::string& key : joined_keys(keys)) (void)get_number(setup, key, known);
+      const std::vector<std::string> joined = joined_keys(keys);
+      for (const std::string& key : joined) {
+        (void)get_number(setup, key, known);
+        if (unit_of_key(key, known) != unit_of_key(joined.front(), known))
+          throw InputError({{{"--free", 0, 0},
+                             keys,
+                             "joins keys of different units (one value cannot be both)",
+                             "fit them apart: separate them by a comma"}});
+      }
       for (const Knob& other : knobs)
         if (other.key == keys) throw InputError({{{"--free", 0, 0}, keys, "is named twice", "name it once"}});
       knobs.push_back(knob_of(keys, setup, known));

@@ -94,3 +94,28 @@ TEST_F(BadInput, UnwritableOutputIsExitFourBeforeAnyWork) {
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
 }
+
+TEST_F(BadInput, EmptySetup) {
+  expect_refused({"run", file("a.toml", "")}, {"a.toml", "holds no key"});
+  expect_refused({"run", file("a.toml", "# my damper\n"), "--set", "box.length=50mm"}, {"holds no key"});
+}
+
+TEST_F(BadInput, StrictRefusesThePapersValues) {
+  const std::string setup = file("a.toml", "[box]\nlength = \"50 mm\"\n[grains]\ncount = 0\n");
+  expect_refused({"run", setup, "--strict"},
+                 {"box.mass", "spring.frequency", "release.displacement", "434 g"}, 3);
+  const Outcome outcome =
+      shakedown_program({"run", setup, "--set", "run.duration=1 s", "--json", in_folder("a.json")});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("taken from the paper: box.mass = 434 g, spring.frequency"), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(contents(folder / "a.json").find("\"release.displacement = 107.5 mm\""), std::string::npos);
+}
+
+TEST_F(BadInput, NumbersOfOptionsAreNumbers) {
+  const std::string setup = example("L040.toml");
+  expect_refused({"hide", setup, "--seed", "-1", "--out", in_folder("x")}, {"--seed", "-1"}, 2);
+  expect_refused({"hide", setup, "--seed", "18446744073709551616", "--out", in_folder("x")}, {"--seed"}, 2);
+  expect_refused({"crosscheck", setup, "--slope-margin", "nan"}, {"--slope-margin", "nan"}, 2);
+  expect_refused({"diagnose", setup, "--data", setup, "--seconds", "nan"}, {"--seconds", "nan"}, 2);
+}
