@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "paper.hpp"
+#include "text.hpp"
 
 namespace shakedown {
 
@@ -20,12 +21,6 @@ std::string readable(const Finding& finding) {
   if (std::isnan(finding.low) || finding.low == finding.high)
     return fmt::format("{:.4g}{}", finding.value, unit);
   return fmt::format("{:.4g}{} ({:.4g} to {:.4g})", finding.value, unit, finding.low, finding.high);
-}
-
-std::string quoted(const std::string& text) {
-  std::string safe = "\"";
-  for (const char c : text) safe += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return safe + "\"";
 }
 
 std::string diagnosis_markdown(const Diagnosis& diagnosis) {
@@ -123,9 +118,9 @@ std::string statements_csv(const std::vector<Statement>& statements) {
   std::string text = "statement,paper,judgement,rule,finding,value,low,high,unit\n";
   for (const Statement& s : statements)
     for (const Finding& f : s.findings)
-      text += fmt::format("{},{},{},{},{},{:.6g},{:.6g},{:.6g},{}\n", quoted(s.name), quoted(s.paper),
-                          name_of(s.judgement), quoted(s.rule), quoted(f.what), f.value, f.low, f.high,
-                          quoted(f.unit));
+      text += fmt::format("{},{},{},{},{},{:.6g},{:.6g},{:.6g},{}\n", csv_cell(s.name), csv_cell(s.paper),
+                          name_of(s.judgement), csv_cell(s.rule), csv_cell(f.what), f.value, f.low, f.high,
+                          csv_cell(f.unit));
   return text;
 }
 

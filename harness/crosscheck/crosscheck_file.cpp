@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "provenance.hpp"
+#include "text.hpp"
 
 namespace shakedown {
 
@@ -131,13 +132,6 @@ std::string limit_table(const ContactTimeLimit& limit) {
   return text;
 }
 
-/// The text as a CSV cell that may hold commas and quotes.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char letter : text) result += letter == '"' ? "\"\"" : std::string(1, letter);
-  return result + '"';
-}
-
 std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{:.10g}", value); }
 
 }  // namespace
@@ -171,7 +165,7 @@ std::string crosscheck_numbers_csv(const std::vector<Crosscheck>& crosschecks) {
     for (const EngineResult& result : crosscheck.engines) {
       const auto line = [&](const std::string& name, const Statistic& statistic, double per_si) {
         text +=
-            fmt::format("{},{},{},{},{},{}\n", quoted(crosscheck.name), result.engine, name,
+            fmt::format("{},{},{},{},{},{}\n", csv_cell(crosscheck.name), result.engine, name,
                         csv_number(per_si * statistic.mean), csv_number(per_si * statistic.sd), statistic.n);
       };
       for (std::size_t i = 0; i < result.numbers.size(); ++i)
@@ -188,7 +182,7 @@ std::string crosscheck_verdicts_csv(const std::vector<Crosscheck>& crosschecks) 
     for (const Comparison& comparison : crosscheck.comparisons) {
       const Equivalence& found = comparison.found;
       const double per_si = comparison.number->per_si;
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", quoted(crosscheck.name), comparison.first,
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_cell(crosscheck.name), comparison.first,
                           comparison.second, comparison.number->key, csv_number(per_si * found.difference),
                           csv_number(per_si * found.standard_error), csv_number(per_si * found.low),
                           csv_number(per_si * found.high), csv_number(per_si * found.margin),
@@ -205,7 +199,7 @@ std::string crosscheck_limit_csv(const std::vector<Crosscheck>& crosschecks) {
     for (const ContactTimeLimit::Value& value : limit.values) {
       const double per_si = value.number->per_si;
       const auto line = [&](const std::string& time, double mean, double error) {
-        text += fmt::format("{},{},{},{},{}\n", quoted(crosscheck.name), value.number->key, time,
+        text += fmt::format("{},{},{},{},{}\n", csv_cell(crosscheck.name), value.number->key, time,
                             csv_number(per_si * mean), csv_number(per_si * error));
       };
       const auto index = static_cast<std::size_t>(value.number - crosscheck_numbers().data());

@@ -9,13 +9,6 @@
 
 namespace shakedown {
 
-std::string_view trimmed(std::string_view text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
 namespace {
 
 std::string unquoted(std::string_view cell) {

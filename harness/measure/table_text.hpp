@@ -6,10 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace shakedown {
+#include "text.hpp"
 
-/// Without white space and byte-order mark at either end.
-std::string_view trimmed(std::string_view text);
+namespace shakedown {
 
 /// The cells of a line, trimmed and without quotes; delimiter ' ' splits at any run of blanks and tabs.
 std::vector<std::string> split_cells(std::string_view line, char delimiter);

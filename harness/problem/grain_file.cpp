@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "text.hpp"
+
 namespace shakedown {
 
 namespace {
@@ -25,13 +27,6 @@ std::vector<double> numbers_of(const std::string& line) {
   return numbers;
 }
 
-std::string in_mm(double metres) {
-  std::ostringstream text;
-  text.precision(3);
-  text << metres * 1e3 << " mm";
-  return text.str();
-}
-
 void check_room(const Setup& setup, const State& state, const std::string& file,
                 std::vector<Violation>& found) {
   const Vec3 half(setup.box.length / 2, setup.box.width[0] / 2, setup.box.width[1] / 2);
@@ -44,7 +39,7 @@ void check_room(const Setup& setup, const State& state, const std::string& file,
     if (setup.domain != Domain::periodic && out > rounding)
       found.push_back({{file, line, 1},
                        "grain " + std::to_string(i + 1),
-                       "sticks out of the box by " + in_mm(out),
+                       "sticks out of the box by " + millimetres(out),
                        "move it inside; positions are lab positions with the box at release.displacement"});
     if (state.size() > 20000) continue;  // the engine's own check covers large systems
     for (std::size_t j = 0; j < i && found.size() < 20; ++j) {
@@ -52,8 +47,8 @@ void check_room(const Setup& setup, const State& state, const std::string& file,
       if (gap < -rounding)
         found.push_back({{file, line, 1},
                          "grains " + std::to_string(j + 1) + " and " + std::to_string(i + 1),
-                         "overlap by " + in_mm(-gap) + " (more than an error of measured positions, " +
-                             in_mm(most_measured_overlap) + ", or there is no room to push them apart)",
+                         "overlap by " + millimetres(-gap) + " (more than an error of measured positions, " +
+                             millimetres(most_measured_overlap) + ", or there is no room to push them apart)",
                          "move them apart, or correct grains.diameter"});
     }
   }
@@ -129,10 +124,10 @@ void push_apart(const Setup& setup, State& state) {
 std::string note_on_measured_grains(const Setup& setup) {
   if (setup.release.initial_grains.empty()) return "";
   const double moved = initial_state(setup).pushed_apart;
-  return moved > 0
-             ? setup.release.initial_grains + ": grains overlap by less than " +
-                   in_mm(most_measured_overlap) + " and are pushed apart, none by more than " + in_mm(moved)
-             : "";
+  return moved > 0 ? setup.release.initial_grains + ": grains overlap by less than " +
+                         millimetres(most_measured_overlap) + " and are pushed apart, none by more than " +
+                         millimetres(moved)
+                   : "";
 }
 
 void read_grains(const Setup& setup, State& state) {

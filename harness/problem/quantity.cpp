@@ -10,6 +10,7 @@
 #include <span>
 
 #include "errors.hpp"
+#include "text.hpp"
 
 namespace shakedown {
 
@@ -156,12 +157,6 @@ struct UnitReader {
     return total;
   }
 };
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
-  return text;
-}
 
 /// No unit that people write is as long; brackets within brackets are read by recursion.
 constexpr std::size_t longest_unit = 200;

@@ -12,6 +12,7 @@
 #include "report_parts.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
+#include "text.hpp"
 
 namespace shakedown {
 
@@ -40,20 +41,20 @@ std::string verdict_in_words(const Diagnosis& diagnosis) {
   return "None of the known effects";
 }
 
-std::string millimetres(double metres) { return for_people(metres * 1e3) + " mm"; }
+std::string readable_mm(double metres) { return for_people(metres * 1e3) + " mm"; }
 
 std::vector<ReportFact> facts_of(const Diagnosis& diagnosis) {
   std::vector<ReportFact> facts;
   if (!diagnosis.ladder.empty()) {
     const LadderStep &first = diagnosis.ladder.front(), &last = diagnosis.ladder.back();
     facts.push_back(
-        {"Error of the box, as given", millimetres(first.error_box), "rms over all runs", Tone::plain});
+        {"Error of the box, as given", readable_mm(first.error_box), "rms over all runs", Tone::plain});
     if (diagnosis.ladder.size() > 1)
-      facts.push_back({"Error, final model", millimetres(last.error_box),
+      facts.push_back({"Error, final model", readable_mm(last.error_box),
                        last.error_box < 1.2 * last.floor_box ? "at the noise floor" : "above the noise floor",
                        last.error_box < 1.2 * last.floor_box ? Tone::good : Tone::unsure});
     facts.push_back(
-        {"Noise floor", millimetres(last.floor_box), "camera and run-to-run spread", Tone::plain});
+        {"Noise floor", readable_mm(last.floor_box), "camera and run-to-run spread", Tone::plain});
     facts.push_back({"Fit of the final model", fmt::format("p = {}", for_people(last.p_value)),
                      "share of the model's own runs that fit no better", Tone::plain});
   }
@@ -82,12 +83,6 @@ ReportSection ladder_section(const Diagnosis& diagnosis) {
   section.bars = {bars};
   section.tables = {numbers_of(bars, "step", {centre, floor, p})};
   return section;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 /// The first sentence that says what an effect is.

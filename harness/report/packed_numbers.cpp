@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "packed_numbers.hpp"
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include <cmath>
@@ -45,24 +44,23 @@ void append_track(std::string& bytes, const ReportReplay::Track& track, const Pa
 
 }  // namespace
 
-std::string packed_json(const std::vector<double>& values) {
+PackedNumbers packed(const std::vector<double>& values) {
   double largest = 0;
   for (const double value : values)
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  const double quantum = largest > 0 ? std::pow(10, std::floor(std::log10(largest / 40000))) : 1;
-  std::string text = fmt::format("{{\"q\":{:.0e},\"d\":[", quantum);
+  PackedNumbers result;
+  if (largest > 0) result.quantum = std::pow(10, std::floor(std::log10(largest / 40000)));
   std::int64_t last = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i > 0) text += ',';
-    if (!std::isfinite(values[i])) {
-      text += "null";
+  for (const double value : values) {
+    if (!std::isfinite(value)) {
+      result.steps.emplace_back();
       continue;
     }
-    const std::int64_t here = std::llround(values[i] / quantum);
-    fmt::format_to(std::back_inserter(text), "{}", here - last);
+    const std::int64_t here = std::llround(value / result.quantum);
+    result.steps.emplace_back(here - last);
     last = here;
   }
-  return text + "]}";
+  return result;
 }
 
 PackedReplay packed(const ReportReplay& replay) {

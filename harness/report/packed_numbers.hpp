@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Numbers and motion as few bytes as a page needs.
 #pragma once
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,9 +11,14 @@
 
 namespace shakedown {
 
-/// Numbers in units of a quantum, as differences from one to the next: {"q": quantum, "d": [...]}, null for a
-/// gap (NaN). The quantum is a power of ten below a 40000th of the largest, far below what a screen shows.
-std::string packed_json(const std::vector<double>& values);
+/// Numbers in units of a quantum, as differences from one to the next. The quantum is a power of ten below a
+/// 40000th of the largest, far below what a screen shows.
+struct PackedNumbers {
+  double quantum = 1;
+  std::vector<std::optional<std::int64_t>>
+      steps;  ///< nothing for a gap (NaN), over which the next one goes on
+};
+PackedNumbers packed(const std::vector<double>& values);
 
 /// Points of a replay in whole time and length units, columns of zigzag 7-bit numbers (page/replay.js reads
 /// them).

@@ -11,4 +11,9 @@ extern const char* const page_script;
 extern const char* const replay_script;
 extern const char* const page_style;
 
+// SHA-256 of the scripts, hexadecimal.
+extern const char* const plot_script_sha256;
+extern const char* const page_script_sha256;
+extern const char* const replay_script_sha256;
+
 }  // namespace shakedown

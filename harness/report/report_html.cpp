@@ -18,28 +18,44 @@ namespace {
 constexpr std::array<const char*, 7> role_names{"measured",  "model", "as_given", "band_low",
                                                 "band_high", "other", "points"};
 
-/// Scripts of the page run by this name; nothing that a report holds could.
-std::string nonce_of(const std::string& data) {
-  return fmt::format("{:016x}", std::hash<std::string>{}(data));
+using Json = nlohmann::ordered_json;
+
+/// The policy of the page names its scripts by their digests: nothing that a report holds can run.
+std::string script_sources() {
+  std::string sources;
+  for (const std::string_view digest : {plot_script_sha256, replay_script_sha256, page_script_sha256}) {
+    std::string bytes;
+    for (std::size_t i = 0; i < digest.size(); i += 2)
+      bytes += static_cast<char>(std::stoi(std::string(digest.substr(i, 2)), nullptr, 16));
+    sources += (sources.empty() ? "'sha256-" : " 'sha256-") + base64(bytes) + "'";
+  }
+  return sources;
 }
 
-std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
+/// {"q": quantum, "d": [steps]}, null for a gap.
+Json packed_json(const std::vector<double>& values) {
+  const PackedNumbers numbers = packed(values);
+  Json steps = Json::array();
+  for (const auto& step : numbers.steps) steps.push_back(step ? Json(*step) : Json(nullptr));
+  return {{"q", numbers.quantum}, {"d", std::move(steps)}};
+}
 
-std::string plot_json(const ReportPlot& plot) {
-  std::string curves;
+Json plot_json(const ReportPlot& plot) {
+  Json curves = Json::array(), marks = Json::array();
   for (const ReportCurve& curve : plot.curves)
-    curves +=
-        fmt::format("{}{{\"n\":{},\"r\":\"{}\",\"y\":{}}}", curves.empty() ? "" : ",", quoted(curve.name),
-                    role_names[static_cast<std::size_t>(curve.role)], packed_json(curve.y));
-  std::string marks;
-  for (const ReportPlot::Mark& mark : plot.marks)
-    marks += fmt::format("{}[{},{}]", marks.empty() ? "" : ",", mark.x, quoted(mark.label));
-  return fmt::format(
-      "{{\"group\":{},\"time\":{},\"log\":{},\"level\":{},\"xl\":{},\"yl\":{},\"x\":{},\"curves\":[{}],"
-      "\"marks\":[{}]}}",
-      quoted(plot.group), plot.over_time, plot.logarithmic_y,
-      std::isfinite(plot.level) ? fmt::format("{}", plot.level) : "null", quoted(plot.x_label),
-      quoted(plot.y_label), packed_json(plot.x), curves, marks);
+    curves.push_back({{"n", curve.name},
+                      {"r", role_names[static_cast<std::size_t>(curve.role)]},
+                      {"y", packed_json(curve.y)}});
+  for (const ReportPlot::Mark& mark : plot.marks) marks.push_back(Json::array({mark.x, mark.label}));
+  return {{"group", plot.group},
+          {"time", plot.over_time},
+          {"log", plot.logarithmic_y},
+          {"level", std::isfinite(plot.level) ? Json(plot.level) : Json(nullptr)},
+          {"xl", plot.x_label},
+          {"yl", plot.y_label},
+          {"x", packed_json(plot.x)},
+          {"curves", curves},
+          {"marks", marks}};
 }
 
 /// The headline, and what follows it.
@@ -68,17 +84,24 @@ double reach(const ReportReplay& replay) {
   return far + replay.length / 2 + 0.1 * replay.length;
 }
 
-std::string replay_json(const ReportReplay& replay, const PackedReplay& units) {
-  nlohmann::json points = nlohmann::json::array(), radius = replay.radius;
+Json replay_json(const ReportReplay& replay, const PackedReplay& units) {
+  Json points = Json::array();
   for (const ReportReplay::Track& track : replay.grains) points.push_back(track.time.size());
   points.push_back(replay.box.time.size());
-  return fmt::format(
-      "{{\"group\":{},\"length\":{},\"width\":{},\"height\":{},\"duration\":{},\"from\":{},\"tq\":{},\"xq\":{"
-      "},\"reach\":{},\"top_speed\":{},"
-      "\"radius\":{},\"points\":{},\"measured\":{{\"t\":{},\"x\":{}}}}}",
-      quoted(replay.group), replay.length, replay.width, replay.height, replay.duration, replay.exact_from,
-      units.time_unit, units.length_unit, reach(replay), top_speed(replay), radius.dump(), points.dump(),
-      packed_json(replay.measured_time), packed_json(replay.measured_x_box));
+  return {
+      {"group", replay.group},
+      {"length", replay.length},
+      {"width", replay.width},
+      {"height", replay.height},
+      {"duration", replay.duration},
+      {"from", replay.exact_from},
+      {"tq", units.time_unit},
+      {"xq", units.length_unit},
+      {"reach", reach(replay)},
+      {"top_speed", top_speed(replay)},
+      {"radius", replay.radius},
+      {"points", points},
+      {"measured", {{"t", packed_json(replay.measured_time)}, {"x", packed_json(replay.measured_x_box)}}}};
 }
 
 /// Numbers its plots as they come, so that page and data agree.
@@ -92,10 +115,9 @@ class Page {
     return text + reproduce();
   }
   std::string data() const {
-    std::string replays;
-    for (std::size_t i = 0; i < report_.replays.size(); ++i)
-      replays += (i > 0 ? "," : "") + replay_json(report_.replays[i], packed(report_.replays[i]));
-    return "{\"plots\":[" + plots_ + "],\"replays\":[" + replays + "]}";
+    Json replays = Json::array();
+    for (const ReportReplay& replay : report_.replays) replays.push_back(replay_json(replay, packed(replay)));
+    return Json{{"plots", plots_}, {"replays", replays}}.dump();
   }
 
  private:
@@ -186,7 +208,7 @@ class Page {
 
   std::string plot(const ReportPlot& plot) {
     const std::size_t number = count_++;
-    plots_ += (plots_.empty() ? "" : ",") + plot_json(plot);
+    plots_.push_back(plot_json(plot));
     std::string name = plot.title + (plot.group.empty() ? "" : " " + plot.group);
     for (char& letter : name)
       if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
@@ -250,7 +272,7 @@ class Page {
   }
 
   const Report& report_;
-  std::string plots_;
+  Json plots_ = Json::array();
   std::size_t count_ = 0;
 };
 
@@ -258,23 +280,23 @@ class Page {
 
 std::string report_html(const Report& report) {
   Page page(report);
-  const std::string body = page.body(), data = page.data(), nonce = nonce_of(data);
+  const std::string body = page.body(), data = page.data();
   std::string html = fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta "
       "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-      "script-src 'nonce-{0}'; style-src 'unsafe-inline'; img-src data:; connect-src 'none'; form-action "
+      "script-src {0}; style-src 'unsafe-inline'; img-src data:; connect-src 'none'; form-action "
       "'none'; base-uri 'none'\"><meta "
       "name=\"viewport\" content=\"width=device-width, initial-scale=1\"><link rel=\"icon\" "
       "href=\"data:,\"><title>{1}</title>\n<style>{2}</style>\n"
       "<style>{3}</style></head>\n<body><main>{4}</main>\n<noscript><main><p>Without scripts there are no "
       "plots; every plot's numbers stand in the table "
       "below it.</p></main></noscript>\n<script type=\"text/plain\" id=\"data\">{5}</script>\n",
-      nonce, escaped(report.title), plot_style, page_style, body, base64(gzip(data)));
+      script_sources(), escaped(report.title), plot_style, page_style, body, base64(gzip(data)));
   for (std::size_t i = 0; i < report.replays.size(); ++i)
     html += fmt::format("<script type=\"text/plain\" id=\"replay-{}\">{}</script>\n", i,
                         base64(gzip(packed(report.replays[i]).bytes)));
   for (const char* script : {plot_script, replay_script, page_script})
-    html += fmt::format("<script nonce=\"{}\">{}</script>\n", nonce, script);
+    html += fmt::format("<script>{}</script>\n", script);
   return html + "</body></html>\n";
 }
 

@@ -6,6 +6,7 @@
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
 #include "suggestion.hpp"
+#include "text.hpp"
 #include "value_reading.hpp"
 
 namespace shakedown {
@@ -361,12 +362,8 @@ Override parse_override(std::string_view text, const std::string& origin) {
                        "",
                        toml_string(text) + " does not set a key",
                        "write it as key=value, e.g. box.length=65mm"}});
-  const auto trimmed = [](std::string_view part) {
-    while (part.starts_with(' ')) part.remove_prefix(1);
-    while (part.ends_with(' ')) part.remove_suffix(1);
-    return std::string(part);
-  };
-  return {trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1)), origin};
+  return {std::string(trimmed(text.substr(0, equals))), std::string(trimmed(text.substr(equals + 1))),
+          origin};
 }
 
 std::string toml_value(const Override& override) {

@@ -11,6 +11,7 @@
 #include "hard_engine.hpp"
 #include "setup_file.hpp"
 #include "soft_engine.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -38,7 +39,7 @@ TEST(PressedFriction, LosesInTheFirstStrokesWhatSoftContactsLose) {
   for (std::size_t k = 0; k < soft.size(); ++k) {
     const Statistic peak =
         hard.over_runs([&](const RunResult& run) { return std::abs(run.observables.peaks.at(k).position); });
-    EXPECT_NEAR(peak.mean, soft[k], 0.25e-3) << k;  // seen: 0.08, 0.06, 0.10, 0.12 mm
+    WITHIN(peak.mean, soft[k], 0.25e-3, 0.12e-3) << k;  // m
   }
 }
 

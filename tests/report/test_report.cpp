@@ -128,14 +128,14 @@ TEST(Report, ShowsWhereTheGrainsCentreFailsWhereItWasSeen) {
 
 TEST(PackedNumbers, KeepFourDigitsOfTheLargestAndTheGaps) {
   const std::vector<double> values{104.123, std::nan(""), -99.5, 0.01, 0};
-  const nlohmann::json packed = nlohmann::json::parse(packed_json(values));
-  const double quantum = packed.at("q");
+  const PackedNumbers numbers = packed(values);
+  const double quantum = numbers.quantum;
   EXPECT_LE(quantum, 104.123 / 40000);
   double sum = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    ASSERT_EQ(packed.at("d")[i].is_null(), std::isnan(values[i]));
+    ASSERT_EQ(!numbers.steps[i].has_value(), std::isnan(values[i]));
     if (std::isnan(values[i])) continue;
-    sum += packed.at("d")[i].get<double>();
+    sum += static_cast<double>(*numbers.steps[i]);
     EXPECT_NEAR(sum * quantum, values[i], quantum / 2 + 1e-12);
   }
 }
