@@ -7,37 +7,25 @@
 
 #include "camera.hpp"
 #include "ensemble.hpp"
+#include "interpolation.hpp"
 #include "physics.hpp"
 #include "report_parts.hpp"
+#include "running_statistic.hpp"
 
 namespace shakedown {
 
 namespace {
 
-/// Value at time t on a straight line between two samples; NaN outside.
-double value_at(const std::vector<double>& time, const std::vector<double>& value, double t) {
-  const auto after = std::upper_bound(time.begin(), time.end(), t);
-  if (time.empty() || t < time.front() || t > time.back()) return std::nan("");
-  if (after == time.end()) return value.back();
-  const auto i = static_cast<std::size_t>(after - time.begin()) - 1;
-  return value[i] + (value[i + 1] - value[i]) * (t - time[i]) / (time[i + 1] - time[i]);
-}
-
-/// Running mean and sum of squares (Welford); NaN is left out.
-struct Moments {
-  std::vector<double> mean, squares, count;
-  explicit Moments(std::size_t size) : mean(size, 0), squares(size, 0), count(size, 0) {}
-  void add(std::size_t i, double value) {
-    if (!std::isfinite(value)) return;
-    const double step = value - mean[i];
-    mean[i] += step / ++count[i];
-    squares[i] += step * (value - mean[i]);
-  }
+/// One number of an ensemble at each moment.
+struct CurveStatistics {
+  std::vector<RunningStatistic> at;
+  explicit CurveStatistics(std::size_t size) : at(size) {}
   EnsembleCurve curve() const {
-    EnsembleCurve curve{mean, squares};
-    for (std::size_t i = 0; i < mean.size(); ++i) {
-      curve.sd[i] = count[i] > 1 ? std::sqrt(squares[i] / (count[i] - 1)) : 0;
-      if (count[i] == 0) curve.mean[i] = curve.sd[i] = std::nan("");
+    EnsembleCurve curve;
+    for (const RunningStatistic& running : at) {
+      const Statistic found = running.statistic();
+      curve.mean.push_back(found.mean);
+      curve.sd.push_back(found.n == 1 ? 0 : found.sd);
     }
     return curve;
   }
@@ -60,8 +48,8 @@ ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine
   setup.run.duration = time.back() + 0.1;
   setup.run.sample_rate = 250;
   const Camera camera = physics_of(setup).camera;
-  Moments box(time.size()), centre(time.size()), energy(time.size());
-  std::vector<Moments> loss(contact_classes, Moments(time.size()));
+  CurveStatistics box(time.size()), centre(time.size()), energy(time.size());
+  std::vector<CurveStatistics> loss(contact_classes, CurveStatistics(time.size()));
   ModelMotion motion;
   EnsembleOptions many;
   many.runs = options.runs;
@@ -71,11 +59,11 @@ ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine
   many.each = [&](int, const Trajectory& trajectory, const Observables&) {
     const Recording seen = recorded_by(camera, trajectory);
     for (std::size_t i = 0; i < time.size(); ++i) {
-      box.add(i, value_at(seen.time, seen.x_box, time[i]));
-      centre.add(i, value_at(seen.time, seen.x_com, time[i]));
-      energy.add(i, value_at(trajectory.time, trajectory.total_energy, time[i]));
+      box.at[i].add(interpolated(seen.time, seen.x_box, time[i]));
+      if (!seen.x_com.empty()) centre.at[i].add(interpolated(seen.time, seen.x_com, time[i]));
+      energy.at[i].add(interpolated(trajectory.time, trajectory.total_energy, time[i]));
       for (std::size_t c = 0; c < loss.size(); ++c)
-        loss[c].add(i, value_at(trajectory.time, trajectory.loss[c], time[i]));
+        loss[c].at[i].add(interpolated(trajectory.time, trajectory.loss[c], time[i]));
     }
     motion.health = worse_of(std::move(motion.health), trajectory.health);
     for (const std::int64_t n : trajectory.collisions) motion.collisions += n;
@@ -85,8 +73,7 @@ ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine
     run_ensemble(engine, setup, many);
   else
     many_from_one_state(engine, setup, many);
-  if (options.stop != nullptr && options.stop->load())
-    throw Interrupted("the curves of the report were not finished");
+  if (options.stop && *options.stop) throw Interrupted("the curves of the report were not finished");
   motion.box = box.curve();
   motion.centre = centre.curve();
   motion.energy = energy.curve();
@@ -129,9 +116,12 @@ std::vector<MeasuredAgainstModel> measured_against_model(const Measurement& meas
     if (run.time.empty()) continue;
     const Setup last = setup_of_run(final_setup, run, options.known);
     const Setup first = given != nullptr ? setup_of_run(*given, run, options.known) : last;
-    MeasuredAgainstModel one{
-        run.name, first, last, {}, {}, {}, found.box.standard_deviation, found.com.standard_deviation,
-        {},       {},    {},   {}, {}, {}};
+    MeasuredAgainstModel one;
+    one.run = run.name;
+    one.given = first;
+    one.amended = last;
+    one.box_noise = found.box.standard_deviation;
+    one.centre_noise = found.com.standard_deviation;
     const double end = std::min(run.time.back(), 60.0);
     for (std::int64_t k = 0; static_cast<double>(k) / options.rate <= end; ++k)
       one.time.push_back(static_cast<double>(k) / options.rate);
