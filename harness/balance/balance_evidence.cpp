@@ -112,7 +112,8 @@ double prior_odds(const SelectionProblem& p, double odds) {
 
 /// ln odds of a set over nothing; -infinity where a strength has the wrong sign, is out of its bounds, or is
 /// an effect twice.
-double log_odds_of(const SelectionProblem& p, const Projected& q, const std::vector<std::size_t>& set) {
+double log_odds_of(const SelectionProblem& p, const Projected& q, const std::vector<std::size_t>& set,
+                   double& gain) {
   constexpr double impossible = -std::numeric_limits<double>::infinity();
   const auto n = std::ssize(set);
   Eigen::MatrixXd gram(n, n);
@@ -131,7 +132,8 @@ double log_odds_of(const SelectionProblem& p, const Projected& q, const std::vec
   const Eigen::LLT<Eigen::MatrixXd> root(gram);
   if (root.info() != Eigen::Success || root.matrixLLT().diagonal().minCoeff() < 1e-4) return impossible;
   const Eigen::VectorXd scaled = root.solve(overlap);
-  double sum = overlap.dot(scaled) / 2;
+  gain = overlap.dot(scaled);
+  double sum = gain / 2;
   for (Eigen::Index a = 0; a < n; ++a) {
     const MomentumTerm& term = p.known[static_cast<std::size_t>(q.term[set[static_cast<std::size_t>(a)]])];
     const double strength = scaled[a] * scale[a];
@@ -152,14 +154,26 @@ double log_sum(const std::vector<double>& logs) {
   return most + std::log(sum);
 }
 
+std::vector<BalanceHypothesis> by_probability(std::vector<BalanceHypothesis> list) {
+  std::vector<double> odds;
+  for (const BalanceHypothesis& hypothesis : list) odds.push_back(hypothesis.log_odds);
+  const double all = log_sum(odds);
+  for (BalanceHypothesis& hypothesis : list) hypothesis.probability = std::exp(hypothesis.log_odds - all);
+  std::stable_sort(list.begin(), list.end(), [](const BalanceHypothesis& a, const BalanceHypothesis& b) {
+    return a.log_odds > b.log_odds;
+  });
+  return list;
+}
+
 std::vector<BalanceHypothesis> sets_of(const SelectionProblem& p, const Projected& q,
-                                       const std::vector<ChosenTerm>& base) {
-  std::vector<BalanceHypothesis> list{{base, 0, 0}};
+                                       const std::vector<ChosenTerm>& base, std::size_t most) {
+  std::vector<BalanceHypothesis> list{{base, 0, 0, 0}};
   std::vector<std::size_t> set;
-  each_set(q.term.size(), most_in_a_set, set, [&](const std::vector<std::size_t>& chosen) {
-    const double odds = log_odds_of(p, q, chosen);
+  each_set(q.term.size(), most, set, [&](const std::vector<std::size_t>& chosen) {
+    double gain = 0;
+    const double odds = log_odds_of(p, q, chosen, gain);
     if (!std::isfinite(odds)) return;
-    BalanceHypothesis hypothesis{base, odds, 0};
+    BalanceHypothesis hypothesis{base, odds, gain, 0};
     for (const std::size_t i : chosen) hypothesis.chosen.push_back({q.term[i], 0});
     list.push_back(std::move(hypothesis));
   });
@@ -167,6 +181,13 @@ std::vector<BalanceHypothesis> sets_of(const SelectionProblem& p, const Projecte
 }
 
 }  // namespace
+
+bool is_part_of(const std::vector<ChosenTerm>& part, const std::vector<ChosenTerm>& whole) {
+  return std::all_of(part.begin(), part.end(), [&](const ChosenTerm& c) {
+    return std::any_of(whole.begin(), whole.end(),
+                       [&](const ChosenTerm& w) { return w.term == c.term && w.frequency == c.frequency; });
+  });
+}
 
 Eigen::MatrixXd columns_of(const SelectionProblem& p, const std::vector<ChosenTerm>& chosen) {
   const Eigen::MatrixXd& nuisances = p.problem.nuisance_columns();
@@ -198,24 +219,34 @@ Selection fit_terms(SelectionProblem& p, std::vector<ChosenTerm> chosen) {
 }
 
 std::vector<BalanceHypothesis> compare_sets(const SelectionProblem& p, const std::vector<ChosenTerm>& base) {
-  std::vector<BalanceHypothesis> list = sets_of(p, projected(p, base), base);
-  std::vector<double> odds;
-  for (const BalanceHypothesis& hypothesis : list) odds.push_back(hypothesis.log_odds);
-  const double all = log_sum(odds);
-  for (BalanceHypothesis& hypothesis : list) hypothesis.probability = std::exp(hypothesis.log_odds - all);
-  std::stable_sort(list.begin(), list.end(), [](const BalanceHypothesis& a, const BalanceHypothesis& b) {
-    return a.log_odds > b.log_odds;
-  });
-  return list;
+  return by_probability(sets_of(p, projected(p, base), base, most_in_a_set));
+}
+
+std::vector<BalanceHypothesis> with_own_noise(const SelectionProblem& p,
+                                              const std::vector<BalanceHypothesis>& sets) {
+  constexpr double hopeless = 14;  // ln odds: one in a million
+  constexpr std::size_t most = 8;
+  std::vector<BalanceHypothesis> list;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const bool in_question = i < most && sets[i].log_odds > sets.front().log_odds - hopeless;
+    if (!in_question && !is_part_of(sets[i].chosen, sets.front().chosen)) continue;
+    SelectionProblem own = p;
+    const Selection fit = fit_terms(own, sets[i].chosen);
+    BalanceHypothesis hypothesis = sets[i];
+    hypothesis.log_odds += -hypothesis.gain / 2 - fit.objective / 2;
+    list.push_back(std::move(hypothesis));
+  }
+  return by_probability(std::move(list));
 }
 
 std::vector<int> terms_seen(const SelectionProblem& p) { return projected(p, {{0, 0}}).term; }
 
 double log_evidence_of_noise(const SelectionProblem& p) {
+  constexpr std::size_t most = 2;  // what acts is hardly ever more, and the noise is weighed fifty times
   const std::vector<ChosenTerm> base{{0, 0}};
   const Projected q = projected(p, base);
   std::vector<double> odds;
-  for (const BalanceHypothesis& hypothesis : sets_of(p, q, base)) odds.push_back(hypothesis.log_odds);
+  for (const BalanceHypothesis& hypothesis : sets_of(p, q, base, most)) odds.push_back(hypothesis.log_odds);
   return log_sum(odds) - (q.chi2 + q.log_determinant + p.problem.noise_penalty()) / 2;
 }
 

@@ -32,6 +32,7 @@ constexpr double as_good = 9;
 struct BalanceHypothesis {
   std::vector<ChosenTerm> chosen;  ///< the spring's frequency first
   double log_odds = 0;             ///< ln of posterior over that of nothing beside frequency and nuisances
+  double gain = 0;                 ///< fall of chi2 that it brings; the rest of log_odds is prior
   double probability = 0;
 };
 
@@ -59,6 +60,11 @@ Selection fit_terms(SelectionProblem& p, std::vector<ChosenTerm> chosen);
 /// Probabilities are among these.
 std::vector<BalanceHypothesis> compare_sets(const SelectionProblem& p, const std::vector<ChosenTerm>& base);
 
+/// The sets in question, each weighed with its own noise: a set whose forces let more of the frames' noise in
+/// pays for what it thereby seems to explain. Those that are hopeless beside the first are left out.
+std::vector<BalanceHypothesis> with_own_noise(const SelectionProblem& p,
+                                              const std::vector<BalanceHypothesis>& sets);
+
 /// The known strengths that leave a trace in the balance beside frequency and nuisances.
 std::vector<int> terms_seen(const SelectionProblem& p);
 
@@ -74,6 +80,9 @@ SineFound best_sine(const SelectionProblem& p, const Selection& beside, double l
 
 /// Fall of chi2 when a known strength joins (or, for one of the chosen, when it is there).
 Gain gain_of_term(const SelectionProblem& p, const Selection& selection, int term);
+
+/// Every term of `part` stands in `whole`.
+bool is_part_of(const std::vector<ChosenTerm>& part, const std::vector<ChosenTerm>& whole);
 
 /// How many columns a chosen term has.
 inline Eigen::Index width_of(const ChosenTerm& c) { return c.term < 0 ? 2 : 1; }

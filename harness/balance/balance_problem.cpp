@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "effect_strength.hpp"
 #include "nuisance.hpp"
@@ -10,9 +11,37 @@
 
 namespace shakedown {
 
-BalanceProblem::BalanceProblem(const Measurement& measurement, std::span<const EffectRecord* const> known)
-    : measurement_(measurement), known_(known) {
-  for (const Measurement::Run& run : measurement.runs) runs_.push_back(momentum_run(run));
+namespace {
+
+/// "camera_origin.origin of L040": the key, and the run whose own it is (empty: everyone's).
+std::pair<std::string, std::string> key_and_run(const std::string& name) {
+  constexpr std::string_view of = " of ";
+  const std::size_t at = name.find(of);
+  if (at == std::string::npos) return {name, ""};
+  return {name.substr(0, at), name.substr(at + of.size())};
+}
+
+}  // namespace
+
+Measurement read_with(const Measurement& measurement, const NuisanceValues& values,
+                      std::span<const EffectRecord* const> known) {
+  Measurement read = measurement;
+  for (const auto& [name, value] : values) {
+    const auto [key, of_run] = key_and_run(name);
+    for (Measurement::Run& run : read.runs)
+      if (of_run.empty() || run.recorded.name == of_run)
+        set_number(run.setup, key, get_number(run.setup, key, known) + value, known);
+  }
+  return read;
+}
+
+BalanceProblem::BalanceProblem(const Measurement& measurement, std::span<const EffectRecord* const> known,
+                               NuisanceValues already)
+    : measurement_(measurement), known_(known), already_(std::move(already)) {
+  for (const Measurement::Run& run : measurement.runs) {
+    motion_.push_back(before_the_camera(run));
+    runs_.push_back(momentum_run(run, motion_.back()));
+  }
   if (measurement.runs.empty()) return;
   const Setup& first = measurement.runs.front().setup;
   frequency_ = first.spring.frequency;
@@ -28,6 +57,14 @@ double BalanceProblem::noise() const {
   return noise;
 }
 
+/// The run with another setup. Most change no camera.
+MomentumRun BalanceProblem::run_with(std::size_t run, Setup setup) const {
+  const Measurement::Run& measured = measurement_.runs[run];
+  const bool same_camera = physics_of(setup).camera == physics_of(measured.setup).camera;
+  const Measurement::Run changed{measured.recorded, measured.audit, std::move(setup)};
+  return same_camera ? momentum_run(changed, motion_[run]) : momentum_run(changed);
+}
+
 std::vector<ForceSamples> BalanceProblem::samples_of(const MomentumTerm& term, double strength) const {
   std::vector<ForceSamples> samples;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
@@ -38,8 +75,7 @@ std::vector<ForceSamples> BalanceProblem::samples_of(const MomentumTerm& term, d
       samples.push_back(spring_samples(runs_[r]));
     else
       samples.push_back(samples_of_change(
-          runs_[r], momentum_run({run.recorded, run.audit, with_strength(run.setup, term, strength, known_)}),
-          strength));
+          runs_[r], run_with(r, with_strength(run.setup, term, strength, known_)), strength));
   }
   return samples;
 }
@@ -71,7 +107,7 @@ void BalanceProblem::add_weights(std::vector<BalanceNuisance>& list) const {
       Setup changed = run.setup;
       set_number(changed, weight.key, get_number(run.setup, weight.key, known_) + weight.deviation, known_);
       nuisance.samples.push_back(
-          samples_of_change(runs_[r], momentum_run({run.recorded, run.audit, changed}), weight.deviation));
+          samples_of_change(runs_[r], run_with(r, std::move(changed)), weight.deviation));
     }
     list.push_back(std::move(nuisance));
   }
@@ -81,6 +117,9 @@ std::vector<BalanceNuisance> BalanceProblem::nuisances() const {
   std::vector<BalanceNuisance> list;
   add_camera(list);
   add_weights(list);
+  for (BalanceNuisance& nuisance : list)
+    if (const auto found = already_.find(nuisance.name); found != already_.end())
+      nuisance.already = found->second;
   // What leaves no trace in any run costs a row and tells nothing.
   std::erase_if(list, [](const BalanceNuisance& nuisance) {
     return std::all_of(nuisance.samples.begin(), nuisance.samples.end(), [](const ForceSamples& s) {
@@ -101,7 +140,8 @@ SelectionProblem BalanceProblem::windows_of(double length, double hop) const {
   std::vector<BalanceNuisance> list = nuisances();
   p.problem.set_nuisances(list);
   // What only scales the impulses (a camera's scale) would take up whatever is there.
-  const Eigen::VectorXd& impulse = p.problem.impulse();
+  Eigen::VectorXd impulse = p.problem.impulse();
+  impulse.tail(std::ssize(list)).setZero();
   std::vector<char> scales;
   for (Eigen::Index k = 0; k < std::ssize(list); ++k) {
     Eigen::VectorXd column = p.problem.nuisance_columns().col(k);

@@ -2,18 +2,31 @@
 // From a measurement to the regression of its momentum balance: runs on an even clock, a column for each
 // strength that may be missing, the nuisances of camera and scales.
 #pragma once
+#include <functional>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "balance_evidence.hpp"
 #include "measurement.hpp"
 
 namespace shakedown {
 
+/// Values of nuisances by name, SI, from what the setup says.
+using NuisanceValues = std::map<std::string, double, std::less<>>;
+
+/// The measurement read with these values of camera and weights: what is linear about them is exact there.
+Measurement read_with(const Measurement& measurement, const NuisanceValues& values,
+                      std::span<const EffectRecord* const> known);
+
 /// Owns what the regression refers to.
 class BalanceProblem {
  public:
-  BalanceProblem(const Measurement& measurement, std::span<const EffectRecord* const> known);
+  /// `already`: values of nuisances that `measurement` was read with; what is known of them holds for the
+  /// whole.
+  BalanceProblem(const Measurement& measurement, std::span<const EffectRecord* const> known,
+                 NuisanceValues already = {});
   BalanceProblem(const BalanceProblem&) = delete;
   BalanceProblem& operator=(const BalanceProblem&) = delete;
 
@@ -28,12 +41,15 @@ class BalanceProblem {
 
  private:
   std::vector<ForceSamples> samples_of(const MomentumTerm& term, double strength) const;
+  MomentumRun run_with(std::size_t run, Setup setup) const;
   std::vector<BalanceNuisance> nuisances() const;
   void add_camera(std::vector<BalanceNuisance>& list) const;
   void add_weights(std::vector<BalanceNuisance>& list) const;
 
   const Measurement& measurement_;
   std::span<const EffectRecord* const> known_;
+  NuisanceValues already_;
+  std::vector<Recording> motion_;  ///< of each run, before the camera
   std::vector<MomentumRun> runs_;
   std::vector<MomentumTerm> terms_;
   double frequency_ = 1, typical_sine_ = 0;

@@ -3,6 +3,7 @@
 // with no simulation, because whatever happens in the contacts, M x_box'' + N m x_com'' = -k x_box + F.
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,14 @@ struct WeighedSet {
   double probability = 0;
 };
 
+/// Another set that the balance cannot rule out: ensembles may.
+struct BalanceAlternative {
+  double log_odds = 0;  ///< ln of its probability over that of the set found
+  std::vector<FoundTerm> terms;
+  double frequency = 0, frequency_low = 0, frequency_high = 0;  ///< Hz, of the empty box
+  BalanceFit final_fit;
+};
+
 /// What the fit says of something of the camera or of what was weighed.
 struct NuisanceFound {
   std::string name, unit;
@@ -95,11 +104,13 @@ struct MomentumAudit {
   /// A force in no list closes the balance much better than any set of known terms: `formulas` say which,
   /// `terms` what else.
   bool unlisted = false;
+  double unlisted_log_odds = 0;  ///< ln odds of the formulas over the best set of known terms
   std::vector<ForceFormula> formulas;
-  std::vector<ForceCurve> curves;  ///< where something is unlisted or unexplained, best first
-  bool unexplained = false;        ///< no set of known terms brings the balance into order
-  std::vector<std::string> seen;   ///< keys of all strengths that leave a trace in the balance
-  std::vector<WeighedSet> sets;    ///< most probable first, those that hold 99 % together
+  std::vector<ForceCurve> curves;                ///< where something is unlisted or unexplained, best first
+  bool unexplained = false;                      ///< no set of known terms brings the balance into order
+  std::vector<std::string> seen;                 ///< keys of all strengths that leave a trace in the balance
+  std::vector<BalanceAlternative> alternatives;  ///< most probable first
+  std::vector<WeighedSet> sets;                  ///< most probable first, those that hold 99 % together
   std::vector<NuisanceFound> nuisances;
   Wander wander;             ///< of the track, as the balance shows it
   double rest = 0;           ///< m, rms of what remains, as a displacement of the spring
@@ -116,6 +127,7 @@ struct MomentumOptions {
   double accept_p = 0.01;       ///< below: formulas are looked for
   int most_sines = 2;
   bool formulas = true;                                   ///< false: known terms alone
+  std::optional<Wander> wander{};                         ///< of the track; none: the most probable one
   double lowest_frequency = 0.1, highest_frequency = 10;  ///< Hz, scan for forcing
 };
 

@@ -122,6 +122,7 @@ void MomentumProblem::restack() {
     const BalanceNuisance& nuisance = nuisances_[static_cast<std::size_t>(k)];
     nuisance_columns_.col(k) = nuisance.deviation * column(nuisance.samples);
     nuisance_columns_(rows_of_runs + 1 + k, k) = 1;
+    impulse_[rows_of_runs + 1 + k] = -nuisance.already / nuisance.deviation;
   }
 }
 

@@ -41,6 +41,7 @@ struct BalanceNuisance {
   std::string unit;                   ///< of the deviation
   double deviation = 0;               ///< standard deviation beforehand
   std::vector<ForceSamples> samples;  ///< of each run, for unit strength; empty parts: not in that run
+  double already = 0;                 ///< of it, the runs were read with
 };
 
 /// All runs' impulses with their noise covariance, whitened. Below them one row for the packed layer, which

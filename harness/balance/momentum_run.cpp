@@ -141,7 +141,18 @@ LocalCubic local_cubic(int half) {
   return {fit.row(0).transpose(), fit.row(1).transpose() / half};
 }
 
+Recording before_the_camera(const Measurement::Run& measurement) {
+  const auto& [measured, audit, setup] = measurement;
+  const bool empty = setup.grains.count == 0;
+  if (measured.time.size() < 8 || (!empty && !measured.has_com())) return {};
+  return undone(physics_of(setup).camera, {measured.time, audit.x_box, empty ? audit.x_box : audit.x_com});
+}
+
 MomentumRun momentum_run(const Measurement::Run& measurement) {
+  return momentum_run(measurement, before_the_camera(measurement));
+}
+
+MomentumRun momentum_run(const Measurement::Run& measurement, const Recording& motion) {
   const auto& [measured, audit, setup] = measurement;
   const Physics physics = physics_of(setup);
   MomentumRun run;
@@ -161,8 +172,6 @@ MomentumRun momentum_run(const Measurement::Run& measurement) {
   const bool empty = setup.grains.count == 0;
   if (measured.time.size() < 8 || (!empty && !measured.has_com())) return run;
 
-  const Recording motion =
-      undone(physics.camera, {measured.time, audit.x_box, empty ? audit.x_box : audit.x_com});
   const std::size_t first = first_of_the_motion(measurement);
   if (measured.time.size() < first + 8) return run;
   std::vector<double> place;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "camera.hpp"
 #include "measurement.hpp"
 #include "physics.hpp"
 
@@ -43,6 +44,12 @@ struct MomentumRun {
 /// The camera effects of the run's setup are taken out of the data, its forces go into model_force. Without
 /// x_com (and with grains) there is no balance: returns a run without frames.
 MomentumRun momentum_run(const Measurement::Run& measurement);
+
+/// What went into the camera of the run's setup.
+Recording before_the_camera(const Measurement::Run& measurement);
+/// The same run with `motion` as what went into the camera: it need not be worked out again where only forces
+/// differ.
+MomentumRun momentum_run(const Measurement::Run& measurement, const Recording& motion);
 
 /// The sign of the box's velocity, frame by frame, as far as it is known: its mean over the noise of v and
 /// over the frame's length, erf(v / (sqrt(2) width)); and the derivative by v.

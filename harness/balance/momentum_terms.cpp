@@ -35,8 +35,11 @@ void fix_scale_of_release(const EffectRecord& record, const Setup& setup,
   const double release = std::abs(setup.release.displacement);
   if (release == 0) return;
   const double there = physics_of(with_strength(setup, term, term.typical, known)).spring_cubic;
+  if (there == physics_of(setup).spring_cubic) return;
   for (const Parameter& parameter : record.parameters) {
-    if (there == 0 || parameter.unit != "m" || parameter.kind != ParameterKind::number) continue;
+    if (release < parameter.low || release > parameter.high || parameter.unit != "m" ||
+        parameter.kind != ParameterKind::number)
+      continue;
     MomentumTerm fixed = term;
     fixed.besides.emplace_back(std::string(record.name) + "." + std::string(parameter.name), release);
     if (physics_of(with_strength(setup, fixed, term.typical, known)).spring_cubic == there) term = fixed;

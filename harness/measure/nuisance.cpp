@@ -62,7 +62,7 @@ std::vector<WeighedNuisance> weighed_nuisances(const Measurement& measurement) {
     const KnownValue* said = find_in(measurement, key);
     const double deviation = said ? said->error : usual * get_number(setup, key);
     if (setup.grains.count > 0 && deviation > 0)  // alone a mass is a stiffness
-      list.push_back({std::string(key), unit_of_key(key, {}), deviation, said == nullptr});
+      list.push_back({std::string(key), si_unit_of_key(key, {}), deviation, said == nullptr});
   }
   return list;
 }

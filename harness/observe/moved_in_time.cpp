@@ -4,6 +4,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 
 namespace shakedown {
 
@@ -25,9 +27,9 @@ std::size_t half_width(std::span<const double> time, double longest_shift) {
 Eigen::Matrix3Xd cubic_weights(const Eigen::ArrayXd& time) {
   const Eigen::Index n = time.size(), terms = std::min<Eigen::Index>(4, n);
   const double reach = std::max(time.abs().maxCoeff(), 1e-300);
-  Eigen::MatrixXd powers(n, terms);
-  for (Eigen::Index power = 0; power < terms; ++power)
-    powers.col(power) = (time / reach).pow(static_cast<double>(power)).matrix();
+  Eigen::MatrixXd powers = Eigen::MatrixXd::Ones(n, terms);
+  for (Eigen::Index power = 1; power < terms; ++power)
+    powers.col(power) = (powers.col(power - 1).array() * time / reach).matrix();
   const Eigen::MatrixXd fit = powers.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(n, n));
   Eigen::Matrix3Xd weights = Eigen::Matrix3Xd::Zero(3, n);
   for (Eigen::Index power = 1; power < terms; ++power)
@@ -42,20 +44,25 @@ LocalCubics::LocalCubics(std::span<const double> time, std::span<const double> p
   for (std::size_t i = 0; i < position.size(); ++i)
     if (std::isfinite(position[i])) used_.push_back(i);
   const std::size_t half = half_width(time, longest_shift), count = std::min(2 * half + 1, used_.size());
-  Eigen::ArrayXd around(static_cast<Eigen::Index>(count)), last_around;
+  Eigen::ArrayXd around(static_cast<Eigen::Index>(count));
+  // A clock that is even, but for its rounding and for frames left out, has few patterns of neighbours. Times
+  // within a thousandth of the interval count as one pattern: of a slope of 1 m/s that is 1e-4 m/s.
+  constexpr double alike = 1e-3;
+  const double interval =
+      time.size() < 2 ? 1 : (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  std::map<std::vector<std::int64_t>, std::size_t> patterns;
+  std::vector<std::int64_t> pattern(count);
   for (std::size_t i = 0; i < used_.size(); ++i) {
     const std::size_t first = std::min(i > half ? i - half : 0, used_.size() - count);
     const double at = time[used_[i]];
-    for (std::size_t j = 0; j < count; ++j)
-      around[static_cast<Eigen::Index>(j)] = time[used_[first + j]] - at;
-    // An even clock gives the same weights again and again.
-    const bool same = last_around.size() == around.size() &&
-                      (around - last_around).abs().maxCoeff() <= 1e-9 * around.abs().maxCoeff();
-    if (!same) {
-      weights_.push_back(cubic_weights(around));
-      last_around = around;
+    for (std::size_t j = 0; j < count; ++j) {
+      const double apart = time[used_[first + j]] - at;
+      around[static_cast<Eigen::Index>(j)] = apart;
+      pattern[j] = std::llround(apart / (alike * interval));
     }
-    pieces_.push_back({first, weights_.size() - 1});
+    const auto [known, is_new] = patterns.try_emplace(pattern, weights_.size());
+    if (is_new) weights_.push_back(cubic_weights(around));
+    pieces_.push_back({first, known->second});
   }
 }
 

@@ -18,6 +18,17 @@ std::string unit_of_key(std::string_view key, std::span<const EffectRecord* cons
   return std::string(parameter->unit_shown.empty() ? parameter->unit : parameter->unit_shown);
 }
 
+std::string si_unit_of_key(std::string_view key, std::span<const EffectRecord* const> known) {
+  if (find_setup_key(key.substr(0, key.find(key_joint))) == nullptr) {
+    const Parameter* parameter = find_parameter(known, key.substr(0, key.find(key_joint)));
+    return parameter == nullptr ? "" : std::string(parameter->unit);
+  }
+  const std::string shown = unit_of_key(key, known);
+  if (shown == "g") return "kg";
+  // a length or a time in thousandths; all other keys are shown in SI
+  return shown == "mm" || shown == "ms" ? shown.substr(1) : shown;
+}
+
 std::vector<std::string> joined_keys(std::string_view keys) {
   std::vector<std::string> list;
   for (;;) {

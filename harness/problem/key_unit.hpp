@@ -14,6 +14,9 @@ namespace shakedown {
 /// key.
 std::string unit_of_key(std::string_view key, std::span<const EffectRecord* const> known);
 
+/// The SI unit of such a key: of its values as a setup or a fit holds them.
+std::string si_unit_of_key(std::string_view key, std::span<const EffectRecord* const> known);
+
 /// The keys that "grain_friction.grain_grain&grain_friction.grain_wall" joins to move together; of one key
 /// itself.
 std::vector<std::string> joined_keys(std::string_view keys);

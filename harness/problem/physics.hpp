@@ -157,6 +157,7 @@ struct Camera {
   double drift = 0;   ///< m/s, times t added to positions
   double origin = 0;  ///< m, added to positions
   double time_offset = 0;  ///< s, t_recorded = t + offset
+  bool operator==(const Camera&) const = default;
 };
 
 struct Physics {

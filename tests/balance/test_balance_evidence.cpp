@@ -64,7 +64,7 @@ void expect_first(const PushedBox& what, const std::string& effect, double truth
   const FoundTerm& term = audit.terms.front();
   EXPECT_LE(term.low, truth);
   EXPECT_GE(term.high, truth);
-  EXPECT_LT(term.high - term.low, 2 * 3.92 * fisher_error(experiment, effect)) << effect;
+  EXPECT_LT(term.high - term.low, 2.5 * 3.92 * fisher_error(experiment, effect)) << effect;
 }
 
 TEST(BalanceEvidence, NothingHiddenIsMostProbable) {

@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: MIT
+#include "linear_audit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "balance_problem.hpp"
+#include "balance_rules.hpp"
+#include "effect_strength.hpp"
+#include "force_formula.hpp"
+#include "robust_statistics.hpp"
+#include "wander_choice.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// chi2 by which a force that no list has must beat every set of known ones, beyond the prices of its
+/// parameters: it is e^5 times less likely beforehand.
+constexpr double price_of_the_unlisted = 10;
+
+constexpr double of_95_percent = 1.96;
+
+/// The error of the noise's variance widens chi2 like so many degrees fewer.
+BalanceFit balance_of(double chi2, double degrees) {
+  if (!(degrees > 0) || !std::isfinite(chi2)) return {chi2, degrees, 0};
+  const double effective = 2 / (2 / degrees + error_of_noise_variance * error_of_noise_variance);
+  return {chi2, degrees, chi_squared_tail(chi2 * effective / degrees, effective)};
+}
+BalanceFit balance_of(const Regression& fit) { return balance_of(fit.chi2, fit.degrees); }
+
+/// chi2 of the rows of one run.
+BalanceFit balance_of_run(const MomentumProblem& problem, std::size_t run, const Eigen::VectorXd& residual,
+                          double fitted) {
+  return balance_of(
+      residual.segment(problem.begin(run), problem.rows(run)).squaredNorm(),
+      static_cast<double>(problem.rows(run)) * (1 - fitted / static_cast<double>(problem.size())));
+}
+
+RunBalance run_as_given(const MomentumProblem& problem, std::size_t run) {
+  RunBalance balance;
+  balance.run = problem.run_name(run);
+  balance.as_given = balance_of_run(problem, run, problem.impulse(), 0);
+  if (problem.rows(run) == 0) return balance;  // the box of this run hardly moves
+  const double weight = problem.form(run).weight();
+  const Eigen::VectorXd deviation = problem.raw_deviation(run) / weight;
+  const Eigen::VectorXd force = problem.raw_impulse(run) / weight;
+  balance.missing_force_noise = deviation.mean();
+  balance.missing_force = std::sqrt(
+      std::max(0.0, (force.squaredNorm() - deviation.squaredNorm()) / static_cast<double>(force.size())));
+  return balance;
+}
+
+/// Sets that are probable enough to be in question, and terms of them that could stand in for this one.
+std::vector<std::string> look_alikes(const SelectionProblem& p, const std::vector<BalanceHypothesis>& sets,
+                                     const std::vector<ChosenTerm>& best, int which) {
+  constexpr double in_question = 0.05;
+  std::vector<std::string> names;
+  for (const BalanceHypothesis& set : sets) {
+    if (set.probability < in_question) continue;
+    const auto has = [](const std::vector<ChosenTerm>& chosen, int term) {
+      return std::any_of(chosen.begin(), chosen.end(), [&](const ChosenTerm& c) { return c.term == term; });
+    };
+    if (has(set.chosen, which)) continue;
+    for (const ChosenTerm& c : set.chosen) {
+      if (!p.is_known(c.term) || c.term == 0 || has(best, c.term)) continue;
+      const std::string& name = p.known[static_cast<std::size_t>(c.term)].effect;
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+std::string name_of_sine(std::span<const EffectRecord* const> known) {
+  for (const EffectRecord* record : known)
+    if (search_of(*record).harmonic) return std::string(record->name);
+  return "";
+}
+
+FoundTerm sine_found(std::span<const EffectRecord* const> known, double frequency, double sine, double cosine,
+                     double error) {
+  FoundTerm found;
+  found.effect = name_of_sine(known);
+  found.parameter = "amplitude";
+  found.unit = "m/s^2";
+  found.value = std::hypot(sine, cosine);
+  found.low = std::max(0.0, found.value - of_95_percent * error);
+  found.high = found.value + of_95_percent * error;
+  found.frequency = frequency;
+  found.phase = std::atan2(cosine, sine);
+  found.gain = found.value * found.value / (error * error);
+  return found;
+}
+
+/// When the balance is not closed the noise is not the whole error.
+double widened(const Regression& fit) { return std::sqrt(std::max(1.0, fit.chi2 / fit.degrees)); }
+
+FoundTerm term_found(const SelectionProblem& p, const Selection& selection, std::size_t which,
+                     Eigen::Index column) {
+  const MomentumTerm& term = p.known[static_cast<std::size_t>(selection.chosen[which].term)];
+  FoundTerm found{term.effect, term.parameter, term.unit, term.kind};
+  found.besides = term.besides;
+  const double strength = selection.fit.strength[column],
+               wide = of_95_percent * selection.fit.error[column] * widened(selection.fit);
+  found.value = term.parameter_at(strength);
+  std::tie(found.low, found.high) =
+      std::minmax({term.parameter_at(strength - wide), term.parameter_at(strength + wide)});
+  found.gain = std::pow(strength / selection.fit.error[column], 2);
+  return found;
+}
+
+std::vector<SingleTerm> ranking_of(const SelectionProblem& p, const Selection& refitted) {
+  std::vector<SingleTerm> ranking;
+  for (int term = 1; p.is_known(term); ++term) {
+    const Gain gain = gain_of_term(p, refitted, term);
+    if (gain.gain > 0)
+      ranking.push_back({p.terms[static_cast<std::size_t>(term)].name, gain.gain, gain.strength, gain.error});
+  }
+  std::stable_sort(ranking.begin(), ranking.end(),
+                   [](const SingleTerm& a, const SingleTerm& b) { return a.gain > b.gain; });
+  return ranking;
+}
+
+/// Sets of known strengths, with up to so many sines.
+std::vector<BalanceHypothesis> weighed(SelectionProblem& p, const MomentumOptions& options,
+                                       std::vector<ChosenTerm> base = {{0, 0}}) {
+  std::vector<BalanceHypothesis> list = compare_sets(p, base);
+  for (int sines = static_cast<int>(base.size()) - 1; sines < options.most_sines && p.typical_sine > 0;
+       ++sines) {
+    Selection beside{list.front().chosen, {}, 0};
+    const SineFound sine = best_sine(p, beside, options.lowest_frequency,
+                                     std::min(options.highest_frequency, p.highest_frequency));
+    if (sine.log_odds <= 0) break;
+    base.push_back({-1, sine.frequency});
+    list = compare_sets(p, base);
+  }
+  return list;
+}
+
+bool acts_dry(const SelectionProblem& p, const std::vector<ChosenTerm>& chosen) {
+  return std::any_of(chosen.begin(), chosen.end(), [&](const ChosenTerm& c) {
+    return p.is_known(c.term) && c.term > 0 && p.known[static_cast<std::size_t>(c.term)].dry;
+  });
+}
+
+std::vector<WeighedSet> sets_in_words(const SelectionProblem& p, const std::vector<BalanceHypothesis>& list,
+                                      std::span<const EffectRecord* const> known) {
+  constexpr double shown = 0.99;
+  std::vector<WeighedSet> sets;
+  double sum = 0;
+  for (const BalanceHypothesis& hypothesis : list) {
+    WeighedSet set{{}, hypothesis.probability};
+    for (const ChosenTerm& c : hypothesis.chosen) {
+      if (c.term == 0) continue;
+      const std::string name =
+          c.term < 0 ? name_of_sine(known) : p.terms[static_cast<std::size_t>(c.term)].name;
+      if (std::find(set.effects.begin(), set.effects.end(), name) == set.effects.end())
+        set.effects.push_back(name);
+    }
+    sets.push_back(std::move(set));
+    if ((sum += hypothesis.probability) > shown) break;
+  }
+  return sets;
+}
+
+void describe_nuisances(const SelectionProblem& p, const Selection& selection, MomentumAudit& audit) {
+  const auto& nuisances = p.problem.nuisances();
+  const Eigen::Index first = selection.fit.strength.size() - std::ssize(nuisances);
+  for (std::size_t k = 0; k < nuisances.size(); ++k) {
+    const Eigen::Index column = first + static_cast<Eigen::Index>(k);
+    const BalanceNuisance& nuisance = nuisances[k];
+    audit.nuisances.push_back({nuisance.name, nuisance.unit, nuisance.deviation,
+                               nuisance.already + selection.fit.strength[column] * nuisance.deviation,
+                               selection.fit.error[column] * nuisance.deviation});
+  }
+}
+
+template <typename Described>
+void describe_frequency(const Selection& selection, double frequency, Described& audit) {
+  const double spring = selection.fit.strength[0],
+               wide = of_95_percent * selection.fit.error[0] * widened(selection.fit);
+  const auto at = [&](double stiffness) { return frequency * std::sqrt(std::max(0.0, 1 + stiffness)); };
+  audit.frequency = at(spring);
+  audit.frequency_low = at(spring - wide);
+  audit.frequency_high = at(spring + wide);
+}
+
+/// rms over the windows of what is left, as a displacement of the spring, m.
+double displacement_left(const SelectionProblem& p, const Selection* selection) {
+  double sum = 0;
+  for (std::size_t run = 0; run < p.problem.runs(); ++run) {
+    Eigen::VectorXd left = p.problem.raw_impulse(run);
+    Eigen::Index column = 0;
+    if (selection)
+      for (const ChosenTerm& c : selection->chosen) {
+        left -=
+            p.problem.raw_columns(
+                run, c.term < 0 ? nullptr : &p.terms[static_cast<std::size_t>(c.term)].samples, c.frequency) *
+            selection->fit.strength.segment(column, width_of(c));
+        column += width_of(c);
+      }
+    const WeakForm& form = p.problem.form(run);
+    sum += left.squaredNorm() / std::pow(form.weight() * form.run().stiffness, 2);
+  }
+  return std::sqrt(sum / static_cast<double>(std::max<Eigen::Index>(1, p.problem.windows())));
+}
+
+std::vector<FoundTerm> terms_found(const SelectionProblem& p, const Selection& selection,
+                                   std::span<const EffectRecord* const> known) {
+  std::vector<FoundTerm> found;
+  Eigen::Index column = 1;
+  for (std::size_t which = 1; which < selection.chosen.size(); ++which) {
+    const ChosenTerm& c = selection.chosen[which];
+    if (c.term < 0)
+      found.push_back(sine_found(known, c.frequency, selection.fit.strength[column],
+                                 selection.fit.strength[column + 1],
+                                 selection.fit.error.segment(column, 2).maxCoeff()));
+    else if (p.is_known(c.term))
+      found.push_back(term_found(p, selection, which, column));
+    column += width_of(c);
+  }
+  return found;
+}
+
+/// Sets that the balance finds less probable and cannot rule out: what the set found has too much in it, and
+/// what may stand in its place.
+std::vector<BalanceAlternative> alternatives_of(const SelectionProblem& p,
+                                                const std::vector<BalanceHypothesis>& sets, double frequency,
+                                                std::span<const EffectRecord* const> known) {
+  constexpr double hopeless = -14, in_question = 0.02;
+  constexpr std::size_t most = 3;
+  std::vector<BalanceAlternative> list;
+  for (std::size_t i = 1; i < sets.size() && list.size() < most; ++i) {
+    const double log_odds = sets[i].log_odds - sets.front().log_odds;
+    const bool has_more = sets[i].chosen.size() > sets.front().chosen.size();
+    const bool is_part = is_part_of(sets[i].chosen, sets.front().chosen);
+    if (log_odds < hopeless || has_more || !(is_part || sets[i].probability > in_question)) continue;
+    SelectionProblem own = p;
+    const Selection selection = fit_terms(own, sets[i].chosen);
+    BalanceAlternative alternative{log_odds, terms_found(own, selection, known), 0, 0,
+                                   0,        balance_of(selection.fit)};
+    describe_frequency(selection, frequency, alternative);
+    list.push_back(std::move(alternative));
+  }
+  return list;
+}
+
+void describe(const SelectionProblem& p, const Selection& selection,
+              const std::vector<BalanceHypothesis>& sets, std::span<const EffectRecord* const> known,
+              MomentumAudit& audit) {
+  audit.final_fit = balance_of(selection.fit);
+  audit.terms = terms_found(p, selection, known);
+  Eigen::Index column = 1;
+  std::size_t next = 0;
+  for (std::size_t which = 1; which < selection.chosen.size(); ++which) {
+    const ChosenTerm& c = selection.chosen[which];
+    if (c.term >= 0 && p.is_known(c.term))
+      audit.terms[next].look_alikes = look_alikes(p, sets, selection.chosen, c.term);
+    if (c.term < 0 || p.is_known(c.term)) ++next;
+    column += width_of(c);
+  }
+  for (std::size_t run = 0; run < p.problem.runs(); ++run)
+    for (RunBalance& balance : audit.runs)
+      if (balance.run == p.problem.run_name(run))
+        balance.final_fit =
+            balance_of_run(p.problem, run, selection.fit.residual, static_cast<double>(column));
+  describe_nuisances(p, selection, audit);
+  audit.wander = p.problem.wander();
+  audit.rest = displacement_left(p, &selection);
+  audit.rest_as_given = displacement_left(p, nullptr);
+  audit.explained = 1 - selection.fit.chi2 / p.problem.impulse().squaredNorm();
+}
+
+/// With frequency and nuisances alone, or with what the setup says of the frequency.
+BalanceFit without_effects(const SelectionProblem& p, bool free_frequency) {
+  return balance_of(
+      regress(p.problem.impulse(), free_frequency ? columns_of(p, {{0, 0}}) : p.problem.nuisance_columns()));
+}
+
+}  // namespace
+
+MomentumAudit linear_audit(const Measurement& measurement, std::span<const EffectRecord* const> known,
+                           const MomentumOptions& options, const NuisanceValues& already) {
+  MomentumAudit audit;
+  const BalanceProblem balance(measurement, known, already);
+  const double window = options.window_periods / balance.frequency();
+  SelectionProblem p = balance.windows_of(window, window * options.hop);
+  constexpr Eigen::Index least_windows = 20;
+  audit.possible = p.problem.windows() > least_windows;
+  if (!audit.possible) {
+    audit.why_not = "no run has both the box's and the grains' position over more than a few periods";
+    return audit;
+  }
+  // A box that sticks obeys no sgn v: it is judged only where it moves by 30 standard deviations of the
+  // camera's noise.
+  const auto only_moving = [&] {
+    SelectionProblem moving = p;
+    moving.problem.keep_moving(30 * balance.noise());
+    if (moving.problem.windows() <= least_windows) return;
+    p = std::move(moving);
+    audit.only_moving = true;
+  };
+  if (std::any_of(balance.runs().begin(), balance.runs().end(),
+                  [](const MomentumRun& run) { return run.dry_friction; }))
+    only_moving();
+  const auto take_wander = [&] {
+    if (!options.wander) return choose_wander(p, balance.noise());
+    p.problem.set_wander(*options.wander);
+    p.problem.set_covariance({});
+  };
+  take_wander();
+  std::vector<BalanceHypothesis> sets = weighed(p, options);
+  if (!audit.only_moving && acts_dry(p, sets.front().chosen)) {
+    only_moving();
+    if (audit.only_moving) {
+      take_wander();
+      sets = weighed(p, options);
+    }
+  }
+  // Faster sines than these windows see need shorter ones, which must still hold ten frames.
+  const bool enough_frames = std::all_of(
+      balance.runs().begin(), balance.runs().end(),
+      [&](const MomentumRun& run) { return run.time.size() == 0 || window / 3 > 10 * run.interval; });
+  if (p.typical_sine > 0 && options.highest_frequency > p.highest_frequency && enough_frames) {
+    SelectionProblem fast = balance.windows_of(window / 3, window / 3 * options.hop);
+    if (audit.only_moving) fast.problem.keep_moving(30 * balance.noise());
+    if (fast.problem.windows() > least_windows) {
+      fast.problem.set_wander(p.problem.wander());
+      fast.problem.set_covariance({});
+      const SineFound sine = best_sine(fast, {sets.front().chosen, {}, 0}, p.highest_frequency,
+                                       std::min(options.highest_frequency, fast.highest_frequency));
+      if (sine.log_odds > 0) {
+        p = std::move(fast);
+        sets = weighed(p, options, {{0, 0}, {-1, sine.frequency}});
+      }
+    }
+  }
+  for (std::size_t run = 0; run < p.problem.runs(); ++run) audit.runs.push_back(run_as_given(p.problem, run));
+  audit.as_given = without_effects(p, false);
+  audit.refitted = without_effects(p, true);
+  audit.ranking = ranking_of(p, fit_terms(p, {{0, 0}}));
+  sets = with_own_noise(p, sets);
+  Selection selection = fit_terms(p, sets.front().chosen);
+  audit.sets = sets_in_words(p, sets, known);
+  audit.alternatives = alternatives_of(p, sets, balance.frequency(), known);
+  for (const int term : terms_seen(p)) audit.seen.push_back(p.known[static_cast<std::size_t>(term)].key());
+  describe_frequency(selection, balance.frequency(), audit);
+  const double usual = usual_wander * balance.noise();
+  const bool in_doubt = selection.chosen.size() > 1 || balance_of(selection.fit).p_value < options.accept_p ||
+                        p.problem.wander().deviation > usual;
+  if (options.formulas && in_doubt) {
+    // A track that wanders more than tracks do takes up any force: formulas are tried beside the usual one.
+    SelectionProblem q = p;
+    q.problem.set_wander({std::min(usual, p.problem.wander().deviation), p.problem.wander().time});
+    q.problem.set_covariance({});
+    const double cost_of_known = cost_of(q, fit_terms(q, sets.front().chosen));
+    FormulaFit formulas = fit_formulas(q);
+    // A formula that leaves the balance rejected is no better than a sum of known forces that does.
+    audit.unlisted = !formulas.formulas.empty() && formulas.cost < cost_of_known - price_of_the_unlisted &&
+                     balance_of(formulas.selection.fit).p_value > balance_rejected;
+    if (audit.unlisted || balance_of(selection.fit).p_value < options.accept_p)
+      audit.curves = std::move(formulas.curves);
+    if (audit.unlisted) {
+      audit.unlisted_log_odds = (cost_of_known - price_of_the_unlisted - formulas.cost) / 2;
+      audit.formulas = std::move(formulas.formulas);
+      p = std::move(formulas.problem);
+      selection = std::move(formulas.selection);
+    }
+  }
+  describe(p, selection, sets, known, audit);
+  if (options.formulas && !audit.unlisted && !audit.terms.empty()) {
+    const std::vector<std::vector<std::string>> alike = formulas_like_known_terms(p, selection);
+    for (std::size_t i = 0; i < audit.terms.size(); ++i)
+      audit.terms[i].look_alikes.insert(audit.terms[i].look_alikes.end(), alike[i + 1].begin(),
+                                        alike[i + 1].end());
+  }
+  audit.unexplained = audit.final_fit.p_value <= balance_rejected;
+  return audit;
+}
+
+}  // namespace shakedown

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The momentum balance, linear about what camera and weights were read with.
+#pragma once
+#include "balance_problem.hpp"
+#include "momentum.hpp"
+
+namespace shakedown {
+
+/// `measurement` was read with `already` (read_with()).
+MomentumAudit linear_audit(const Measurement& measurement, std::span<const EffectRecord* const> known,
+                           const MomentumOptions& options, const NuisanceValues& already);
+
+}  // namespace shakedown
