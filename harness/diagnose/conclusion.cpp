@@ -12,7 +12,6 @@
 #include "sentences.hpp"
 #include "setup_file.hpp"
 #include "unlisted_force.hpp"
-#include "verdict.hpp"
 
 namespace shakedown {
 
@@ -59,7 +58,8 @@ void set_parameters(const DiagnosisState& final, const DiagnosisTools& tools, Di
     if (!take_from_balance(d.momentum, value) && found)
       allow_for_engines(value, final.fit.knobs[k], final.fit, tools.options(), d.notes);
     for (const std::string& key : joined_keys(value.key)) {
-      d.parameters.push_back({key, value.value, value.low, value.high, unit_of_key(key, tools.known()), ""});
+      d.parameters.push_back(
+          {key, value.value, value.low, value.high, si_unit_of_key(key, tools.known()), ""});
       set_number(d.amended, key, value.value, tools.known());
     }
   }
@@ -72,7 +72,7 @@ void set_camera(const Refit& fit, Diagnosis& d, std::span<const EffectRecord* co
     const Knob& knob = fit.knobs[k];
     if (!knob.exact) continue;
     const FittedValue& value = fit.values[k];
-    const NuisanceFound found{knob.key, unit_of_key(knob.key, known), knob.believed_error,
+    const NuisanceFound found{knob.key, si_unit_of_key(knob.key, known), knob.believed_error,
                               value.value - knob.believed, value.error};
     const auto same = std::find_if(d.camera.begin(), d.camera.end(),
                                    [&](const NuisanceFound& n) { return n.name == knob.key; });
@@ -162,7 +162,11 @@ void complete_ranking(Diagnosis& d) {
   });
 }
 
-void settle_hypotheses(Diagnosis& d) {
+void settle_hypotheses(Diagnosis& d, const Findings& findings) {
+  // Where a formula closes the balance and no set of known strengths does, odds are those of the two fits.
+  const double something_else = findings.unlisted ? 1 / (1 + std::exp(-d.momentum.unlisted_log_odds))
+                                                  : probability_of_something_else(worst_p_value(findings));
+  d.hypotheses = with_something_else(std::move(d.hypotheses), something_else);
   constexpr double shown = 0.99;
   double sum = 0;
   std::size_t count = 0;
@@ -184,7 +188,8 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   findings.anything_missing = !d.missing.empty();
   findings.refitted = refitted || final.setup.release.packing != user.release.packing;
   findings.camera_stands_out = !standing_out(d.camera).empty();
-  findings.p_value = final.fit.p_value, findings.scatter = final.fit.scatter;
+  findings.p_value = final.fit.p_value, findings.far_p_value = final.fit.far_p_value;
+  findings.scatter = final.fit.scatter;
   if (d.momentum.possible) findings.balance_p = d.momentum.final_fit.p_value;
   d.verdict = verdict_of(findings);
   if (d.verdict == Verdict::adequate || !refitted) {
@@ -197,7 +202,7 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   }
   if (refitted) set_parameters(final, tools, d);
   complete_ranking(d);
-  settle_hypotheses(d);
+  settle_hypotheses(d, findings);
   d.sentence = sentence_of(d, tools.known());
   advise_by_words(user, final, refitted, d);
   advise_by_simulation(final, tools, d);

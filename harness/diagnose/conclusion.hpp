@@ -3,6 +3,7 @@
 // experiment to do next.
 #pragma once
 #include "state.hpp"
+#include "verdict.hpp"
 
 namespace shakedown {
 
@@ -18,8 +19,9 @@ void set_formula(Diagnosis& diagnosis);
 /// What the momentum balance asks for joins what was simulated; what was found first, then by gain.
 void complete_ranking(Diagnosis& diagnosis);
 
-/// Keeps the hypotheses that hold 99 %, and the fewest that hold 95 % as the answers.
-void settle_hypotheses(Diagnosis& diagnosis);
+/// Gives something in no list its probability, and keeps the hypotheses that hold 99 %, and the fewest that
+/// hold 95 % as the answers.
+void settle_hypotheses(Diagnosis& diagnosis, const Findings& findings);
 
 /// Where the model of this fit fails.
 void note_failures(const Refit& fit, Diagnosis& diagnosis);

@@ -60,14 +60,14 @@ void add_sine(const FoundTerm& term, const SearchedHarmonic& harmonic, double lo
 
 /// What the balance found goes in at the strength that it finds and stays near it: chaos does not touch the
 /// balance, and it knows strengths five times better than ensembles do.
-DiagnosisState with_balance(DiagnosisState state, const MomentumAudit& balance,
+DiagnosisState with_balance(DiagnosisState state, const std::vector<FoundTerm>& terms,
                             const Measurement& measurement, const DiagnoseOptions& options,
                             std::vector<std::string>& notes) {
   double longest = 0;
   for (const Measurement::Run& run : measurement.runs)
     if (!run.recorded.time.empty())
       longest = std::max(longest, run.recorded.time.back() - run.recorded.time.front());
-  for (const FoundTerm& term : balance.terms) {
+  for (const FoundTerm& term : terms) {
     if (!allowed(options, term.effect)) continue;
     const EffectRecord* record = find_record(options.known, term.effect);
     if (record == nullptr) continue;
@@ -189,11 +189,9 @@ class Course {
     return state;
   }
 
-  /// Parameters free, and what the balance found.
-  DiagnosisState refit_of(DiagnosisState state) {
+  /// Parameters free, and these strengths that the balance found.
+  DiagnosisState with_terms(DiagnosisState state, const std::vector<FoundTerm>& terms, double frequency) {
     const MomentumAudit& balance = result_.momentum;
-    const double frequency =
-        balance.possible && balance.frequency > 0 ? balance.frequency : user_.spring.frequency;
     state.theta = free_parameters(state.setup, frequency, (balance.possible ? 0.004 : 0.01) * frequency);
     for (Knob& knob : state.theta)
       if (const KnownValue* known = find_known(tools_.measurement().known, knob.key);
@@ -203,15 +201,55 @@ class Course {
       const std::vector<std::string>& fixed = tools_.options().fixed;
       return std::find(fixed.begin(), fixed.end(), knob.key) != fixed.end();
     });
-    state = with_balance(state, balance, tools_.measurement(), tools_.options(), result_.notes);
-    const bool by_formula = balance.unlisted && allowed(tools_.options(), "user_force");
-    if (by_formula) state.setup = with_force(state.setup, sum_of(balance.formulas), tools_.known());
-    state.fit =
-        tools_.fit(state,
-                   state.missing.empty() && !by_formula ? "refitting the parameters"
-                                                        : "refitting with what the momentum balance found",
-                   state.knobs(), effort::refit);
-    return state.settled(tools_.known());
+    state = with_balance(state, terms, tools_.measurement(), tools_.options(), result_.notes);
+    if (balance.unlisted && allowed(tools_.options(), "user_force"))
+      state.setup = with_force(state.setup, sum_of(balance.formulas), tools_.known());
+    return state;
+  }
+
+  DiagnosisState refit_of(const DiagnosisState& before) {
+    const MomentumAudit& balance = result_.momentum;
+    const double frequency =
+        balance.possible && balance.frequency > 0 ? balance.frequency : user_.spring.frequency;
+    DiagnosisState state = with_terms(before, balance.terms, frequency);
+    const bool nothing_found = state.missing.empty() && !balance.unlisted;
+    state.fit = tools_.fit(
+        state, nothing_found ? "refitting the parameters" : "refitting with what the momentum balance found",
+        state.knobs(), effort::refit);
+    return settled_by_ensembles(before, state).settled(tools_.known());
+  }
+
+  bool is_rejected(const Refit& fit) const {
+    return fit.p_value <= rules::holds && !(fit.scatter < rules::codes_differ);
+  }
+
+  /// The balance weighs impulses alone. Where what it found leaves the whole motion unexplained, the sets
+  /// that it could not rule out are tried, and the most probable one with the motion counted in is kept.
+  DiagnosisState settled_by_ensembles(const DiagnosisState& before, const DiagnosisState& found) {
+    MomentumAudit& balance = result_.momentum;
+    if (balance.unlisted || !is_rejected(found.fit)) return found;
+    DiagnosisState best = found;
+    double most = 0;
+    const BalanceAlternative* kept = nullptr;
+    for (const BalanceAlternative& alternative : balance.alternatives) {
+      if (tools_.spent()) break;
+      DiagnosisState other = with_terms(before, alternative.terms, alternative.frequency);
+      other.fit = tools_.fit(other, "refitting with what else the momentum balance allows", other.knobs(),
+                             effort::refit, &found.fit);
+      const double log_odds = alternative.log_odds + (found.fit.judged_chi2 - other.fit.judged_chi2) / 2;
+      if (log_odds > most) most = log_odds, best = other, kept = &alternative;
+    }
+    if (kept == nullptr) return found;
+    const BalanceAlternative chosen = *kept;
+    balance.terms = chosen.terms;
+    balance.frequency = chosen.frequency;
+    balance.frequency_low = chosen.frequency_low, balance.frequency_high = chosen.frequency_high;
+    balance.final_fit = chosen.final_fit;
+    balance.unexplained = chosen.final_fit.p_value <= balance_rejected;
+    std::vector<std::string> effects;
+    for (const FoundTerm& term : chosen.terms) effects.push_back(term.effect);
+    result_.hypotheses = {{effects, 0, 1}};
+    return best;
   }
 
   /// Effects one after the other, while something more is probably missing.

@@ -22,7 +22,8 @@ std::string hypotheses_text(const Diagnosis& d) {
   for (const Hypothesis& h : d.hypotheses) {
     if (h.probability < shown) continue;
     std::string names;
-    for (const std::string& effect : h.effects) names += (names.empty() ? "" : " + ") + effect;
+    for (const std::string& effect : h.effects)
+      names += (names.empty() ? "" : " + ") + (effect == unlisted_effect ? "something in no list" : effect);
     text +=
         fmt::format("  {:>5.1f} %  {}\n", 100 * h.probability, names.empty() ? "nothing is missing" : names);
   }

@@ -11,6 +11,7 @@
 #include "rules.hpp"
 #include "sentences.hpp"
 #include "setup_file.hpp"
+#include "unlisted_force.hpp"
 #include "verdict.hpp"
 
 namespace shakedown {
@@ -117,7 +118,7 @@ LadderStep step_of(const std::string& name, const SwingError& swing, const Swing
 /// What the balance found goes into the user's setup.
 void amend(const Setup& user, std::span<const EffectRecord* const> known, Diagnosis& d) {
   d.amended = user;
-  if (d.momentum.unlisted) return;
+  if (d.momentum.unlisted) d.amended = with_force(user, sum_of(d.momentum.formulas), known);
   for (const FoundTerm& term : d.momentum.terms) {
     if (find_choice(user, term.effect) == nullptr) d.missing.push_back(term.effect);
     for (const auto& [key, value] : term.besides) set_number(d.amended, key, value, known);
@@ -162,7 +163,9 @@ void conclude_empty_box(const Setup& user, const Measurement& measurement, const
     return;
   }
   for (const WeighedSet& set : balance.sets) d.hypotheses.push_back({set.effects, 0, set.probability});
-  settle_hypotheses(d);
+  Findings findings;
+  findings.unlisted = balance.unlisted, findings.balance_p = balance.final_fit.p_value;
+  settle_hypotheses(d, findings);
   d.camera = balance.nuisances;
   amend(user, known, d);
   SwingError noise;
@@ -174,6 +177,7 @@ void conclude_empty_box(const Setup& user, const Measurement& measurement, const
   d.explained = given.chi2 > 0 ? 1 - final.chi2 / given.chi2 * given.frames / std::max(1.0, final.frames) : 0;
   std::string step = "refitted";
   for (const std::string& effect : d.missing) step += " + " + effect;
+  if (balance.unlisted) step += " + the force of the formula";
   d.ladder.push_back(step_of("as given", given, noise, balance.as_given));
   d.ladder.push_back(step_of(step, final, noise, balance.final_fit));
   // What takes nearly all of the misfit away is found, though small remains may have no name.

@@ -49,6 +49,25 @@ void weigh(std::vector<Hypothesis>& table) {
                    [](const Hypothesis& a, const Hypothesis& b) { return a.probability > b.probability; });
 }
 
+double probability_of_something_else(double p_value) {
+  const double prior = rules::something_else / (1 - rules::something_else);
+  double odds = prior;
+  if (p_value < 1 / std::numbers::e) {
+    const double p = std::max(p_value, 1e-300);
+    odds /= -std::numbers::e * p * std::log(p);
+  }
+  return odds / (1 + odds);
+}
+
+std::vector<Hypothesis> with_something_else(std::vector<Hypothesis> table, double probability) {
+  for (Hypothesis& h : table) h.probability *= 1 - probability;
+  table.push_back(
+      {{unlisted_effect}, std::log(probability / std::max(1 - probability, 1e-300)), probability});
+  std::stable_sort(table.begin(), table.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.probability > b.probability; });
+  return table;
+}
+
 std::vector<Hypothesis> answer_set(const std::vector<Hypothesis>& table) {
   std::vector<Hypothesis> set;
   double sum = 0;

@@ -39,6 +39,17 @@ double believed_gain(double linear, double fitted);
 /// Fills in probabilities; most probable first.
 void weigh(std::vector<Hypothesis>& table);
 
+/// What stands in a hypothesis for physics that no list has.
+constexpr const char* unlisted_effect = "unknown";
+
+/// Probability that something in no list is missing from a model of this p-value: prior
+/// rules::something_else, and the most that a p-value can say against a model (Sellke, Bayarri and Berger
+/// 2001, Am. Stat. 55: -e p ln p). A p-value that is no number leaves the prior.
+double probability_of_something_else(double p_value);
+
+/// The table with so much probability given to something in no list, the rest kept in proportion.
+std::vector<Hypothesis> with_something_else(std::vector<Hypothesis> table, double probability);
+
 /// The first hypotheses that together hold rules::answer_set; `table` is weighed.
 std::vector<Hypothesis> answer_set(const std::vector<Hypothesis>& table);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every number with which a diagnosis decides: value, unit, source. `shakedown diagnose --rules` prints them.
+// Every number with which a diagnosis decides: value, unit, source. The README of this folder lists them.
 #pragma once
 #include <span>
 #include <string_view>
@@ -26,6 +26,10 @@ constexpr Rule expected_effects{
     "expected_effects", 0.5, "effects",
     "an experiment hides half an effect beforehand: as many hide something as hide "
     "nothing, rounded down"};
+constexpr Rule something_else{
+    "something_else", 0.02, "probability",
+    "of fifty experiments one shows physics that no list has: an assumption; the p-value of the final model "
+    "weighs it"};
 constexpr Rule emulator_noise{
     "emulator_noise", 12.6, "chi2",
     "rms difference of the fitted gains of two effects whose signatures agree (260 null "

@@ -115,9 +115,7 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
   const std::string stage = "trying " + candidate.effect;
   state.fit = tools.fit(state, stage, knobs, costly ? effort::attempt_when_dear : effort::attempt,
                         &before.fit, lowest);
-  // A second minimum matters only where the first one does not explain the data.
-  if (state.fit.p_value <= rules::doubtful &&
-      std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; })) {
+  if (std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; })) {
     const Refit other = tools.fit(state, stage + " from elsewhere", second_start(state.fit, added),
                                   effort::attempt, &before.fit, std::min(lowest, state.fit.judged_chi2));
     if (other.judged_chi2 < state.fit.judged_chi2) state.fit = other;
@@ -214,7 +212,6 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   const bool in_doubt = state.fit.p_value <= rules::doubtful || has_strayed(state.fit);
   double lowest = state.fit.judged_chi2;
   int tried = 0;
-  bool mended = false;
   const auto attempt = [&](Rival& rival) {
     if (tried >= static_cast<int>(rules::most_tried) || (tools.spent() && tried > 0)) return;
     ++tried;
@@ -222,17 +219,18 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
       fit_rival(rival, state, tools, lowest);
       lowest = std::min(lowest, rival.state.fit.judged_chi2);
       weigh_rival(rival, all);
-      mended = mended || (rival.state.fit.p_value > rules::doubtful && rival.log_odds > 0);
     } catch (const PhysicsError& error) {
       round.notes.push_back(rival.candidate->effect + " could not be tried: " + error.what());
     }
   };
   // What a linear estimate promises goes first; what only its full strength shows has its turn where the
-  // model is in doubt and nothing has mended it.
+  // model is in doubt, or where something would be added that it may imitate.
   for (Rival* rival : order)
     if (!rival->candidate->always && rival->log_odds > 0) attempt(*rival);
+  const bool promising = std::any_of(rivals.begin(), rivals.end(),
+                                     [](const Rival& rival) { return rival.fitted && rival.log_odds > 0; });
   for (Rival* rival : order)
-    if (rival->candidate->always && in_doubt && !mended) attempt(*rival);
+    if (rival->candidate->always && (in_doubt || promising)) attempt(*rival);
   for (Rival* rival : order) {
     if (!rival->candidate->always || rival->fitted) round.ranking.push_back(ranked_as(*rival));
     if (std::isfinite(rival->log_odds) && (!rival->candidate->always || rival->fitted))

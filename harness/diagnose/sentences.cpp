@@ -74,7 +74,10 @@ std::string ties_in_words(const Diagnosis& d) {
   if (ties.empty()) return "";
   std::string words = " These measurements do not rule out ";
   for (std::size_t i = 0; i < ties.size(); ++i)
-    words += (i == 0 ? "" : i + 1 < ties.size() ? ", " : " or ") + ties[i];
+    words += (i == 0                ? ""
+              : i + 1 < ties.size() ? ", "
+                                    : " or ") +
+             (ties[i] == unlisted_effect ? "something in no list" : ties[i]);
   return words + (d.missing.empty() ? "." : " beside or instead of it.");
 }
 

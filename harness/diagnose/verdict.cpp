@@ -17,6 +17,13 @@ Verdict verdict_of(const Findings& findings) {
   return findings.refitted ? Verdict::refit : Verdict::adequate;
 }
 
+double worst_p_value(const Findings& findings) {
+  const double of_features = findings.scatter < rules::codes_differ
+                                 ? std::max<double>(findings.p_value, rules::holds)
+                                 : findings.far_p_value;
+  return std::min(of_features, findings.balance_p);
+}
+
 bool explains(double p_value, double scatter, double scatter_before, double error, double floor) {
   if (p_value > rules::holds || scatter <= 2 * rules::codes_differ) return true;
   constexpr double most = 0.6;  // of the misfit: more than half must go

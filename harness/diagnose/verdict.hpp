@@ -13,9 +13,14 @@ struct Findings {
   bool refitted = false;            ///< parameters had to move
   bool camera_stands_out = false;   ///< something of the camera explains the recording
   double p_value = 1, scatter = 1;  ///< of the final model
+  double far_p_value = 1;           ///< the same below what pseudo-experiments can count
   double balance_p = 1;             ///< of the final balance; 1: there is none
 };
 Verdict verdict_of(const Findings& findings);
+
+/// The p-value that weighs something in no list against the final model: the worse of features and balance.
+/// Misfits that two codes of the same physics have count no more than rules::holds.
+double worst_p_value(const Findings& findings);
 
 /// An effect that leaves a rejected model with most of the misfit, or with errors far above noise and chaos,
 /// is no explanation. `before`: without it.

@@ -7,6 +7,7 @@
 
 #include "feature_covariance.hpp"
 #include "random.hpp"
+#include "robust_statistics.hpp"
 
 namespace shakedown {
 
@@ -93,6 +94,9 @@ void FitRound::calibrate(const Eigen::VectorXd& z, double observed, Refit& resul
   result.p_value = (1.0 + worse) / (1.0 + pseudo_experiments);
   result.degrees = sums[sums.size() / 2];
   result.scatter = observed / result.degrees;
+  const Eigen::Map<const Eigen::ArrayXd> all(sums.data(), std::ssize(sums));
+  const double mean = all.mean(), effective = 2 * mean * mean / (all - mean).square().mean();
+  result.far_p_value = std::min(result.p_value, chi_squared_tail(observed * effective / mean, effective));
   for (std::size_t r = 0; r < measured_.size(); ++r) residuals[r] = measured_[r].values - model(r, z);
   result.cells = judge_cells(cells, residuals, spreads, cell_rows);
 }

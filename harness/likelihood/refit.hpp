@@ -42,8 +42,10 @@ struct Refit {
   std::vector<FittedValue> values;
   Eigen::MatrixXd covariance;  ///< of the values, in their units
   double chi2 = 0, degrees = 0;
-  double p_value = 1;  ///< share of pseudo-experiments that, refitted, fit no better
-  double scatter = 1;  ///< chi2 over the median of the pseudo-experiments'
+  double p_value = 1;      ///< share of pseudo-experiments that, refitted, fit no better
+  double far_p_value = 1;  ///< the same by a chi2 distribution of the pseudo-experiments' mean and variance:
+                           ///< below what their number can tell
+  double scatter = 1;      ///< chi2 over the median of the pseudo-experiments'
   std::vector<RunComparison> runs;
   std::vector<FailureCell> cells;  ///< worst first
   /// Each box length predicted from a fit to the others, rms of the box, m; NaN with one length only.

@@ -148,6 +148,20 @@ TEST(Evidence, IndependentTablesMultiply) {
               1e-12);
 }
 
+TEST(Evidence, SomethingInNoListIsWeighedByThePValue) {
+  const double prior = rules::something_else;
+  EXPECT_NEAR(probability_of_something_else(0.9), prior, 1e-12);
+  EXPECT_NEAR(probability_of_something_else(std::nan("")), prior, 1e-12);
+  EXPECT_NEAR(probability_of_something_else(0.01), 0.14, 0.01);  // odds of 1/49 over 0.125
+  EXPECT_GT(probability_of_something_else(1e-6), 0.99);
+  EXPECT_LE(probability_of_something_else(0), 1);
+  const std::vector<Hypothesis> table = with_something_else({{{"a"}, 3, 0.8}, {{}, 0, 0.2}}, 0.5);
+  ASSERT_EQ(table.size(), 3u);
+  EXPECT_EQ(table.front().effects, std::vector<std::string>{unlisted_effect});
+  EXPECT_NEAR(sum_of(table), 1, 1e-12);
+  EXPECT_NEAR(table[1].probability, 0.4, 1e-12);
+}
+
 TEST(Evidence, TiesAreWhatItMayBeInstead) {
   EXPECT_EQ(ties_of({{{"a"}, 0, 0.5}, {{"a", "b"}, 0, 0.2}, {{"c"}, 0, 0.2}, {{"b"}, 0, 0.06}}),
             (std::vector<std::string>{"b", "c"}));
