@@ -69,8 +69,18 @@ std::string what_remains(const Diagnosis& d) {
 
 std::string ties_in_words(const Diagnosis& d) {
   std::vector<std::string> ties;
+  // Something in no list is never ruled out: it is worth a word where it is as probable as what an answer
+  // leaves out.
+  const auto hardly = [&](const std::string& tie) {
+    return tie == unlisted_effect &&
+           std::none_of(d.answers.begin(), d.answers.end(), [](const Hypothesis& h) {
+             return !h.effects.empty() && h.effects.front() == unlisted_effect &&
+                    h.probability > 1 - rules::answer_set;
+           });
+  };
   for (const std::string& tie : ties_of(d.answers))
-    if (std::find(d.missing.begin(), d.missing.end(), tie) == d.missing.end()) ties.push_back(tie);
+    if (std::find(d.missing.begin(), d.missing.end(), tie) == d.missing.end() && !hardly(tie))
+      ties.push_back(tie);
   if (ties.empty()) return "";
   std::string words = " These measurements do not rule out ";
   for (std::size_t i = 0; i < ties.size(); ++i)

@@ -2,7 +2,6 @@
 // The linear ranking of effects, where the truth is a hard-sphere model with a known strength.
 #include <gtest/gtest.h>
 
-#include "camera_features.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
 #include "hidden_measurements.hpp"
@@ -21,7 +20,7 @@ ScreenedEffect screened(const std::string& hidden, const std::string& candidate)
       {hidden.empty() ? std::vector<std::string>{} : std::vector{hidden}, {}, {}, {0.065, 0.104}, 3, "4 s"},
       "hard");
   const std::vector<MeasuredFeatures> features =
-      features_with_camera(measurement_of(setup, experiment, all_effects()), all_effects());
+      features_of(measurement_of(setup, experiment, all_effects()));
   Workshop workshop;
   workshop.engine = engine.get();
   workshop.known = all_effects();

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // "An effect is one file and one line", for the diagnosis too: two effects that the library lacks, each added
-// to the list and to nothing else, are hidden by the laboratory and found by name.
+// to the list and to nothing else, are hidden by the laboratory and looked for.
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "blind_case.hpp"
 #include "effects.hpp"
@@ -43,8 +45,15 @@ TEST(SlowOwnEffect, ABrakeOfTheBoxIsFound) {
   EXPECT_EQ(found.missing, std::vector<std::string>{"eddy_brake"}) << found.sentence;
 }
 
-TEST(SlowOwnEffect, AContactEffectIsFound) {
+// Felt on the end walls takes energy as another restitution of the walls does: the answer names it or says
+// that it cannot be ruled out, and names nothing else.
+TEST(SlowOwnEffect, AContactEffectIsInQuestion) {
   const Diagnosis found = diagnosis_of(effect::felt_end_walls, "felt_end_walls.loss", 0.5);
-  EXPECT_EQ(found.verdict, Verdict::missing) << found.sentence;
-  EXPECT_EQ(found.missing, std::vector<std::string>{"felt_end_walls"}) << found.sentence;
+  for (const std::string& effect : found.missing) EXPECT_EQ(effect, "felt_end_walls") << found.sentence;
+  const bool in_question =
+      std::any_of(found.answers.begin(), found.answers.end(), [](const Hypothesis& answer) {
+        return std::find(answer.effects.begin(), answer.effects.end(), "felt_end_walls") !=
+               answer.effects.end();
+      });
+  EXPECT_TRUE(in_question) << found.sentence;
 }
