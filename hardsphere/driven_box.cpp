@@ -73,9 +73,10 @@ DrivenBox::DrivenBox(const Physics& physics, double x, double v, double time)
       angular_frequency_(std::sqrt(physics.stiffness / physics.box_mass)),
       cubic_(physics.spring_cubic),
       forces_(physics.box),
+      dahl_(physics.box.dahl),
       accounted_(time) {
   const double damping = forces_.viscous.sum() / (2 * mass_), w2 = angular_frequency_ * angular_frequency_;
-  needs_dense_ = cubic_ != 0 || !forces_.free.empty() || damping >= 0.99 * angular_frequency_;
+  needs_dense_ = cubic_ != 0 || !forces_.free.empty() || dahl_.any() || damping >= 0.99 * angular_frequency_;
   for (const Harmonic& harmonic : forces_.harmonics) {
     const double drive = 2 * std::numbers::pi * harmonic.frequency, detuning = w2 - drive * drive;
     const double width = 2 * damping * drive, size = detuning * detuning + width * width;
@@ -92,10 +93,12 @@ DrivenBox::DrivenBox(const Physics& physics, double x, double v, double time)
     for (const auto& share : slot->shares()) grow(share.effect);
   for (const Harmonic& harmonic : forces_.harmonics) grow(harmonic.effect);
   for (const FreeForce& force : forces_.free) grow(force.effect);
+  for (const DahlFriction& joint : forces_.dahl) grow(joint.effect);
   restart(time, x, v);
 }
 
 void DrivenBox::restart(double t, double x, double v) {
+  dahl_.turn(x, 0);
   time_ = t;
   x_ = x;
   v_ = v;
@@ -107,13 +110,13 @@ void DrivenBox::go_on() {
   account(valid_until_);
   // A standstill closer than the resolution of time counts as now: else pieces would begin without end.
   const double least = std::max(1e-12 * (top_speed() + 1e-6), 5e-16 * valid_until_ * top_acceleration_);
-  const bool turning = forces_.dry_friction.sum() > 0 && std::abs(point.v) <= least;
+  const bool turning = rubs() && std::abs(point.v) <= least;
   restart(valid_until_, point.x, turning ? 0.0 : point.v);
 }
 
-/// All forces on the box but dry friction and grains, N.
+/// All forces on the box but dry friction (-F sgn v) and grains, N.
 double DrivenBox::smooth_force(double x, double v, double t) const {
-  const double force = forces_.newton(x, v, t, -stiffness_ * x * (1 + cubic_ * x * x));
+  const double force = forces_.newton(x, v, t, -stiffness_ * x * (1 + cubic_ * x * x)) + dahl_.newton(x);
   if (!std::isfinite(force))
     throw PhysicsError("the force on the box is not finite at x = " + std::to_string(x) +
                        " m, v = " + std::to_string(v) + " m/s, t = " + std::to_string(t) +
@@ -123,10 +126,12 @@ double DrivenBox::smooth_force(double x, double v, double t) const {
 
 void DrivenBox::begin() {
   double friction = 0;
-  if (const double most = forces_.dry_friction.sum(); most > 0) {
-    const double pull = smooth_force(x_, v_, time_);
+  if (rubs()) {
+    const double most = forces_.dry_friction.sum(), pull = smooth_force(x_, v_, time_);
     if (v_ == 0 && std::abs(pull) <= most * (1 + 1e-13)) return begin_stuck();
-    friction = -most * sign_of(v_ != 0 ? v_ : pull);
+    direction_ = sign_of(v_ != 0 ? v_ : pull);
+    friction = -most * direction_;
+    dahl_.turn(x_, direction_);
   }
   if (needs_dense_)
     begin_dense(friction);
@@ -183,11 +188,10 @@ void DrivenBox::begin_stuck() {
 /// First time after the start at which the box stands still, found from below with a bound on its jerk.
 double DrivenBox::first_standstill(double jerk_bound) const {
   if (jerk_bound <= 0) return infinity;
-  const double direction = -sign_of(friction_);
   double t = time_;
   const double end = piece_ == Piece::dense ? time_ + length_ : infinity;
   for (int iteration = 0; iteration < 1000; ++iteration) {
-    const double speed = std::max(0.0, direction * at(t).v), rate = direction * acceleration_at(t);
+    const double speed = std::max(0.0, direction_ * at(t).v), rate = direction_ * acceleration_at(t);
     const double root = std::sqrt(rate * rate + 2 * jerk_bound * speed);
     const double step = rate >= 0 ? (rate + root) / jerk_bound : 2 * speed / (root - rate);
     t += step;
@@ -223,7 +227,11 @@ void DrivenBox::begin_dense(double friction_force) {
   const double gained = top_acceleration_ * length;
   top_reach_ = {std::abs(x_) + (std::abs(v_) + gained) * length, std::abs(v_) + gained};
   valid_until_ = time_ + length;
-  if (forces_.dry_friction.sum() > 0) valid_until_ = std::min(valid_until_, first_standstill(jerk));
+  if (!rubs()) return;
+  // Where yielding alone resists, the force has no jump at a turning point: one that comes at once is passed
+  // by less than 1e-17 m, lest pieces without length follow each other.
+  const double at_once = forces_.dry_friction.sum() > 0 ? time_ : time_ + 1e-9;
+  valid_until_ = std::min(valid_until_, std::max(first_standstill(jerk), at_once));
 }
 
 /// Solves the collocation equations by fixed-point iteration; false when the piece is too long for the
@@ -303,6 +311,7 @@ void DrivenBox::account(double t) {
       add(-stiffness_ * p.x, -1);
       if (cubic_ != 0) add(-stiffness_ * cubic_ * p.x * p.x * p.x, -1);  // stored, like the linear spring's
       forces_.each(p.x, p.v, time, add);
+      dahl_.each(p.x, add);
       if (const double most = forces_.dry_friction.sum(); most > 0) {
         const double friction = piece_ == Piece::stuck ? -smooth_force(p.x, 0, time) : friction_;
         for (const auto& share : forces_.dry_friction.shares())

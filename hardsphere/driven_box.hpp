@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Flight of the box between kicks when more than its linear spring acts on it:
-//   M x'' = -k x (1 + b x^2) - c x' - F sgn x' + constant + sum of harmonics + free forces
+//   M x'' = -k x (1 + b x^2) - c x' - F sgn x' + constant + sum of harmonics + free forces + Dahl's friction
 // Linear terms in closed form; dry friction as a sequence of closed forms from one turning point to the next,
 // with sticking; the rest by Gauss-Legendre collocation (8 nodes, a polynomial of degree 9 in time) on pieces
 // short enough that the last term of the acceleration's expansion moves the box by less than 1e-14 m.
@@ -60,6 +60,7 @@ class DrivenBox {
   };
   static constexpr std::size_t nodes = 8;
 
+  bool rubs() const { return forces_.dry_friction.sum() > 0 || dahl_.any(); }
   void begin();
   void begin_closed(double friction_force);
   void begin_stuck();
@@ -78,6 +79,8 @@ class DrivenBox {
   Point top_reach_{0, 0};
   Piece piece_ = Piece::closed;
   double friction_ = 0;  // N, force of dry friction in this piece
+  DahlState dahl_;
+  double direction_ = 0;  // of the motion in this piece where a friction acts
   // closed: centre + responses + exp(-g s) (a cos w s + b sin w s), s = t - time
   double centre_ = 0, a_ = 0, b_ = 0, decay_ = 0, damped_frequency_ = 0;
   std::vector<Response> responses_;

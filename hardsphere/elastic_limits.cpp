@@ -23,7 +23,7 @@ constexpr double dead_restitution = 0.5;
 bool is_pressed(const Physics& physics, const FallingFrame& frame) {
   return physics.contact.has_friction() || physics.contact.has_attraction() ||
          physics.grains.arc_length != 0 || !frame.at_rest() || !physics.grains.free.empty() ||
-         physics.box.dry_friction.sum() > 0;
+         physics.box.dry_friction.sum() > 0 || !physics.box.dahl.empty();
 }
 
 }  // namespace

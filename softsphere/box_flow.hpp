@@ -10,6 +10,7 @@ namespace shakedown {
 /// each force as further components. A soft step is a 50 000th of the box's period, so its error, (Omega
 /// step)^5 / 120 of the state, is below rounding. Dry friction is piecewise smooth: the moment at which the
 /// box stops is found, and it stays stopped when the other forces cannot overcome the clamp.
+/// Dahl's friction is a closed form of the position from one stop to the next.
 class BoxFlow {
  public:
   explicit BoxFlow(const Physics& physics);
@@ -28,11 +29,13 @@ class BoxFlow {
   void rotate(double step, double& x, double& v);
   void advance_with_effects(double time, double step, Phase& now, Accounts& accounts);
   double force(double t, double x, double v) const;
+  void rub(double time, double step, Phase& now, Accounts& accounts);
   Phase integrate(double time, double step, Phase from, double sliding);
   double time_of_stop(double time, double step, Phase from, double sliding);
 
   double mass_, stiffness_, cubic_;
   BoxForces forces_;
+  DahlState dahl_;
   bool plain_;
   std::vector<Work> works_;  // of each force in the last call of integrate()
   double prepared_step_ = -1, cosine_less_one_ = 0, sine_over_rate_ = 0, rate_times_sine_ = 0;

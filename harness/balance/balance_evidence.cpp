@@ -64,6 +64,17 @@ struct Projected {
   double chi2 = 0, log_determinant = 0;
 };
 
+/// Where a term's column goes: at the end, or in the place of the same strength with another shape, of which
+/// the one that gains most alone is weighed.
+std::ptrdiff_t place_of(const SelectionProblem& p, const std::vector<int>& terms, int term) {
+  const std::string& shape = p.known[static_cast<std::size_t>(term)].shape;
+  return std::find_if(terms.begin(), terms.end(),
+                      [&](int other) {
+                        return !shape.empty() && p.known[static_cast<std::size_t>(other)].shape == shape;
+                      }) -
+         terms.begin();
+}
+
 Projected projected(const SelectionProblem& p, const std::vector<ChosenTerm>& base) {
   const Eigen::MatrixXd free = columns_of(p, base);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(free);
@@ -84,8 +95,15 @@ Projected projected(const SelectionProblem& p, const std::vector<ChosenTerm>& ba
     // What leaves no trace, or merely scales what is left (a camera's scale), is not seen here.
     const double along = left.dot(impulse) / std::max(out.chi2, 1e-300);
     if (!((left - along * impulse).squaredNorm() > 1e-6 * column.squaredNorm())) continue;
-    columns.col(std::ssize(out.term)) = left;
-    out.term.push_back(term);
+    const std::ptrdiff_t place = place_of(p, out.term, term);
+    const auto gain = [&](const auto& one) { return std::pow(one.dot(impulse), 2) / one.squaredNorm(); };
+    if (place == std::ssize(out.term))
+      out.term.push_back(term);
+    else if (gain(left) > gain(columns.col(place)))
+      out.term[static_cast<std::size_t>(place)] = term;
+    else
+      continue;
+    columns.col(place) = left;
   }
   columns.conservativeResize(Eigen::NoChange, std::ssize(out.term));
   out.gram = columns.transpose() * columns;
@@ -110,11 +128,19 @@ double prior_odds(const SelectionProblem& p, double odds) {
   return std::log(each / (1 - each));
 }
 
+/// Two frictions that turn with the motion are one joint seen twice: of a yielding and a dry one any travel
+/// between could be mixed.
+bool rubs_twice(const SelectionProblem& p, const Projected& q, const std::vector<std::size_t>& set) {
+  return std::count_if(set.begin(), set.end(),
+                       [&](std::size_t i) { return p.known[static_cast<std::size_t>(q.term[i])].dry; }) > 1;
+}
+
 /// ln odds of a set over nothing; -infinity where a strength has the wrong sign, is out of its bounds, or is
 /// an effect twice.
 double log_odds_of(const SelectionProblem& p, const Projected& q, const std::vector<std::size_t>& set,
                    double& gain) {
   constexpr double impossible = -std::numeric_limits<double>::infinity();
+  if (rubs_twice(p, q, set)) return impossible;
   const auto n = std::ssize(set);
   Eigen::MatrixXd gram(n, n);
   Eigen::VectorXd overlap(n), scale(n);

@@ -9,6 +9,7 @@
 #include "effect_strength.hpp"
 #include "force_formula.hpp"
 #include "robust_statistics.hpp"
+#include "shape_found.hpp"
 #include "wander_choice.hpp"
 
 namespace shakedown {
@@ -65,6 +66,7 @@ std::vector<std::string> look_alikes(const SelectionProblem& p, const std::vecto
     for (const ChosenTerm& c : set.chosen) {
       if (!p.is_known(c.term) || c.term == 0 || has(best, c.term)) continue;
       const std::string& name = p.known[static_cast<std::size_t>(c.term)].effect;
+      if (name == p.known[static_cast<std::size_t>(which)].effect) continue;  // of another shape
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
   }
@@ -118,6 +120,11 @@ std::vector<SingleTerm> ranking_of(const SelectionProblem& p, const Selection& r
   }
   std::stable_sort(ranking.begin(), ranking.end(),
                    [](const SingleTerm& a, const SingleTerm& b) { return a.gain > b.gain; });
+  // Of one effect the shape that gains most.
+  for (auto one = ranking.begin(); one != ranking.end(); ++one)
+    ranking.erase(std::remove_if(one + 1, ranking.end(),
+                                 [&](const SingleTerm& other) { return other.effect == one->effect; }),
+                  ranking.end());
   return ranking;
 }
 
@@ -157,9 +164,16 @@ std::vector<WeighedSet> sets_in_words(const SelectionProblem& p, const std::vect
       if (std::find(set.effects.begin(), set.effects.end(), name) == set.effects.end())
         set.effects.push_back(name);
     }
-    sets.push_back(std::move(set));
+    const auto same = std::find_if(sets.begin(), sets.end(),
+                                   [&](const WeighedSet& other) { return other.effects == set.effects; });
+    if (same == sets.end())
+      sets.push_back(std::move(set));
+    else
+      same->probability += set.probability;  // of another shape
     if ((sum += hypothesis.probability) > shown) break;
   }
+  std::stable_sort(sets.begin(), sets.end(),
+                   [](const WeighedSet& a, const WeighedSet& b) { return a.probability > b.probability; });
   return sets;
 }
 
@@ -317,6 +331,7 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
       sets = weighed(p, options);
     }
   }
+  if (find_shapes(p, sets.front().chosen)) sets = weighed(p, options);
   // Faster sines than these windows see need shorter ones, which must still hold ten frames.
   const bool enough_frames = std::all_of(
       balance.runs().begin(), balance.runs().end(),

@@ -77,6 +77,25 @@ void smooth(MomentumRun& run) {
     }
 }
 
+/// Force on the box of joints that yield, N, along its smoothed path. Where it turns between two frames comes
+/// from the velocities there.
+Eigen::ArrayXd yielding_force(const MomentumRun& run, const std::vector<DahlFriction>& joints) {
+  DahlState state(joints);
+  Eigen::ArrayXd force = Eigen::ArrayXd::Zero(run.time.size());
+  double at = run.x_smooth[0];
+  const auto go = [&](double to) {
+    state.turn(at, to > at ? 1 : -1);
+    at = to;
+  };
+  for (Eigen::Index i = 1; i < force.size(); ++i) {
+    const double before = run.v_smooth[i - 1], after = run.v_smooth[i];
+    if (before * after < 0) go(run.x_smooth[i - 1] + before * run.interval * before / (before - after) / 2);
+    go(run.x_smooth[i]);
+    force[i] = state.newton(at);
+  }
+  return force;
+}
+
 void add_model_forces(const Physics& physics, int grains, MomentumRun& run) {
   const Eigen::Index n = run.time.size();
   run.model_force = run.model_force_dx = run.model_force_dv = Eigen::ArrayXd::Zero(n);
@@ -92,7 +111,7 @@ void add_model_forces(const Physics& physics, int grains, MomentumRun& run) {
       force += grains * f.newton(x, v, t);  // each grain near the box: no better known
     return force;
   };
-  run.dry_friction = box.dry_friction.sum() > 0;
+  run.dry_friction = box.dry_friction.sum() > 0 || !box.dahl.empty();
   run.viscous = box.viscous.sum();
   const Eigen::ArrayXd sign = known_sign(run).sign;
   constexpr double dx = 1e-5, dv = 1e-4;  // below the noise of x and v, far above rounding
@@ -102,6 +121,7 @@ void add_model_forces(const Physics& physics, int grains, MomentumRun& run) {
     run.model_force_dx[i] = (smooth_force(x + dx, v, t) - smooth_force(x - dx, v, t)) / (2 * dx);
     run.model_force_dv[i] = (smooth_force(x, v + dv, t) - smooth_force(x, v - dv, t)) / (2 * dv);
   }
+  if (!box.dahl.empty()) run.model_force += yielding_force(run, box.dahl);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ struct MomentumRun {
   /// is minus d/dt of `viscous` times x_box: no velocity is needed.
   Eigen::ArrayXd model_force;
   double viscous = 0;         ///< N s/m
-  bool dry_friction = false;  ///< model_force has one: it is no force -F sgn v while the box sticks
+  bool dry_friction = false;  ///< model_force has one that turns with the motion: unknown while the box rests
   Eigen::ArrayXd model_force_dx, model_force_dv;  ///< N/m, N s/m, by the box's position and velocity
   std::vector<char> usable;                       ///< frame measured or well interpolated
   std::vector<char> box_filled, com_filled;       ///< position interpolated

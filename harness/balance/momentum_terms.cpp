@@ -64,9 +64,28 @@ MomentumTerm term_of(const EffectRecord& record, const Search& search, const Sea
     for (const auto& [parameter, value] : search.besides)
       term.besides.emplace_back(std::string(record.name) + "." + std::string(parameter), value);
   if (!there) fix_scale_of_release(record, setup, known, term);
-  const auto dry = [](const Setup& of) { return physics_of(of).box.dry_friction.sum() > 0; };
+  const auto dry = [](const Setup& of) {
+    const BoxForces box = physics_of(of).box;
+    return box.dry_friction.sum() > 0 || !box.dahl.empty();
+  };
   term.dry = !dry(setup) && dry(with_strength(setup, term, term.typical, known));
   return term;
+}
+
+/// The term, or one for each value of its shape where the setup does not say it.
+void add_shapes(const EffectRecord& record, const Search& search, const MomentumTerm& term,
+                std::vector<MomentumTerm>& terms) {
+  const std::string key =
+      search.shape ? std::string(record.name) + "." + std::string(search.shape->parameter) : "";
+  const auto is_shape = [&](const auto& beside) { return beside.first == key; };
+  if (std::none_of(term.besides.begin(), term.besides.end(), is_shape)) return terms.push_back(term);
+  for (const double value : search.shape->values) {
+    terms.push_back(term);
+    MomentumTerm& shaped = terms.back();
+    shaped.shape = key;
+    shaped.odds = term.odds / static_cast<double>(search.shape->values.size());
+    std::find_if(shaped.besides.begin(), shaped.besides.end(), is_shape)->second = value;
+  }
 }
 
 }  // namespace
@@ -101,7 +120,7 @@ std::vector<MomentumTerm> momentum_terms(const Setup& setup, std::span<const Eff
     for (const SearchedStrength& searched : search.strengths) {
       // What moves several parameters at once, or replaces a key of the setup, lies inside the contacts.
       if (searched.parameters.find('&') != std::string_view::npos || !searched.absent_key.empty()) continue;
-      terms.push_back(term_of(*record, search, searched, setup, known));
+      add_shapes(*record, search, term_of(*record, search, searched, setup, known), terms);
     }
   }
   return terms;

@@ -30,12 +30,14 @@ struct MomentumTerm {
   TermKind kind = TermKind::physics;
   bool never_negative = false;  ///< a drag cannot push
   bool inverse = false;         ///< the strength is 1/parameter^2
-  bool dry = false;             ///< a friction: a box that sticks does not feel it as a force -F sgn v
-  double present = 0;           ///< of the setup, as a strength
-  double typical = 0;           ///< scale of the prior, as a strength
-  double least = 0, most = 0;   ///< of the parameter
-  double odds = 1;              ///< how likely beside a usual effect
+  bool dry = false;            ///< a friction that turns with the motion: a set of terms has one at most, and
+                               ///< a box at rest does not feel it as the column says
+  double present = 0;          ///< of the setup, as a strength
+  double typical = 0;          ///< scale of the prior, as a strength
+  double least = 0, most = 0;  ///< of the parameter
+  double odds = 1;             ///< how likely beside a usual effect
   std::vector<std::pair<std::string, double>> besides{};  ///< keys that its presence needs besides, SI
+  std::string shape{};  ///< key among them that the balance finds too; empty: none
 
   std::string key() const { return effect + "." + parameter; }
   /// The parameter at this strength beyond the setup's, within its bounds.

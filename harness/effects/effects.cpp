@@ -17,6 +17,7 @@
   EFFECT(blade_viscous_damping)          \
   EFFECT(blade_quadratic_drag)           \
   EFFECT(clamp_dry_friction)             \
+  EFFECT(clamp_dahl_friction)            \
   EFFECT(spring_cubic)                   \
   EFFECT(blade_mass)                     \
   EFFECT(initial_box_velocity)           \

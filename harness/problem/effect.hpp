@@ -96,11 +96,19 @@ struct SearchedHarmonic {
   std::string_view amplitude{}, frequency{}, phase{};  ///< parameters; of an amplitude the component
 };
 
+/// A length or time that shapes the law and that no strength tells. The momentum balance takes each value as
+/// an alternative of its own and then looks between its neighbours; all else takes the value in `besides`.
+struct SearchedShape {
+  std::string_view parameter{};
+  std::vector<double> values{};  ///< SI, ascending
+};
+
 /// How a diagnosis looks for an effect. Left empty it is made from the parameters: see search_of().
 struct Search {
   std::vector<SearchedStrength> strengths{};                   ///< each an alternative of its own (x, y, z)
   std::vector<std::pair<std::string_view, double>> besides{};  ///< parameters that its presence needs, SI
   std::optional<SearchedHarmonic> harmonic{};
+  std::optional<SearchedShape> shape{};
   /// Cost of a run with it: plain as one without, slow three to five times that, dear ten times that.
   enum class Cost { plain, slow, dear } cost = Cost::plain;
   /// How likely it is in such an experiment beside a usual effect (viscous damping, friction): a prior.

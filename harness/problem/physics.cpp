@@ -12,7 +12,7 @@ double Harmonic::at(double t) const {
 
 bool BoxForces::none() const {
   return viscous.sum() == 0 && dry_friction.sum() == 0 && constant.sum() == 0 && harmonics.empty() &&
-         free.empty();
+         free.empty() && dahl.empty();
 }
 
 double BoxForces::newton(double x, double v, double t, double spring) const {

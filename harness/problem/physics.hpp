@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "dahl_friction.hpp"
 #include "setup.hpp"
 
 namespace shakedown {
@@ -94,9 +95,10 @@ struct BoxForces {
   Slot<double> constant;            ///< N
   std::vector<Harmonic> harmonics;  ///< N
   std::vector<FreeForce> free;      ///< anything else
+  std::vector<DahlFriction> dahl;   ///< depends on the path: DahlState
 
   bool none() const;  ///< nothing acts
-  /// All but dry friction, of a box at x (m) with velocity v (m/s) at time t (s), added to the force of its
+  /// All but the frictions, of a box at x (m) with velocity v (m/s) at time t (s), added to the force of its
   /// spring, N.
   double newton(double x, double v, double t, double spring = 0) const;
   /// Calls use(newton, effect) for every contribution to newton(), the spring left out.

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "balance_problem.hpp"
+#include "dahl_friction.hpp"
 #include "effects.hpp"
 #include "momentum.hpp"
 #include "pushed_box.hpp"
@@ -93,6 +94,46 @@ TEST(BalanceEvidence, DryFrictionComesFirst) {
   PushedBox what;
   what.dry_friction = 0.02;
   expect_first(what, "clamp_dry_friction", 0.02);
+}
+
+/// Dahl's friction, run by run from the release on.
+std::function<double(double, double, double)> yielding(double force, double travel) {
+  auto state = std::make_shared<DahlState>(std::vector<DahlFriction>{{force, travel}});
+  auto last = std::make_shared<double>(0);
+  return [=](double x, double, double t) {
+    if (t == 0)
+      *state = DahlState({{force, travel}});
+    else
+      state->turn(x, x > *last ? 1 : -1);
+    return state->newton(*last = x);
+  };
+}
+
+TEST(BalanceEvidence, FrictionThatYieldsComesFirstWithItsTravel) {
+  for (const double travel : {0.004, 0.012, 0.03}) {
+    PushedBox what;
+    what.force = yielding(0.05, travel);
+    const MomentumAudit audit = audited(pushed_box(what, 7));
+    ASSERT_FALSE(audit.sets.empty());
+    EXPECT_EQ(audit.sets.front().effects, std::vector<std::string>{"clamp_dahl_friction"}) << travel;
+    ASSERT_EQ(audit.terms.size(), 1u) << travel;
+    EXPECT_NEAR(audit.terms[0].value, 0.05, 2e-3);  // seen: 2.4e-4
+    ASSERT_EQ(audit.terms[0].besides.size(), 1u);
+    EXPECT_EQ(audit.terms[0].besides[0].first, "clamp_dahl_friction.travel");
+    EXPECT_NEAR(audit.terms[0].besides[0].second / travel, 1, 0.25);  // seen: 0.06
+    EXPECT_GT(audit.final_fit.p_value, 0.01) << travel;
+  }
+}
+
+/// A short travel fits dry friction as well: the simpler one goes first, the other is said beside it.
+TEST(BalanceEvidence, DryFrictionIsNotCalledYielding) {
+  PushedBox what;
+  what.dry_friction = 0.05;
+  for (std::uint64_t seed = 11; seed <= 13; ++seed) {
+    const MomentumAudit audit = audited(pushed_box(what, seed));
+    ASSERT_FALSE(audit.sets.empty());
+    EXPECT_EQ(audit.sets.front().effects, std::vector<std::string>{"clamp_dry_friction"}) << seed;
+  }
 }
 
 TEST(BalanceEvidence, ACubicSpringComesFirst) {

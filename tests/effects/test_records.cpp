@@ -266,6 +266,7 @@ TEST(RecordList, KeepsTheNamesOnceGiven) {
                                       "blade_viscous_damping",
                                       "blade_quadratic_drag",
                                       "clamp_dry_friction",
+                                      "clamp_dahl_friction",
                                       "spring_cubic",
                                       "blade_mass",
                                       "initial_box_velocity",

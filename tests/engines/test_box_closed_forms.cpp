@@ -6,9 +6,11 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 
 #include "driven_box.hpp"
 #include "setups.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -96,6 +98,73 @@ TEST(EmptyBox, ClampFrictionTakesTheSameFromEveryExtremumUntilTheBoxSticks) {
     const double way = swings * (2 * start) - drop * swings * swings;
     EXPECT_NEAR(result.ledger.effect_loss[0], force * way, 1e-12);
   });
+}
+
+// Dahl's friction (harness/problem/dahl_friction.hpp).
+
+TEST(EmptyBox, FrictionThatYieldsAtOnceIsDryFriction) {
+  // After a turning point the resistance comes up over the travel, which gives back the impulse F travel:
+  // each half swing loses 2 F (reach - travel) instead of 2 F reach, so extrema fall by 2 F/k, less 2 F/k
+  // times travel over reach; the release, unloaded, half of that.
+  const double force = 0.1, travel = 1e-5, drop = 2 * force / stiffness;
+  shakedown::Setup setup = empty_box("clamp_dahl_friction", {{"force", force}, {"travel", travel}}, 4);
+  setup.run.sample_rate = 20000;
+  in_every_engine(setup, dense, [&](const Trajectory& result) {
+    const std::vector<double> extrema = extrema_of(result);
+    ASSERT_GE(extrema.size(), 8u);
+    double reach = start;
+    for (std::size_t n = 0; n < 8; ++n) {
+      const double mean = reach - drop / 2, saved = (n == 0 ? 1 : 2) * force * travel / (stiffness * mean);
+      reach -= drop - saved;
+      WITHIN(std::abs(extrema[n]), reach, 1e-9, 7.3e-11);
+    }
+  });
+}
+
+TEST(EmptyBox, FrictionThatHardlyYieldsIsASpring) {
+  // f = sigma (x - x0) for motion much smaller than the travel, x0 the release where it is unloaded.
+  const double reach = 1e-5, travel = 1, force = 2;  // sigma 2 N/m beside 25.9
+  shakedown::Setup setup = empty_box("clamp_dahl_friction", {{"force", force}, {"travel", travel}}, 6);
+  setup.release.displacement = reach;
+  const double sigma = force / travel, middle = reach * sigma / (stiffness + sigma);
+  const double w = std::sqrt((stiffness + sigma) / mass);
+  expect_motion(
+      setup, 1e-6, [&](double t) { return middle + (reach - middle) * std::cos(w * t); },
+      1e-9);  // seen: 2.3e-10
+}
+
+TEST(EmptyBox, FrictionThatYieldsLosesTheAreaOfItsLoop) {
+  // A steady loop of amplitude A loses 4 F (A - travel tanh(A / travel)). Friction is weak, so A hardly
+  // changes in a period, and the loss of a period about its middle extremum is that of its mean amplitude.
+  const double force = 1e-4, travel = 0.03;
+  shakedown::Setup setup = empty_box("clamp_dahl_friction", {{"force", force}, {"travel", travel}}, 8);
+  setup.run.sample_rate = 20000;
+  in_every_engine(setup, dense, [&](const Trajectory& result) {
+    const std::vector<double> extrema = extrema_of(result);
+    ASSERT_GE(extrema.size(), 12u);
+    for (std::size_t n = 4; n + 2 < extrema.size(); ++n) {
+      const double a = std::abs(extrema[n]), b = std::abs(extrema[n + 2]), mean = (a + b) / 2;
+      const double lost = stiffness * (a * a - b * b) / 2;
+      WITHIN(lost / (4 * force * (mean - travel * std::tanh(mean / travel))), 1, 2e-6, 1.1e-7);
+    }
+    EXPECT_GT(result.ledger.effect_loss[0], 0);
+  });
+}
+
+TEST(EmptyBox, FrictionThatYieldsIsOneLawInBothEngines) {
+  for (const double travel : {1e-5, 1e-3, 0.02}) {
+    shakedown::Setup setup = empty_box("clamp_dahl_friction", {{"force", 0.2}, {"travel", travel}}, 8);
+    add_effect(setup, "constant_acceleration", {{"acceleration", Vec3(0.1, 0, 0)}});
+    add_effect(setup, "clamp_dry_friction", {{"force", 0.01}});
+    std::optional<Trajectory> first;
+    in_every_engine(setup, dense, [&](const Trajectory& result) {
+      if (!first) first = result;
+      double worst = 0;
+      for (std::size_t k = 0; k < result.time.size(); ++k)
+        worst = std::max(worst, std::abs(result.x_box[k] - first->x_box[k]));
+      WITHIN(worst, 0, 3e-12, 1.9e-13);
+    });
+  }
 }
 
 TEST(EmptyBox, QuadraticDragFollowsTheRecurrenceOfItsExtrema) {
