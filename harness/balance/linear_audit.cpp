@@ -24,7 +24,7 @@ constexpr double of_95_percent = 1.96;
 
 /// The error of the noise's variance widens chi2 like so many degrees fewer.
 BalanceFit balance_of(double chi2, double degrees) {
-  if (!(degrees > 0) || !std::isfinite(chi2)) return {chi2, degrees, 0};
+  if (!(degrees > 0) || std::isnan(chi2)) return {chi2, degrees, std::nan("")};
   const double effective = 2 / (2 / degrees + error_of_noise_variance * error_of_noise_variance);
   return {chi2, degrees, chi_squared_tail(chi2 * effective / degrees, effective)};
 }
@@ -361,7 +361,7 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
   for (const int term : terms_seen(p)) audit.seen.push_back(p.known[static_cast<std::size_t>(term)].key());
   describe_frequency(selection, balance.frequency(), audit);
   const double usual = usual_wander * balance.noise();
-  const bool in_doubt = selection.chosen.size() > 1 || balance_of(selection.fit).p_value < options.accept_p ||
+  const bool in_doubt = selection.chosen.size() > 1 || !(balance_of(selection.fit).p_value >= options.accept_p) ||
                         p.problem.wander().deviation > usual;
   if (options.formulas && in_doubt) {
     // A track that wanders more than tracks do takes up any force: formulas are tried beside the usual one.
@@ -373,7 +373,7 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
     // A formula that leaves the balance rejected is no better than a sum of known forces that does.
     audit.unlisted = !formulas.formulas.empty() && formulas.cost < cost_of_known - price_of_the_unlisted &&
                      balance_of(formulas.selection.fit).p_value > balance_rejected;
-    if (audit.unlisted || balance_of(selection.fit).p_value < options.accept_p)
+    if (audit.unlisted || !(balance_of(selection.fit).p_value >= options.accept_p))
       audit.curves = std::move(formulas.curves);
     if (audit.unlisted) {
       audit.unlisted_log_odds = (cost_of_known - price_of_the_unlisted - formulas.cost) / 2;
@@ -389,7 +389,7 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
       audit.terms[i].look_alikes.insert(audit.terms[i].look_alikes.end(), alike[i + 1].begin(),
                                         alike[i + 1].end());
   }
-  audit.unexplained = audit.final_fit.p_value <= balance_rejected;
+  audit.unexplained = !(audit.final_fit.p_value > balance_rejected);
   return audit;
 }
 

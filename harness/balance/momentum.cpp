@@ -27,6 +27,10 @@ bool has_moved(const MomentumAudit& audit, const NuisanceValues& read_with) {
 
 }  // namespace
 
+ModelTest MomentumAudit::test_of(const BalanceFit& fit) const {
+  return {fit.p_value, fit.chi2_per_degree(), possible ? "" : why_not};
+}
+
 MomentumAudit audit_momentum(const Measurement& measurement, std::span<const EffectRecord* const> known,
                              const MomentumOptions& options) {
   constexpr int most_rounds = 3;

@@ -3,6 +3,7 @@
 // with no simulation, because whatever happens in the contacts, M x_box'' + N m x_com'' = -k x_box + F.
 #pragma once
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>

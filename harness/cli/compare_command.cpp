@@ -17,6 +17,7 @@
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "measured_data.hpp"
+#include "missing_numbers.hpp"
 #include "momentum.hpp"
 #include "output_file.hpp"
 #include "parameter_knobs.hpp"
@@ -24,6 +25,7 @@
 #include "refit.hpp"
 #include "report_output.hpp"
 #include "setup_arguments.hpp"
+#include "validation.hpp"
 
 namespace shakedown {
 
@@ -75,10 +77,13 @@ std::string readable(const std::vector<DecayComparison>& decays) {
 }
 
 std::string readable(const Refit& fit, const MomentumAudit& momentum,
-                     const std::vector<DecayComparison>& decays, bool holds) {
+                     const std::vector<DecayComparison>& decays, const ModelJudgement& judgement) {
   std::string text =
-      holds ? "The model holds: what remains is within camera noise and the spread from run to run.\n"
-            : "The data reject the model.\n";
+      judgement.holds()
+          ? "The model holds: what remains is within camera noise and the spread from run to run.\n"
+      : judgement.standing == Standing::fails ? "The data reject the model.\n"
+                                              : "Whether the model holds is undecided.\n";
+  text += "  " + judgement.reason + "\n";
   text +=
       fmt::format("  {:<16} {:>11} {:>9} {:>14} {:>9}\n", "run", "box, mm", "spread", "centre, mm", "spread");
   for (const RunComparison& run : fit.runs)
@@ -87,7 +92,7 @@ std::string readable(const Refit& fit, const MomentumAudit& momentum,
                         severity(run.error_box / run.floor_box));
   text += fmt::format("  whole: p = {:.3f} ({:.2f} times the misfit of the model's own runs)\n", fit.p_value,
                       fit.scatter);
-  text += readable(fit.cells) + readable(decays);
+  text += "\n" + validation_text(fit.validation()) + "\n" + readable(fit.cells) + readable(decays);
   if (momentum.possible) {
     text += fmt::format("  momentum balance: chi2 per degree of freedom {:.3f}, p = {:.3g}\n",
                         momentum.as_given.chi2_per_degree(), momentum.as_given.p_value);
@@ -100,12 +105,9 @@ std::string readable(const Refit& fit, const MomentumAudit& momentum,
 }
 
 nlohmann::ordered_json json_of(const MeasuredNumber& number, double scale) {
-  const auto value = [](double x) {
-    return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
-  };
-  return {{"measured", value(number.measured * scale)},
-          {"model", value(number.model * scale)},
-          {"spread", value(number.spread * scale)}};
+  return {{"measured", number.measured * scale},
+          {"model", number.model * scale},
+          {"spread", number.spread * scale}};
 }
 
 nlohmann::ordered_json json_of(const std::vector<DecayComparison>& decays) {
@@ -137,7 +139,7 @@ nlohmann::ordered_json json_of(const std::vector<FailureCell>& cells) {
 }
 
 nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum,
-                               const std::vector<DecayComparison>& decays, bool holds) {
+                               const std::vector<DecayComparison>& decays, const ModelJudgement& judgement) {
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();
   for (const RunComparison& run : fit.runs)
     runs.push_back({{"run", run.run},
@@ -146,20 +148,30 @@ nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum,
                     {"error_com_mm", run.error_centre * 1e3},
                     {"floor_com_mm", run.floor_centre * 1e3},
                     {"chi2", run.chi2}});
-  return {{"schema_version", 1},
-          {"holds", holds},
-          {"p_value", fit.p_value},
-          {"scatter", fit.scatter},
-          {"error_box_mm", fit.error_box() * 1e3},
-          {"error_com_mm", fit.error_centre() * 1e3},
-          {"noise_floor", {{"box_mm", fit.floor_box() * 1e3}, {"com_mm", fit.floor_centre() * 1e3}}},
-          {"runs", runs},
-          {"where", json_of(fit.cells)},
-          {"decay", json_of(decays)},
-          {"momentum",
-           {{"possible", momentum.possible},
-            {"chi2_per_dof", momentum.as_given.chi2_per_degree()},
-            {"p_value", momentum.as_given.p_value}}}};
+  nlohmann::ordered_json all{
+      {"schema_version", 1},
+      {"holds", judgement.holds()},
+      {"standing", std::string(name_of(judgement.standing))},
+      {"reason", judgement.reason},
+      {"p_value", fit.p_value},
+      {"scatter", fit.scatter},
+      {"error_box_mm", fit.error_box() * 1e3},
+      {"error_com_mm", fit.error_centre() * 1e3},
+      {"noise_floor", {{"box_mm", fit.floor_box() * 1e3}, {"com_mm", fit.floor_centre() * 1e3}}},
+      {"runs", runs},
+      {"validation", validation_json(fit.validation())},
+      {"where", json_of(fit.cells)},
+      {"decay", json_of(decays)},
+      {"momentum",
+       {{"possible", momentum.possible},
+        {"chi2_per_dof", momentum.as_given.chi2_per_degree()},
+        {"p_value", momentum.as_given.p_value}}}};
+  explain_missing_numbers(all, [&](const std::string& path) {
+    const auto begins = [&](std::string_view with) { return path.rfind(with, 0) == 0; };
+    if (begins("/decay/")) return std::string("too few peaks or crossings in the run");
+    return begins("/momentum/") ? momentum.why_not : std::string();
+  });
+  return all;
 }
 
 int compare(const CompareArguments& arguments) {
@@ -192,11 +204,11 @@ int compare(const CompareArguments& arguments) {
     decays = compare_decay(measurement, workshop, std::min(32, arguments.runs), 1);
   }
   const MomentumAudit momentum = audit_momentum(measurement, all_effects());
-  const bool holds = fit.p_value > rejected && momentum.holds();
+  const ModelJudgement judgement = judgement_of(fit.test(), momentum.test_of(momentum.as_given));
   const PaperValues taken(setup, given_by_measurements);
-  const std::string document = taken.added_to(json_of(fit, momentum, decays, holds).dump());
+  const std::string document = taken.added_to(json_of(fit, momentum, decays, judgement).dump());
   taken.print(arguments.json.for_people());
-  fmt::print(arguments.json.for_people(), "{}", readable(fit, momentum, decays, holds));
+  fmt::print(arguments.json.for_people(), "{}", readable(fit, momentum, decays, judgement));
   if (folder) folder->write("compare.json", document);
   if (arguments.report.wanted(arguments.out)) {
     CurveOptions drawn;
@@ -205,12 +217,12 @@ int compare(const CompareArguments& arguments) {
     drawn.stop = catch_interruption();
     const std::vector<MeasuredAgainstModel> curves =
         measured_against_model(measurement, nullptr, setup, *engine, drawn);
-    fmt::print(
-        arguments.json.for_people(), "{}",
-        arguments.report.write(report_of(fit, momentum, holds, measurement, setup, curves), arguments.out));
+    fmt::print(arguments.json.for_people(), "{}",
+               arguments.report.write(report_of(fit, momentum, judgement, measurement, setup, curves),
+                                      arguments.out));
   }
   arguments.json.write(document);
-  return holds ? exit_done : exit_model_rejected;
+  return judgement.holds() ? exit_done : exit_model_rejected;
 }
 
 }  // namespace
@@ -232,6 +244,14 @@ Command add_compare_command(CLI::App& program) {
       ->type_name("NAME")
       ->capture_default_str();
   add_json_option(command, arguments->json);
+  command.footer(
+      "Exit code 0: the model holds. 1: it fails, or that is undecided. The rule, the same for compare, "
+      "ladder,\n"
+      "fit and diagnose: a model fails where the momentum balance has p <= 0.001, or the features p <= 0.01 "
+      "with a\n"
+      "misfit of 1.4 times that of the model's own runs or more; with less it is undecided, for two codes of "
+      "one\n"
+      "physics differ by as much, and so it is where a p-value could not be computed.");
   return {&command, [arguments] { return compare(*arguments); }};
 }
 

@@ -172,7 +172,8 @@ int diagnose_data(const DiagnoseArguments& arguments) {
                arguments.report.write(report_of(diagnosis, measurement, setup, curves), arguments.out));
   }
   arguments.json.write(document);
-  return diagnosis.verdict == Verdict::adequate ? exit_done : exit_model_rejected;
+  return diagnosis.verdict == Verdict::adequate && diagnosis.judgement.holds() ? exit_done
+                                                                               : exit_model_rejected;
 }
 
 }  // namespace
@@ -205,9 +206,9 @@ Command add_diagnose_command(CLI::App& program) {
   add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
   command.footer(
-      "Exit code 0: the verdict is adequate, the data accept the setup as given. 1: any other verdict: "
-      "refit,\n"
-      "missing, unknown.");
+      "Exit code 0: the verdict is adequate and the setup as given holds by the rule of compare. 1: any "
+      "other\n"
+      "verdict (refit, measurement, missing, unknown), or undecided.");
   return {&command, [arguments] { return diagnose_data(*arguments); }};
 }
 

@@ -12,11 +12,13 @@
 #include "effects.hpp"
 #include "engines.hpp"
 #include "ensemble_options.hpp"
+#include "experiment_file.hpp"
 #include "fit_report.hpp"
 #include "free_parameters.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "measured_data.hpp"
+#include "momentum.hpp"
 #include "output_file.hpp"
 #include "progress_display.hpp"
 #include "report_output.hpp"
@@ -59,6 +61,10 @@ int fit(const FitArguments& arguments) {
     };
     found = fit_parameters(setup, measurement, knobs, *engine_named("hard"), options);
   }
+  const MomentumAudit balance =
+      audit_momentum(with_setup(measurement, found.fitted, all_effects()), all_effects());
+  if (!found.used.empty())
+    found.judgement = judgement_of({found.p_value, found.scatter, ""}, balance.test_of(balance.as_given));
   const PaperValues taken(setup, given_by_measurements);
   const std::string document = taken.added_to(fit_json(found));
   taken.print(arguments.json.for_people());
@@ -79,7 +85,7 @@ int fit(const FitArguments& arguments) {
                arguments.report.write(report_of(found, measurement, curves), arguments.out));
   }
   arguments.json.write(document);
-  return exit_done;
+  return found.judgement.holds() ? exit_done : exit_model_rejected;
 }
 
 }  // namespace
@@ -105,6 +111,8 @@ Command add_fit_command(CLI::App& program) {
   add_simulations_option(command, arguments->count, 32, "simulations of each different setup in a round");
   add_threads_option(command, arguments->threads);
   add_json_option(command, arguments->json);
+  command.footer(
+      "Exit code 0: the fitted model holds by the rule of compare. 1: it fails, or that is undecided.");
   return {&command, [arguments] { return fit(*arguments); }};
 }
 

@@ -2,7 +2,6 @@
 // shakedown ladder: several setups beside each other, judged by the same measurements.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +15,7 @@
 #include "json_output.hpp"
 #include "ladder_report.hpp"
 #include "measured_data.hpp"
+#include "missing_numbers.hpp"
 #include "momentum.hpp"
 #include "output_file.hpp"
 #include "paper_values.hpp"
@@ -24,6 +24,7 @@
 #include "refit.hpp"
 #include "report_output.hpp"
 #include "setup_arguments.hpp"
+#include "validation.hpp"
 
 namespace shakedown {
 
@@ -97,19 +98,15 @@ std::string readable(const std::vector<Rung>& rungs, bool refitted) {
                         refitted ? fmt::format("{:.3f}", rung.fit.held_out_error_box * 1e3) : "",
                         rung.fit.p_value, rung.fit.scatter,
                         rung.momentum.possible ? fmt::format("{:.2g}", rung.momentum.as_given.p_value) : "-",
-                        rung.holds() ? "holds" : "rejected");
+                        name_of(rung.judgement().standing));
     text += "  " + rung.effects;
     for (const FittedValue& value : rung.fit.values)
       text += fmt::format(", {} {:.4g} +- {:.2g}", value.key, value.value, value.error);
-    text += "\n";
+    text += "\n  " + rung.judgement().reason + "\n";
   }
   return text +
          "p: share of experiments of the model's own that fit no better; misfit: times what such experiments "
          "have; momentum: p of its balance.\n";
-}
-
-nlohmann::ordered_json number_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
 std::string json_of(const std::vector<Rung>& rungs, bool refitted) {
@@ -124,18 +121,24 @@ std::string json_of(const std::vector<Rung>& rungs, bool refitted) {
          {"error_box_mm", rung.fit.error_box() * 1e3},
          {"error_com_mm", rung.fit.error_centre() * 1e3},
          {"noise_floor", {{"box_mm", rung.fit.floor_box() * 1e3}, {"com_mm", rung.fit.floor_centre() * 1e3}}},
-         {"held_out_error_box_mm",
-          refitted ? number_or_null(rung.fit.held_out_error_box * 1e3) : nlohmann::ordered_json(nullptr)},
+         {"held_out_error_box_mm", refitted ? nlohmann::ordered_json(rung.fit.held_out_error_box * 1e3)
+                                            : nlohmann::ordered_json(nullptr)},
          {"p_value", rung.fit.p_value},
          {"scatter", rung.fit.scatter},
          {"chi2", rung.fit.chi2},
          {"momentum_p_value", rung.momentum.possible ? nlohmann::ordered_json(rung.momentum.as_given.p_value)
                                                      : nlohmann::ordered_json(nullptr)},
          {"holds", rung.holds()},
+         {"standing", std::string(name_of(rung.judgement().standing))},
+         {"reason", rung.judgement().reason},
+         {"validation", validation_json(rung.fit.validation())},
          {"parameters", values}});
   }
-  return nlohmann::ordered_json{{"schema_version", 1}, {"refitted", refitted}, {"ladder", ladder}}.dump(2) +
-         "\n";
+  nlohmann::ordered_json all{{"schema_version", 1}, {"refitted", refitted}, {"ladder", ladder}};
+  explain_missing_numbers(all, [](const std::string& path) -> std::string {
+    return path.find("held_out") != std::string::npos ? "one box length only: nothing was left out" : "";
+  });
+  return all.dump(2) + "\n";
 }
 
 int ladder(const LadderArguments& arguments) {
@@ -192,6 +195,7 @@ Command add_ladder_command(CLI::App& program) {
       ->type_name("DIR");
   add_report_option(command, arguments->report);
   add_json_option(command, arguments->json);
+  command.footer("Exit code 0: one of the setups holds. 1: none does.");
   return {&command, [arguments] { return ladder(*arguments); }};
 }
 

@@ -188,9 +188,11 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   findings.anything_missing = !d.missing.empty();
   findings.refitted = refitted || final.setup.release.packing != user.release.packing;
   findings.camera_stands_out = !standing_out(d.camera).empty();
-  findings.p_value = final.fit.p_value, findings.far_p_value = final.fit.far_p_value;
-  findings.scatter = final.fit.scatter;
-  if (d.momentum.possible) findings.balance_p = d.momentum.final_fit.p_value;
+  findings.features = final.fit.test();
+  findings.far_p_value = final.fit.far_p_value;
+  findings.balance = d.momentum.test_of(d.momentum.final_fit);
+  d.judgement = judgement_of(findings.features, findings.balance);
+  d.validation = final.fit.validation();
   d.verdict = verdict_of(findings);
   if (d.verdict == Verdict::adequate || !refitted) {
     d.ladder.resize(1);

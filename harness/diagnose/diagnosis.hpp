@@ -58,6 +58,8 @@ struct Diagnosis {
   std::vector<std::string> missing;    ///< effect ids in the order added
   std::vector<Hypothesis> hypotheses;  ///< most probable first, those that hold 99 % together
   std::vector<Hypothesis> answers;     ///< the fewest of them that hold 95 %
+  ModelJudgement judgement;            ///< of the final model
+  std::vector<Validation> validation;  ///< of the final model, each run
   double explained = 0;                ///< share of chi2 as given that the final model takes away
   std::vector<NuisanceFound> camera;   ///< what the data say of camera and weights
   std::vector<DiagnosedParameter> parameters;

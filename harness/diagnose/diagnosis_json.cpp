@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "diagnosis.hpp"
+#include "missing_numbers.hpp"
+#include "validation.hpp"
 
 namespace shakedown {
 
@@ -10,8 +11,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Numbers that are none become null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+/// What is none becomes null with a reason (explain_missing_numbers).
+Json number(double value) { return value; }
+
+std::string reason_of(const Diagnosis& d, const std::string& path) {
+  const auto is = [&](std::string_view part) { return path.find(part) != std::string::npos; };
+  if (is("held_out") || is("standard_error"))
+    return "one box length only, or not fitted: nothing was left out to be predicted";
+  if (is("/momentum/") && !d.momentum.possible) return "no momentum balance: " + d.momentum.why_not;
+  return "";
+}
 
 Json sets_json(const std::vector<Hypothesis>& hypotheses) {
   Json list = Json::array();
@@ -90,26 +99,30 @@ std::string diagnosis_json(const Diagnosis& d) {
                      {"sigmas", number(c.sigmas)},
                      {"p_value", number(c.p_value)}});
   const LadderStep last = d.ladder.empty() ? LadderStep{} : d.ladder.back();
-  const Json all{{"schema_version", 2},
-                 {"verdict", std::string(name_of(d.verdict))},
-                 {"sentence", d.sentence},
-                 {"missing", d.missing},
-                 {"hypotheses", sets_json(d.hypotheses)},
-                 {"answer_set", sets_json(d.answers)},
-                 {"explained", number(d.explained)},
-                 {"camera", camera_json(d.camera)},
-                 {"parameters", parameters},
-                 {"ranking", ranking},
-                 {"ladder", ladder},
-                 {"noise_floor",
-                  {{"box_mm", number(last.floor_box * 1e3)}, {"com_mm", number(last.floor_centre * 1e3)}}},
-                 {"where", where},
-                 {"momentum", momentum_json(d.momentum)},
-                 {"force_formula", d.force_formula.empty() ? Json(nullptr) : Json(d.force_formula)},
-                 {"next_experiments", d.next_experiments},
-                 {"notes", d.notes},
-                 {"seconds", d.seconds},
-                 {"runs_simulated", d.runs_simulated}};
+  Json all{{"schema_version", 2},
+           {"verdict", std::string(name_of(d.verdict))},
+           {"sentence", d.sentence},
+           {"missing", d.missing},
+           {"hypotheses", sets_json(d.hypotheses)},
+           {"answer_set", sets_json(d.answers)},
+           {"judgement",
+            {{"standing", std::string(name_of(d.judgement.standing))}, {"reason", d.judgement.reason}}},
+           {"validation", validation_json(d.validation)},
+           {"explained", number(d.explained)},
+           {"camera", camera_json(d.camera)},
+           {"parameters", parameters},
+           {"ranking", ranking},
+           {"ladder", ladder},
+           {"noise_floor",
+            {{"box_mm", number(last.floor_box * 1e3)}, {"com_mm", number(last.floor_centre * 1e3)}}},
+           {"where", where},
+           {"momentum", momentum_json(d.momentum)},
+           {"force_formula", d.force_formula.empty() ? Json(nullptr) : Json(d.force_formula)},
+           {"next_experiments", d.next_experiments},
+           {"notes", d.notes},
+           {"seconds", d.seconds},
+           {"runs_simulated", d.runs_simulated}};
+  explain_missing_numbers(all, [&](const std::string& path) { return reason_of(d, path); });
   return all.dump(2) + "\n";
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis.hpp"
+#include "validation.hpp"
 
 namespace shakedown {
 
@@ -50,6 +51,7 @@ std::string diagnosis_text(const Diagnosis& d) {
   if (!d.ladder.empty())
     text += fmt::format("  {:<58} {:>10.3f} {:>10.3f}\n", "noise and run-to-run spread",
                         d.ladder.back().floor_box * 1e3, d.ladder.back().floor_centre * 1e3);
+  text += "  final model " + d.judgement.reason + "\n\n" + validation_text(d.validation);
   if (!d.parameters.empty()) {
     text += "\n  values (95 % interval)\n";
     for (const DiagnosedParameter& p : d.parameters)

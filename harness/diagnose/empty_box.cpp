@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "conclusion.hpp"
 #include "experiment_file.hpp"
@@ -17,6 +18,9 @@
 namespace shakedown {
 
 namespace {
+
+/// Hz, of the model's motion; a line between two samples misses by 5e-5 of the amplitude at 3 Hz.
+constexpr double model_rate = 1000;
 
 /// Where a run turns for the first time.
 struct Turn {
@@ -52,7 +56,7 @@ Turn first_turn(const Frames& frames, double middle, double period) {
 
 /// Measured less modelled from the turn on; empty where the box cannot start there.
 Eigen::VectorXd residual_of(const Frames& frames, const Turn& turn, Setup setup, const Engine& engine) {
-  constexpr double rate = 1000;  // Hz; a line between two samples misses by 5e-5 of the amplitude at 3 Hz
+  constexpr double rate = model_rate;
   setup.release.displacement = turn.place;
   setup.run.duration = std::max(0.1, frames.time.back() - turn.time) + 2 / rate;
   setup.run.sample_rate = rate;
@@ -131,6 +135,45 @@ void amend(const Setup& user, std::span<const EffectRecord* const> known, Diagno
   d.amended.spring.frequency = d.momentum.frequency;
 }
 
+/// What the ends of the parameters' intervals do to the motion of one run, rms, as a standard uncertainty, m.
+double input_uncertainty(const Frames& frames, const Turn& turn, const Setup& setup, const Engine& engine,
+                         std::span<const EffectRecord* const> known, const Diagnosis& d) {
+  constexpr double of_95_percent = 1.96;
+  const Eigen::VectorXd here = residual_of(frames, turn, setup, engine);
+  double squares = 0;
+  for (const DiagnosedParameter& p : d.parameters) {
+    const std::string effect = p.name.substr(0, p.name.find('.'));
+    if (effect != "spring" && find_choice(setup, effect) == nullptr) continue;
+    const double end = p.high - p.value > p.value - p.low ? p.high : p.low;
+    Setup moved = setup;
+    set_number(moved, p.name, end, known);
+    const Eigen::VectorXd change = residual_of(frames, turn, moved, engine) - here;
+    squares += change.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, change.size()));
+  }
+  return std::sqrt(squares) / of_95_percent;
+}
+
+/// Each run against the final model, its turn fitted.
+std::vector<Validation> validation_of(const Measurement& final, const Engine& engine,
+                                      std::span<const EffectRecord* const> known, const Diagnosis& d) {
+  std::vector<Validation> rows;
+  for (const Measurement::Run& run : final.runs) {
+    const Frames frames = frames_of(run);
+    if (frames.time.size() < 8 || !(run.setup.spring.frequency > 0)) continue;
+    const bool anywhere = starts_anywhere(run.recorded, run.setup);
+    const Turn turn = first_turn(frames, anywhere ? middle_of(frames) : 0, 1 / run.setup.spring.frequency);
+    const Eigen::VectorXd left = fitted_residual(frames, turn, run.setup, engine, anywhere);
+    // A line between two samples of the model misses by an eighth of (2 pi f / rate)^2 of the amplitude.
+    const double between = std::pow(2 * std::numbers::pi * run.setup.spring.frequency / model_rate, 2) / 8;
+    rows.push_back(
+        {run.recorded.name, "box",
+         std::sqrt(left.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, left.size()))),
+         between * std::abs(turn.place), input_uncertainty(frames, turn, run.setup, engine, known, d),
+         std::hypot(run.audit.box.standard_deviation, d.momentum.wander.deviation)});
+  }
+  return rows;
+}
+
 }  // namespace
 
 SwingError swing_error(const Measurement& measurement, const Engine& engine, bool as_stated) {
@@ -180,6 +223,9 @@ void conclude_empty_box(const Setup& user, const Measurement& measurement, const
   if (balance.unlisted) step += " + the force of the formula";
   d.ladder.push_back(step_of("as given", given, noise, balance.as_given));
   d.ladder.push_back(step_of(step, final, noise, balance.final_fit));
+  const ModelTest no_features{std::nan(""), std::nan(""), "an empty box has no ensembles"};
+  d.validation = validation_of(with_setup(measurement, d.amended, known), engine, known, d);
+  d.judgement = judgement_of(no_features, balance.test_of(balance.final_fit));
   // What takes nearly all of the misfit away is found, though small remains may have no name.
   constexpr double nearly_all = 0.9;
   const bool named = !d.missing.empty() && (!balance.unexplained || d.explained > nearly_all);

@@ -9,7 +9,7 @@ std::span<const Rule> diagnosis_rules() {
   using namespace rules;
   static constexpr std::array all{
       adds_effect, answer_set,   expected_effects, something_else, emulator_noise, doubtful,  holds_well,
-      holds,       codes_differ, stands_out,       explains,       most_effects,   most_tried};
+      holds,       rules::codes_differ, stands_out,       explains,       most_effects,   most_tried};
   return all;
 }
 

@@ -4,6 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "judgement.hpp"
+
 namespace shakedown {
 
 struct Rule {
@@ -40,9 +42,10 @@ constexpr Rule doubtful{
     "twenty is"};
 constexpr Rule holds_well{"holds_well", 0.3, "p-value",
                           "a model as given above is not refitted: seven right models in ten pass"};
-constexpr Rule holds{"holds", 0.01, "p-value", "a model below is rejected: one right model in a hundred is"};
+constexpr Rule holds{"holds", features_rejected, "p-value",
+                     "a model below is rejected: one right model in a hundred is"};
 constexpr Rule codes_differ{
-    "codes_differ", 1.4, "chi2 over its expectation",
+    "codes_differ", shakedown::codes_differ, "chi2 over its expectation",
     "soft contacts of 0.2 to 0.43 ms judged by hard impacts of the same parameters: 1.1 to "
     "1.33"};
 constexpr Rule stands_out{

@@ -9,19 +9,19 @@
 namespace shakedown {
 
 Verdict verdict_of(const Findings& findings) {
-  const bool is_rejected = !(findings.p_value > rules::holds) && !(findings.scatter < rules::codes_differ);
+  const ModelJudgement judgement = judgement_of(findings.features, findings.balance);
   if (findings.unlisted) return Verdict::unknown;
   if (findings.anything_missing) return Verdict::missing;
-  if (is_rejected || !(findings.balance_p > balance_rejected)) return Verdict::unknown;
+  if (judgement.standing == Standing::fails || !judgement.complete) return Verdict::unknown;
   if (findings.camera_stands_out) return Verdict::measurement;
   return findings.refitted ? Verdict::refit : Verdict::adequate;
 }
 
 double worst_p_value(const Findings& findings) {
-  const double of_features = findings.scatter < rules::codes_differ
-                                 ? std::max<double>(findings.p_value, rules::holds)
+  const double of_features = findings.features.misfit < rules::codes_differ
+                                 ? std::max<double>(findings.features.p_value, rules::holds)
                                  : findings.far_p_value;
-  return std::min(of_features, findings.balance_p);
+  return findings.balance.why_not.empty() ? std::min(of_features, findings.balance.p_value) : of_features;
 }
 
 bool explains(double p_value, double scatter, double scatter_before, double error, double floor) {

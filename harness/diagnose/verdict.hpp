@@ -12,9 +12,8 @@ struct Findings {
   bool anything_missing = false;    ///< effects were found
   bool refitted = false;            ///< parameters had to move
   bool camera_stands_out = false;   ///< something of the camera explains the recording
-  double p_value = 1, scatter = 1;  ///< of the final model
-  double far_p_value = 1;           ///< the same below what pseudo-experiments can count
-  double balance_p = 1;             ///< of the final balance; 1: there is none
+  ModelTest features{1, 1, ""}, balance{1, 1, ""};  ///< of the final model
+  double far_p_value = 1;  ///< of the features, below what pseudo-experiments can count too
 };
 Verdict verdict_of(const Findings& findings);
 

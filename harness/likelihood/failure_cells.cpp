@@ -152,6 +152,7 @@ std::vector<FailureCell> judge_cells(const std::vector<Cell>& cells,
                      std::sqrt(squares / static_cast<double>(cells[c].features.size())),
                      (sums[i] - mean[i]) / std::max(1e-12, deviation[i]),
                      1};
+    if (!std::isfinite(cell.sigmas)) continue;  // no number tells nothing of a place; p of the whole does
     cell.p_value = static_cast<double>(1 + (worst.array() >= cell.sigmas).count()) /
                    static_cast<double>(1 + pseudo.rows());
     list.push_back(std::move(cell));

@@ -35,6 +35,8 @@ struct Fit {
   std::vector<RunComparison> left_out;  ///< the others, foretold
   double p_value = 1;  ///< share of the model's own runs that fit no better than the runs used
   double scatter = 1;  ///< misfit over that of the model's own runs
+  /// Of the fitted model; by the runs used alone where nobody has asked the momentum balance too.
+  ModelJudgement judgement;
   Setup fitted;
   std::int64_t runs = 0;  ///< simulated
   double seconds = 0;

@@ -90,8 +90,11 @@ void FitRound::calibrate(const Eigen::VectorXd& z, double observed, Refit& resul
     sums.push_back(least);
     worse += least >= observed;
   }
-  std::sort(sums.begin(), sums.end());
-  result.p_value = (1.0 + worse) / (1.0 + pseudo_experiments);
+  // A comparison with what is no number counts as neither: no p-value is made of it.
+  const bool finite = std::isfinite(observed) &&
+                      std::all_of(sums.begin(), sums.end(), [](double sum) { return std::isfinite(sum); });
+  if (finite) std::sort(sums.begin(), sums.end());
+  result.p_value = finite ? (1.0 + worse) / (1.0 + pseudo_experiments) : std::nan("");
   result.degrees = sums[sums.size() / 2];
   result.scatter = observed / result.degrees;
   const Eigen::Map<const Eigen::ArrayXd> all(sums.data(), std::ssize(sums));
@@ -212,6 +215,32 @@ RunComparison FitRound::comparison(std::size_t r, const Eigen::VectorXd& z) cons
            (1 + whitened_[r].chaos / whitened_[r].expected * phi.dot(emulators_[r].inverse_normal * phi));
   set_errors(c, measured_[r].plan);
   return c;
+}
+
+std::vector<Validation> FitRound::validation(const RunComparison& run, std::size_t r,
+                                             const Eigen::VectorXd& z,
+                                             const Eigen::MatrixXd& covariance) const {
+  const Eigen::MatrixXd slopes = emulators_[r].coefficients.transpose() * slopes_at(z);
+  const std::vector<Feature>& features = measured_[r].plan.features;
+  std::vector<Validation> rows;
+  for (const Observable observable : {Observable::box, Observable::centre}) {
+    double error = 0, numerical = 0, input = 0, data = 0, count = 0;
+    for (Eigen::Index f = 0; f < run.residual.size(); ++f) {
+      const Feature& feature = features[static_cast<std::size_t>(f)];
+      if (feature.observable != observable) continue;
+      const double noise = feature.noise * feature.noise,
+                   own = measured_[r].own.cols() > 0 ? measured_[r].own.row(f).squaredNorm() : 0;
+      error += run.residual[f] * run.residual[f];
+      numerical += std::max(0.0, run.spread[f] * run.spread[f] - noise - own);
+      input += own + slopes.row(f).dot(slopes.row(f) * covariance);
+      data += noise;
+      ++count;
+    }
+    if (count > 0)
+      rows.push_back({run.run, observable == Observable::box ? "box" : "centre", std::sqrt(error / count),
+                      std::sqrt(numerical / count), std::sqrt(input / count), std::sqrt(data / count)});
+  }
+  return rows;
 }
 
 std::vector<Eigen::VectorXd> FitRound::measured_values() const {

@@ -71,6 +71,10 @@ class FitRound {
 
   RunComparison comparison(std::size_t r, const Eigen::VectorXd& z) const;
 
+  /// Its errors and what they are uncertain by; `covariance` of z as covariance_at() has it.
+  std::vector<Validation> validation(const RunComparison& run, std::size_t r, const Eigen::VectorXd& z,
+                                     const Eigen::MatrixXd& covariance) const;
+
  private:
   std::vector<Eigen::VectorXd> measured_values() const;
 

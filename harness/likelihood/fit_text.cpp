@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "fit.hpp"
+#include "missing_numbers.hpp"
 #include "quantity.hpp"
 #include "setup_file.hpp"
 
@@ -53,18 +53,23 @@ std::string fit_json(const Fit& fit) {
   for (Eigen::Index i = 0; i < fit.correlation.rows(); ++i) {
     correlation.push_back(Json::array());
     for (Eigen::Index j = 0; j < fit.correlation.cols(); ++j)
-      correlation.back().push_back(std::isfinite(fit.correlation(i, j)) ? Json(fit.correlation(i, j))
-                                                                        : Json(nullptr));
+      correlation.back().push_back(fit.correlation(i, j));
   }
-  const Json document{{"schema_version", 1},
-                      {"parameters", parameters},
-                      {"correlation", correlation},
-                      {"p_value", fit.p_value},
-                      {"scatter", fit.scatter},
-                      {"runs_used", runs_json(fit.used)},
-                      {"runs_left_out", runs_json(fit.left_out)},
-                      {"simulations", fit.runs},
-                      {"setup", write_setup(fit.fitted)}};
+  Json document{{"schema_version", 1},
+                {"parameters", parameters},
+                {"correlation", correlation},
+                {"p_value", fit.p_value},
+                {"scatter", fit.scatter},
+                {"holds", fit.judgement.holds()},
+                {"standing", std::string(name_of(fit.judgement.standing))},
+                {"reason", fit.judgement.reason},
+                {"runs_used", runs_json(fit.used)},
+                {"runs_left_out", runs_json(fit.left_out)},
+                {"simulations", fit.runs},
+                {"setup", write_setup(fit.fitted)}};
+  explain_missing_numbers(document, [](const std::string& path) -> std::string {
+    return path.rfind("/correlation/", 0) == 0 ? "the data do not tell one of the two" : "";
+  });
   return document.dump(2) + "\n";
 }
 
@@ -83,6 +88,8 @@ std::string fit_text(const Fit& fit) {
                       fit.parameters[static_cast<std::size_t>(i)].key, fit.correlation(i, j));
   text += fmt::format("  misfit {:.2f} times that of the model's own runs, p = {:.3f}\n", fit.scatter,
                       fit.p_value);
+  text += "  fitted model " + fit.judgement.reason + "\n";
+  for (const RunComparison& run : fit.used) text += validation_text(run.validation);
   text += runs_text("runs fitted", fit.used) + runs_text("runs foretold", fit.left_out);
   return text + fmt::format("  {} simulations, {:.1f} s\n", fit.runs, fit.seconds);
 }

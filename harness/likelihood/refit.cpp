@@ -37,7 +37,11 @@ void judge_at(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z,
   result.chi2 = round.objective().chi2(z);
   round.calibrate(z, result.chi2, result);
   result.runs.clear();
-  for (std::size_t r = 0; r < runs; ++r) result.runs.push_back(round.comparison(r, z));
+  const Eigen::MatrixXd covariance = round.covariance_at(z, reach);
+  for (std::size_t r = 0; r < runs; ++r) {
+    result.runs.push_back(round.comparison(r, z));
+    result.runs.back().validation = round.validation(result.runs.back(), r, z, covariance);
+  }
 }
 
 /// The emulator promised much more than its solution keeps.
@@ -204,6 +208,12 @@ void set_errors(RunComparison& run, const FeaturePlan& plan) {
   };
   run.error_box = root(squares[0], 0), run.error_centre = root(squares[1], 1);
   run.floor_box = root(spread[0], 0), run.floor_centre = root(spread[1], 1);
+}
+
+std::vector<Validation> Refit::validation() const {
+  std::vector<Validation> rows;
+  for (const RunComparison& run : runs) rows.insert(rows.end(), run.validation.begin(), run.validation.end());
+  return rows;
 }
 
 double Refit::error_box() const { return root_mean_square(runs, &RunComparison::error_box); }

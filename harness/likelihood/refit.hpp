@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "failure_cells.hpp"
+#include "judgement.hpp"
+#include "validation.hpp"
 
 namespace shakedown {
 
@@ -23,15 +25,13 @@ struct RunComparison {
   double error_box = 0, error_centre = 0;  ///< m, rms of measured less mean of the model
   double floor_box = 0, floor_centre = 0;  ///< m, what noise and chaos from run to run make
   double chi2 = 0;
-  Eigen::VectorXd residual;  ///< m, each feature
-  Eigen::VectorXd spread;    ///< m, its expected standard deviation
+  Eigen::VectorXd residual;              ///< m, each feature
+  Eigen::VectorXd spread;                ///< m, its expected standard deviation
+  std::vector<Validation> validation{};  ///< of each observable; empty where it was only foretold
 };
 
 /// Fills in errors and floors, rms over the features of each observable, from residual and spread.
 void set_errors(RunComparison& run, const FeaturePlan& plan);
-
-/// A model of this p-value or less is rejected.
-constexpr double rejected = 0.01;
 
 struct Refit {
   std::vector<Knob> knobs;
@@ -50,6 +50,9 @@ struct Refit {
   std::vector<FailureCell> cells;  ///< worst first
   /// Each box length predicted from a fit to the others, rms of the box, m; NaN with one length only.
   double held_out_error_box = 0;
+  std::vector<Validation> validation() const;  ///< of every run
+  /// As a test of the model.
+  ModelTest test() const { return {p_value, scatter, ""}; }
   double promised_scatter = 1, promised_chi2 = 0;  ///< `scatter` and `judged_chi2` by the emulator, where
                                                    ///< simulations at the solution have judged
   /// chi2, and its sum over the lengths left out, in the covariances of RefitOptions::judged_by, so that

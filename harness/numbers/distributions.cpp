@@ -14,6 +14,8 @@ namespace shakedown {
 
 double chi_squared_tail(double value, double degrees) {
   EXPECT(degrees > 0);
+  if (std::isnan(value)) return value;
+  if (std::isinf(value)) return value > 0 ? 0 : 1;
   return value > 0 ? Eigen::numext::igammac(degrees / 2, value / 2) : 1;
 }
 

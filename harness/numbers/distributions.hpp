@@ -10,6 +10,7 @@ namespace shakedown {
 constexpr double normal_95 = 1.959963984540054;
 
 /// Probability that chi-squared with `degrees` > 0 of freedom exceeds `value`. Relative error below 1e-12.
+/// NaN has no tail: NaN.
 double chi_squared_tail(double value, double degrees);
 
 /// Probability that |Student's t| exceeds `value` >= 0; degrees of freedom real and positive.

@@ -31,13 +31,38 @@ ReportSection errors_section(const std::string& title, const std::vector<RunComp
   return section;
 }
 
-Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, const Measurement& measurement,
-                 const Setup& setup, const std::vector<MeasuredAgainstModel>& curves) {
+ReportTable validation_table(const std::vector<Validation>& rows) {
+  ReportTable table{"Comparison error and its uncertainty (ASME V&V 20), mm",
+                    "E: simulation less data; u_num: run-to-run scatter and codes of one physics; u_input: "
+                    "parameters, release and clock; u_D: camera; u_val: all three. The model's error lies "
+                    "within E +- u_val.",
+                    {"run", "observable", "E", "u_num", "u_input", "u_D", "u_val", "error of the model"},
+                    {},
+                    false};
+  for (const Validation& row : rows) {
+    const double left = row.model_error() * 1e3;
+    table.rows.push_back({row.run, row.observable, for_people(row.error * 1e3),
+                          for_people(row.numerical * 1e3), for_people(row.input * 1e3),
+                          for_people(row.data * 1e3), for_people(row.uncertainty() * 1e3),
+                          !std::isfinite(left) ? "could not be computed"
+                          : left == 0          ? "within u_val"
+                                               : "about " + for_people(left)});
+  }
+  return table;
+}
+
+Report report_of(const Refit& fit, const MomentumAudit& momentum, const ModelJudgement& judgement,
+                 const Measurement& measurement, const Setup& setup,
+                 const std::vector<MeasuredAgainstModel>& curves) {
+  const bool holds = judgement.holds();
   Report report;
   report.kind = "compare";
   report.title = measurement.title.empty() ? measurement.file : measurement.title;
-  report.verdict = holds ? "The model holds" : "The data reject the model";
-  report.tone = holds ? Tone::good : Tone::bad;
+  report.verdict = holds                                   ? "The model holds"
+                   : judgement.standing == Standing::fails ? "The data reject the model"
+                                                           : "Undecided";
+  report.tone = holds ? Tone::good : judgement.standing == Standing::fails ? Tone::bad : Tone::unsure;
+  report.subtitle = judgement.reason;
   report.sentence =
       holds ? fmt::format("What the model leaves of {} is camera noise and the spread from run to run.",
                           report.title)
@@ -56,6 +81,7 @@ Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, co
     report.sections = {curves_section(curves, "Measured against model"), failure_section(curves)};
   }
   report.sections.push_back(errors_section("Error by run", fit.runs));
+  report.sections.back().tables.push_back(validation_table(fit.validation()));
   report.sections.push_back(momentum_section(momentum));
   if (!curves.empty()) report.sections.push_back(energy_section(curves));
   say_how_to_reproduce(report, setup);

@@ -8,10 +8,14 @@
 namespace shakedown {
 
 /// The report of a comparison; the curves must come from measured_against_model() with this setup alone.
-Report report_of(const Refit& fit, const MomentumAudit& momentum, bool holds, const Measurement& measurement,
-                 const Setup& setup, const std::vector<MeasuredAgainstModel>& curves);
+Report report_of(const Refit& fit, const MomentumAudit& momentum, const ModelJudgement& judgement,
+                 const Measurement& measurement, const Setup& setup,
+                 const std::vector<MeasuredAgainstModel>& curves);
 
 /// Error of each run as bars beside what noise and spread make.
+/// E, u_num, u_input, u_D and u_val of each observable of each run.
+ReportTable validation_table(const std::vector<Validation>& rows);
+
 ReportSection errors_section(const std::string& title, const std::vector<RunComparison>& runs);
 
 }  // namespace shakedown

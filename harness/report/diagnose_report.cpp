@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare_report.hpp"
 #include "effects.hpp"
 #include "known_effects.hpp"
 #include "page_figures.hpp"
@@ -56,7 +57,7 @@ std::vector<ReportFact> facts_of(const Diagnosis& diagnosis) {
     facts.push_back(
         {"Noise floor", readable_mm(last.floor_box), "camera and run-to-run spread", Tone::plain});
     facts.push_back({"Fit of the final model", fmt::format("p = {}", for_people(last.p_value)),
-                     "share of the model's own runs that fit no better", Tone::plain});
+                     diagnosis.judgement.reason, Tone::plain});
   }
   facts.push_back({"Simulations", fmt::format("{}", diagnosis.runs_simulated),
                    fmt::format("in {:.0f} s", diagnosis.seconds), Tone::plain});
@@ -261,6 +262,8 @@ Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, con
     report.sections.push_back(curves_section(curves, "Measured against model"));
   }
   report.sections.push_back(ladder_section(diagnosis));
+  if (!diagnosis.validation.empty())
+    report.sections.back().tables.push_back(validation_table(diagnosis.validation));
   if (!curves.empty()) report.sections.push_back(failing_cells(diagnosis, failure_section(curves)));
   if (!diagnosis.ranking.empty() || !diagnosis.next_experiments.empty())
     report.sections.push_back(suspects_section(diagnosis));

@@ -66,9 +66,8 @@ std::vector<ReportFact> facts_of(const Fit& fit) {
                      p.told ? "95 %:" + text.substr(interval) : "not told by these data",
                      p.told ? Tone::plain : Tone::unsure});
   }
-  facts.push_back({"Fit", "p = " + for_people(fit.p_value),
-                   for_people(fit.scatter) + " times the misfit of the model's own runs",
-                   fit.p_value > rejected ? Tone::good : Tone::bad});
+  facts.push_back({"Fit", "p = " + for_people(fit.p_value), fit.judgement.reason,
+                   fit.judgement.holds() ? Tone::good : Tone::bad});
   facts.push_back(
       {"Simulations", fmt::format("{}", fit.runs), fmt::format("in {:.0f} s", fit.seconds), Tone::plain});
   return facts;
@@ -83,8 +82,14 @@ Report report_of(const Fit& fit, const Measurement& measurement,
   report.title = measurement.title.empty() ? measurement.file : measurement.title;
   const auto untold = std::count_if(fit.parameters.begin(), fit.parameters.end(),
                                     [](const FittedParameter& p) { return !p.told; });
-  report.verdict = fit.p_value <= rejected ? "No values fit" : untold > 0 ? "Not all is told" : "Fitted";
-  report.tone = fit.p_value <= rejected ? Tone::bad : untold > 0 ? Tone::unsure : Tone::good;
+  const Standing standing = fit.judgement.standing;
+  report.verdict = standing == Standing::fails       ? "No values fit"
+                   : standing == Standing::undecided ? "Whether the values fit is undecided"
+                   : untold > 0                      ? "Not all is told"
+                                                     : "Fitted";
+  report.tone = standing == Standing::fails                     ? Tone::bad
+                : standing == Standing::undecided || untold > 0 ? Tone::unsure
+                                                                : Tone::good;
   report.sentence = headline(fit) + " Values: ";
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
     report.sentence += (i > 0 ? "; " : "") + fit.parameters[i].key + " " +

@@ -33,7 +33,7 @@ ReportSection errors_section(const std::vector<Rung>& rungs, bool refitted) {
     floor.cells.push_back(for_people(rung.fit.floor_box() * 1e3));
     p.cells.push_back(for_people(rung.fit.p_value));
     momentum.cells.push_back(rung.momentum.possible ? for_people(rung.momentum.as_given.p_value) : "–");
-    verdict.cells.push_back(rung.holds() ? "holds" : "rejected");
+    verdict.cells.push_back(rung.judgement().reason);
   }
   bars.floor = rungs.back().fit.floor_box() * 1e3;
   ReportSection section;

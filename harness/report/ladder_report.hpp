@@ -12,7 +12,8 @@ struct Rung {
   std::string effects;  ///< "plain", or those it has
   Refit fit;
   MomentumAudit momentum;
-  bool holds() const { return fit.p_value > rejected && momentum.holds(); }
+  ModelJudgement judgement() const { return judgement_of(fit.test(), momentum.test_of(momentum.as_given)); }
+  bool holds() const { return judgement().holds(); }
 };
 
 /// The report of a ladder; `last`: the last rung's setup.

@@ -16,7 +16,8 @@ TEST(Verdict, OfEveryCombination) {
     const auto is = [&](int bit) { return (flags >> bit & 1) != 0; };
     Findings f;
     f.unlisted = is(0), f.anything_missing = is(1), f.refitted = is(2), f.camera_stands_out = is(3);
-    f.p_value = is(4) ? 0.001 : 0.4, f.scatter = is(5) ? 3 : 1, f.balance_p = is(6) ? 1e-5 : 0.4;
+    f.features = {is(4) ? 0.001 : 0.4, is(5) ? 3.0 : 1.0, ""};
+    f.balance.p_value = is(6) ? 1e-5 : 0.4;
     const bool fails = (is(4) && is(5)) || is(6);
     const Verdict expected = f.unlisted           ? Verdict::unknown
                              : f.anything_missing ? Verdict::missing
@@ -31,25 +32,25 @@ TEST(Verdict, OfEveryCombination) {
 TEST(Verdict, AtTheEdges) {
   EXPECT_EQ(verdict_of({}), Verdict::adequate);
   Findings f;
-  f.scatter = 2;
-  f.p_value = rules::holds;  // at the bound it is rejected
+  f.features.misfit = 2;
+  f.features.p_value = rules::holds;  // at the bound it is rejected
   EXPECT_EQ(verdict_of(f), Verdict::unknown);
-  f.p_value = rules::holds * 1.01;
+  f.features.p_value = rules::holds * 1.01;
   EXPECT_EQ(verdict_of(f), Verdict::adequate);
-  f.p_value = 0;  // two codes differ by as much
-  f.scatter = rules::codes_differ * 0.99;
+  f.features.p_value = 0;  // two codes differ by as much
+  f.features.misfit = rules::codes_differ * 0.99;
   EXPECT_EQ(verdict_of(f), Verdict::adequate);
 }
 
 TEST(Verdict, WhatIsNoNumberIsNotInOrder) {
   Findings f;
-  f.balance_p = std::nan("");
+  f.balance.p_value = std::nan("");
   EXPECT_EQ(verdict_of(f), Verdict::unknown);
   f = {};
-  f.p_value = std::nan("");
-  f.scatter = 3;
+  f.features.p_value = std::nan("");
+  f.features.misfit = 3;
   EXPECT_EQ(verdict_of(f), Verdict::unknown);
-  f.scatter = std::nan("");
+  f.features.misfit = std::nan("");
   EXPECT_EQ(verdict_of(f), Verdict::unknown);
 }
 

@@ -137,6 +137,19 @@ TEST(Refit, HoldsForDataOfTheModelItself) {
   EXPECT_LE(rejected, 4);  // one expected; more than four happen once in 400
 }
 
+TEST(Refit, GivesNoProbabilityOfWhatIsNoNumber) {
+  const DampedOscillation engine;
+  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  for (const double bad : {std::nan(""), static_cast<double>(INFINITY)}) {
+    std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
+    measured.front().values[7] = bad;
+    const Refit fit = refit(measured, {}, workshop, {});
+    EXPECT_TRUE(std::isnan(fit.p_value)) << fit.p_value;
+    EXPECT_EQ(judgement_of(fit.test(), {0.5, 1, ""}).standing, Standing::undecided);
+    for (const FailureCell& cell : fit.cells) EXPECT_TRUE(std::isfinite(cell.p_value)) << cell.what;
+  }
+}
+
 TEST(Refit, FindsHiddenValuesInsideItsIntervals) {
   const DampedOscillation engine;
   const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};

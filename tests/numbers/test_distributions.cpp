@@ -31,6 +31,14 @@ TEST(Distributions, ChiSquaredTail) {
   EXPECT_EQ(chi_squared_tail(1e6, 3), 0);
 }
 
+/// A tail of 1 would let anything hold.
+TEST(Distributions, WhatIsNoNumberHasNoTail) {
+  EXPECT_TRUE(std::isnan(chi_squared_tail(std::nan(""), 5)));
+  EXPECT_EQ(chi_squared_tail(INFINITY, 5), 0);
+  EXPECT_EQ(chi_squared_tail(-INFINITY, 5), 1);
+  EXPECT_TRUE(std::isnan(student_two_sided_tail(std::nan(""), 4)));
+}
+
 TEST(Distributions, StudentsTail) {
   WITHIN(student_two_sided_tail(3, 5), 0.0300992478974625738, 2e-16, 1.4e-17);
   WITHIN(student_two_sided_tail(40, 9) / 1.89829984493398265e-11, 1, 2e-14, 1.8e-15);

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Does a model hold for a measurement? The one rule by which compare, ladder, fit and diagnose decide.
+#pragma once
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace shakedown {
+
+/// p-value at or below which what ensembles say of a model rejects it: one right model in a hundred is.
+constexpr double features_rejected = 0.01;
+
+/// p-value at or below which the momentum balance is not in order: one experiment in a hundred lies below
+/// 0.01 by chance, and a force from outside is a grave word.
+constexpr double balance_rejected = 1e-3;
+
+/// Misfit over that of the model's own runs below which a small p-value decides nothing: soft contacts of 0.2
+/// to 0.43 ms judged by hard impacts of the same parameters have 1.1 to 1.33.
+constexpr double codes_differ = 1.4;
+
+enum class Standing { holds, undecided, fails };
+
+/// What one test says of a model.
+struct ModelTest {
+  double p_value = std::numeric_limits<double>::quiet_NaN();
+  /// chi2 over that of the model's own runs.
+  double misfit = std::numeric_limits<double>::quiet_NaN();
+  std::string why_not = "";  ///< why there is no such test; empty: there is
+};
+
+struct ModelJudgement {
+  Standing standing = Standing::undecided;
+  bool complete = true;  ///< every test that was made gave a p-value
+  std::string reason;    ///< "rejected: momentum balance p = 1e-05"
+  bool holds() const { return standing == Standing::holds; }
+};
+
+/// fails: the balance is not in order, or the features are rejected by more than two codes of one physics
+/// differ. undecided: rejected by less than that, or a test gave no p-value, or there was none. holds: else.
+ModelJudgement judgement_of(const ModelTest& features, const ModelTest& balance);
+
+std::string_view name_of(Standing standing);
+
+}  // namespace shakedown

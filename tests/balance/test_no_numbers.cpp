@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Frames that are no numbers: the balance says that it has none, or gives numbers, and never lets a setup
+// hold.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "effects.hpp"
+#include "momentum.hpp"
+#include "pushed_box.hpp"
+
+namespace shakedown {
+namespace {
+
+MomentumAudit audited(const Experiment& experiment) {
+  MomentumOptions options;
+  options.formulas = false;
+  return audit_momentum(measurement_of(pushed_setups(experiment), experiment), all_effects(), options);
+}
+
+void expect_honest(const MomentumAudit& audit) {
+  const ModelTest none{0.5, 1, ""};
+  for (const BalanceFit& fit : {audit.as_given, audit.refitted, audit.final_fit}) {
+    const ModelTest test = audit.test_of(fit);
+    if (!test.why_not.empty()) {
+      EXPECT_FALSE(audit.possible);
+      continue;
+    }
+    const bool is_probability = fit.p_value >= 0 && fit.p_value <= 1;
+    EXPECT_EQ(judgement_of(none, test).holds(), is_probability && fit.p_value > balance_rejected);
+  }
+  EXPECT_EQ(audit.possible && audit.unexplained,
+            audit.possible && !(audit.final_fit.p_value > balance_rejected));
+  for (const FoundTerm& term : audit.terms)
+    EXPECT_TRUE(std::isfinite(term.value) && std::isfinite(term.low) && std::isfinite(term.high))
+        << term.key();
+}
+
+TEST(NoNumbers, InSomeFramesLeaveTheRest) {
+  for (const double bad : {std::nan(""), static_cast<double>(INFINITY)}) {
+    Experiment experiment = pushed_box({}, 3);
+    for (MeasuredRun& run : experiment.runs)
+      for (std::size_t i = 100; i < run.x_box.size(); i += 50) run.x_box[i] = bad, run.x_com[i + 7] = bad;
+    const MomentumAudit audit = audited(experiment);
+    expect_honest(audit);
+    EXPECT_TRUE(audit.possible) << audit.why_not;
+  }
+}
+
+TEST(NoNumbers, InAllFramesLeaveNoBalance) {
+  for (const double bad : {std::nan(""), static_cast<double>(INFINITY)}) {
+    Experiment experiment = pushed_box({}, 3);
+    for (MeasuredRun& run : experiment.runs) {
+      for (double& x : run.x_box) x = bad;
+      for (double& x : run.x_com) x = bad;
+    }
+    const MomentumAudit audit = audited(experiment);
+    expect_honest(audit);
+    EXPECT_FALSE(audit.possible);
+    EXPECT_FALSE(audit.why_not.empty());
+  }
+}
+
+/// A box that never moves has no noise and no motion.
+TEST(NoNumbers, AreNotMadeOfABoxThatRests) {
+  Experiment experiment = pushed_box({}, 3);
+  for (MeasuredRun& run : experiment.runs) {
+    for (double& x : run.x_box) x = 0.01;
+    for (double& x : run.x_com) x = 0.01;
+  }
+  expect_honest(audited(experiment));
+}
+
+}  // namespace
+}  // namespace shakedown
