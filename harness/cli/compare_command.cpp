@@ -2,6 +2,7 @@
 // shakedown compare: is the model acceptable, and where does it fail? Nothing is fitted.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -61,6 +62,8 @@ std::string readable(const std::vector<FailureCell>& cells) {
 }
 
 std::string beside(const MeasuredNumber& number, double scale, int digits) {
+  if (!std::isfinite(number.measured) || !std::isfinite(number.model))
+    return "not found (too few peaks or crossings)";
   return fmt::format("{:.{}f} ({:.{}f} +- {:.{}f})", number.measured * scale, digits, number.model * scale,
                      digits, number.spread * scale, digits);
 }

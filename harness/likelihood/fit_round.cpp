@@ -222,17 +222,27 @@ std::vector<Validation> FitRound::validation(const RunComparison& run, std::size
                                              const Eigen::MatrixXd& covariance) const {
   const Eigen::MatrixXd slopes = emulators_[r].coefficients.transpose() * slopes_at(z);
   const std::vector<Feature>& features = measured_[r].plan.features;
+  // What the run has of its own (an origin that nobody stated) is known as far as the run itself tells it.
+  Eigen::VectorXd left = run.residual, of_own = Eigen::VectorXd::Zero(left.size());
+  const Eigen::MatrixXd& own = measured_[r].own;
+  if (own.cols() > 0) {
+    const Eigen::MatrixXd weights = whitened_[r].root.solve(own);
+    const Eigen::MatrixXd still_open =
+        Eigen::MatrixXd::Identity(own.cols(), own.cols()) - own.transpose() * weights;
+    left -= own * (weights.transpose() * run.residual);
+    of_own = (own * still_open).cwiseProduct(own).rowwise().sum().cwiseMax(0);
+  }
   std::vector<Validation> rows;
   for (const Observable observable : {Observable::box, Observable::centre}) {
     double error = 0, numerical = 0, input = 0, data = 0, count = 0;
-    for (Eigen::Index f = 0; f < run.residual.size(); ++f) {
+    for (Eigen::Index f = 0; f < left.size(); ++f) {
       const Feature& feature = features[static_cast<std::size_t>(f)];
       if (feature.observable != observable) continue;
       const double noise = feature.noise * feature.noise,
-                   own = measured_[r].own.cols() > 0 ? measured_[r].own.row(f).squaredNorm() : 0;
-      error += run.residual[f] * run.residual[f];
-      numerical += std::max(0.0, run.spread[f] * run.spread[f] - noise - own);
-      input += own + slopes.row(f).dot(slopes.row(f) * covariance);
+                   of_run = own.cols() > 0 ? own.row(f).squaredNorm() : 0;
+      error += left[f] * left[f];
+      numerical += std::max(0.0, run.spread[f] * run.spread[f] - noise - of_run);
+      input += of_own[f] + slopes.row(f).dot(slopes.row(f) * covariance);
       data += noise;
       ++count;
     }
