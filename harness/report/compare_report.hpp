@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "judgement.hpp"
 #include "measured_against_model.hpp"
 #include "momentum.hpp"
 #include "refit.hpp"
 #include "report.hpp"
+#include "validation.hpp"
 
 namespace shakedown {
 
