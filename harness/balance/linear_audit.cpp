@@ -361,7 +361,8 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
   for (const int term : terms_seen(p)) audit.seen.push_back(p.known[static_cast<std::size_t>(term)].key());
   describe_frequency(selection, balance.frequency(), audit);
   const double usual = usual_wander * balance.noise();
-  const bool in_doubt = selection.chosen.size() > 1 || !(balance_of(selection.fit).p_value >= options.accept_p) ||
+  const bool in_doubt = selection.chosen.size() > 1 ||
+                        !(balance_of(selection.fit).p_value >= options.accept_p) ||
                         p.problem.wander().deviation > usual;
   if (options.formulas && in_doubt) {
     // A track that wanders more than tracks do takes up any force: formulas are tried beside the usual one.

@@ -9,15 +9,16 @@
 #include <vector>
 
 #include "force_shapes.hpp"
+#include "judgement.hpp"
 #include "measurement.hpp"
 #include "momentum_terms.hpp"
 
 namespace shakedown {
 
 /// Goodness of one version of the balance. The p-value allows for the noise being known to 2 % of its
-/// variance only.
+/// variance only; NaN where it was not or could not be computed, which is never in order.
 struct BalanceFit {
-  double chi2 = 0, degrees = 0, p_value = 1;
+  double chi2 = 0, degrees = 0, p_value = std::numeric_limits<double>::quiet_NaN();
   double chi2_per_degree() const { return degrees > 0 ? chi2 / degrees : 0; }
 };
 
@@ -67,10 +68,6 @@ struct RunBalance {
   double missing_force_noise = 0;  ///< N, one standard deviation of a window's mean force
 };
 
-/// A balance of this p-value or less is not in order: one experiment in a hundred lies below 0.01 by chance,
-/// and "unknown" is a grave word.
-constexpr double balance_rejected = 1e-3;
-
 /// A set of effects that may be missing, and how probable it is among all sets compared.
 struct WeighedSet {
   std::vector<std::string> effects;  ///< empty: nothing is
@@ -118,8 +115,8 @@ struct MomentumAudit {
   double rest_as_given = 0;  ///< m, the same of the setup as it is
   double explained = 0;      ///< share of chi2 as given that the final fit takes away
   bool only_moving = false;  ///< windows at rest left out, because a dry friction sticks there
-  /// The setup's own balance is in order, or there is none.
-  bool holds() const { return !possible || as_given.p_value > balance_rejected; }
+  /// As a test of the setup as it is, or of what was found.
+  ModelTest test_of(const BalanceFit& fit) const;
 };
 
 struct MomentumOptions {

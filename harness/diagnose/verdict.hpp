@@ -8,10 +8,10 @@ namespace shakedown {
 
 /// What the verdict rests on.
 struct Findings {
-  bool unlisted = false;            ///< a force of no list acts on the box
-  bool anything_missing = false;    ///< effects were found
-  bool refitted = false;            ///< parameters had to move
-  bool camera_stands_out = false;   ///< something of the camera explains the recording
+  bool unlisted = false;                            ///< a force of no list acts on the box
+  bool anything_missing = false;                    ///< effects were found
+  bool refitted = false;                            ///< parameters had to move
+  bool camera_stands_out = false;                   ///< something of the camera explains the recording
   ModelTest features{1, 1, ""}, balance{1, 1, ""};  ///< of the final model
   double far_p_value = 1;  ///< of the features, below what pseudo-experiments can count too
 };
