@@ -26,6 +26,7 @@
 #include "refit.hpp"
 #include "report_output.hpp"
 #include "setup_arguments.hpp"
+#include "swing.hpp"
 #include "validation.hpp"
 
 namespace shakedown {
@@ -179,12 +180,13 @@ nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum,
 
 int compare(const CompareArguments& arguments) {
   const Setup setup = arguments.setup.read(given_by_measurements);
-  const Measurement measurement = measurement_of(setup, read_measured(arguments.data, setup), all_effects());
+  const Measurement recorded = measurement_of(setup, read_measured(arguments.data, setup), all_effects());
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
   if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
+  const Measurement measurement = from_first_turns(recorded, *engine);
   RefitOptions options;
   options.count = arguments.runs;
   options.rounds = options.most_rounds = 1;
@@ -206,7 +208,7 @@ int compare(const CompareArguments& arguments) {
     fit = refit(features_with_camera(measurement, all_effects()), knobs, workshop, options);
     decays = compare_decay(measurement, workshop, std::min(32, arguments.runs), 1);
   }
-  const MomentumAudit momentum = audit_momentum(measurement, all_effects());
+  const MomentumAudit momentum = audit_momentum(recorded, all_effects());
   const ModelJudgement judgement = judgement_of(fit.test(), momentum.test_of(momentum.as_given));
   const PaperValues taken(setup, given_by_measurements);
   const std::string document = taken.added_to(json_of(fit, momentum, decays, judgement).dump());

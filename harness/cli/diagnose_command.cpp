@@ -40,7 +40,7 @@ struct DiagnoseArguments {
   ReportOutput report;
   std::string data, out, effects, fixed;
   std::int64_t budget = 0;
-  double seconds = 0;
+  double seconds = 300;
   int threads = 0;
   bool resume = false;
 };
@@ -69,27 +69,6 @@ std::string amended_setup(const Diagnosis& diagnosis) {
                                          p.unit, p.low, p.high)
                            : fmt::format("#   {} = {}\n", p.name, p.word);
   return text + write_setup(diagnosis.amended);
-}
-
-/// Simulations that fit into the seconds: chosen once, before the start, so that the answer depends on this
-/// number alone.
-std::int64_t budget_for(double seconds, const Measurement& measurement, const Engine& engine, int threads) {
-  constexpr double dearer = 1.6;  // with effects and low restitutions, on average of whole diagnoses
-  const auto start = std::chrono::steady_clock::now();
-  for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
-    const std::vector<double>& time = measurement.runs[r].recorded.time;
-    Setup setup = measurement.runs[r].setup;
-    setup.run.duration = time.empty() ? 1.0 : std::max(0.5, time.back());
-    RunOptions options;
-    options.run = static_cast<int>(r);
-    options.stop = catch_interruption();
-    engine.run(setup, options);
-  }
-  const double each = dearer *
-                      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
-                      static_cast<double>(measurement.runs.size());
-  return std::max<std::int64_t>(
-      1000, static_cast<std::int64_t>(seconds * threads_or_all(threads) / each) / 1000 * 1000);
 }
 
 /// Nothing without a folder to keep it in.
@@ -129,17 +108,19 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   std::unique_ptr<OutputFolder> folder;
   if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
   const std::unique_ptr<Engine> engine = engine_named("hard");
-  std::int64_t budget = arguments.budget > 0 ? arguments.budget : usual_budget(measurement);
-  if (arguments.seconds > 0) {
-    budget = budget_for(arguments.seconds, measurement, *engine, arguments.threads);
-    fmt::print(stderr, "about {:g} s: --budget {}\n", arguments.seconds, budget);
-  }
+  const std::int64_t budget = arguments.budget > 0 ? arguments.budget : usual_budget(measurement);
   const std::unique_ptr<SimulationJournal> journal = journal_in(folder.get(), experiment, arguments.resume);
   Diagnosis diagnosis;
   try {
-    ProgressDisplay display(fmt::format("{}: diagnosing, at most {} simulations", arguments.data, budget));
-    DiagnoseOptions options{names_in(arguments.effects), budget, arguments.threads, all_effects(),
-                            catch_interruption(),        {}};
+    ProgressDisplay display(fmt::format("{}: diagnosing, at most {} simulations and {:g} s", arguments.data,
+                                        budget, arguments.seconds));
+    DiagnoseOptions options;
+    options.effects = names_in(arguments.effects);
+    options.budget = budget;
+    options.threads = arguments.threads;
+    options.known = all_effects();
+    options.stop = catch_interruption();
+    options.seconds = arguments.seconds;
     options.fixed = names_in(arguments.fixed);
     options.strength_uncertainty = &strength_uncertainty;
     options.progress = [&](const std::string& stage, double fraction) {
@@ -194,10 +175,15 @@ Command add_diagnose_command(CLI::App& program) {
   command
       .add_option(
           "--budget", arguments->budget,
-          "simulations at most; default: 3500 for each different setup among the runs, for four at least")
+          "simulations at most; default: 6000 for each different setup among the runs, for four at least")
       ->check(positive_number())
       ->type_name("RUNS");
-  command.add_option("--seconds", arguments->seconds, "choose the budget for about this time and say which")
+  command
+      .add_option(
+          "--seconds", arguments->seconds,
+          "time at most; what was not tried is said. Where it is never reached the answer is the same "
+          "for any number of threads")
+      ->capture_default_str()
       ->check(positive_number());
   command.add_flag(
       "--resume", arguments->resume,

@@ -24,6 +24,7 @@
 #include "report_output.hpp"
 #include "setup_arguments.hpp"
 #include "setup_file.hpp"
+#include "swing.hpp"
 
 namespace shakedown {
 
@@ -39,7 +40,9 @@ struct FitArguments {
 
 int fit(const FitArguments& arguments) {
   const Setup setup = arguments.setup.read(given_by_measurements);
-  const Measurement measurement = measurement_of(setup, read_measured(arguments.data, setup), all_effects());
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  const Measurement measurement =
+      from_first_turns(measurement_of(setup, read_measured(arguments.data, setup), all_effects()), *engine);
   const std::vector<Knob> knobs = free_parameters(arguments.free, setup, all_effects());
   arguments.json.check();
   arguments.report.check();
@@ -59,7 +62,7 @@ int fit(const FitArguments& arguments) {
       display.rename(stage);
       display.show(std::min(0.99, static_cast<double>(runs) / about));
     };
-    found = fit_parameters(setup, measurement, knobs, *engine_named("hard"), options);
+    found = fit_parameters(setup, measurement, knobs, *engine, options);
   }
   const MomentumAudit balance =
       audit_momentum(with_setup(measurement, found.fitted, all_effects()), all_effects());

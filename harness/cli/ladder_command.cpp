@@ -24,6 +24,7 @@
 #include "refit.hpp"
 #include "report_output.hpp"
 #include "setup_arguments.hpp"
+#include "swing.hpp"
 #include "validation.hpp"
 
 namespace shakedown {
@@ -53,12 +54,13 @@ Rung climb(const std::string& file, const Setup& setup, const Measurement& measu
   options.count = arguments.runs;
   // Refitted, so that a rung with few effects does not lose because its parameters were chosen worse.
   std::vector<Knob> knobs = arguments.refit ? free_parameters(setup) : as_given(setup);
-  for (Knob& knob : camera_knobs(setup, measurement, all_effects())) knobs.push_back(std::move(knob));
+  const Measurement beside =
+      from_first_turns(with_setup(measurement, setup, all_effects()), *workshop.engine);
+  for (Knob& knob : camera_knobs(setup, beside, all_effects())) knobs.push_back(std::move(knob));
   if (!arguments.refit) options.rounds = options.most_rounds = 1;
   Rung rung{file,
             effects_of(setup),
-            refit(features_with_camera(with_setup(measurement, setup, all_effects()), all_effects()), knobs,
-                  workshop, options),
+            refit(features_with_camera(beside, all_effects()), knobs, workshop, options),
             {}};
   // The balance is judged at the frequency of this rung.
   Setup fitted = setup;

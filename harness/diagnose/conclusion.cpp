@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "errors.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "next_experiment.hpp"
@@ -130,10 +131,15 @@ void advise_by_simulation(const DiagnosisState& final, DiagnosisTools& tools, Di
   found.setup.hard = final.setup.hard;
   const RunAudit& camera = tools.measurement().runs.front().audit;
   const int count = final.dear ? 32 : 64;
-  for (const Advice& advice :
-       advise(possible_designs(d.amended, tools.features(final.setup)), found, rival.setup,
-              camera.box.standard_deviation, camera.com.standard_deviation, tools.workshop(), count,
-              tools.next_batch()))
+  std::vector<Advice> list;
+  try {
+    list = advise(possible_designs(d.amended, tools.features(final.setup)), found, rival.setup,
+                  camera.box.standard_deviation, camera.com.standard_deviation, tools.workshop(), count,
+                  tools.next_batch());
+  } catch (const BudgetSpent&) {
+    d.not_tried.push_back("which experiment would decide");
+  }
+  for (const Advice& advice : list)
     if (d.next_experiments.size() < 4 && advice.sigmas > 1)
       d.next_experiments.push_back(advice.words + ": tells " + rival.added + " from " + rival.effect +
                                    " at " + write_number(std::round(advice.sigmas * 10) / 10) +

@@ -9,6 +9,7 @@
 #include "conclusion.hpp"
 #include "effect_strength.hpp"
 #include "empty_box.hpp"
+#include "errors.hpp"
 #include "experiment_file.hpp"
 #include "known_effects.hpp"
 #include "packing_choice.hpp"
@@ -111,6 +112,17 @@ std::string step_name(const std::vector<std::string>& effects) {
   return step;
 }
 
+/// No run has grains, whether the setup says so or the runs do.
+bool is_empty(const Setup& setup, const Measurement& measurement) {
+  const auto has_none = [](const Measurement::Run& run) { return run.setup.grains.count == 0; };
+  return setup.grains.count == 0 || (!measurement.runs.empty() &&
+                                     std::all_of(measurement.runs.begin(), measurement.runs.end(), has_none));
+}
+Setup emptied(Setup setup) {
+  setup.grains.count = 0;
+  return setup;
+}
+
 /// The course of a diagnosis: every step makes a new state from the one before.
 class Course {
  public:
@@ -122,8 +134,9 @@ class Course {
     result_.notes = tools_.measurement().warnings;
     tools_.begin("momentum balance");
     result_.momentum = audit_momentum(tools_.measurement(), tools_.known());
-    if (user_.grains.count == 0)
-      conclude_empty_box(user_, tools_.measurement(), *tools_.workshop().engine, tools_.known(), result_);
+    if (is_empty(user_, tools_.measurement()))
+      conclude_empty_box(emptied(user_), tools_.measurement(), *tools_.workshop().engine, tools_.known(),
+                         result_);
     else
       judge();
     result_.runs_simulated = tools_.runs();
@@ -139,6 +152,7 @@ class Course {
     tools_.workshop().ensembles = tools_.options().ensembles;
     given.fit = tools_.fit(given, "the model as given", given.knobs(), effort::look);
     tools_.workshop().ensembles = nullptr;
+    tools_.limit_to(rules::for_the_search);
     result_.ladder.push_back(step_of("as given", given.fit));
     note_failures(given.fit, result_);
     const MomentumAudit& balance = result_.momentum;
@@ -164,7 +178,9 @@ class Course {
       final = refitted;
     // What the balance found was refitted with full effort already.
     if (!final.missing.empty() && final.missing != refitted.missing) {
-      final = concluded(final, tools_, "refitting with what was found");
+      tools_.limit_to(1);
+      final = unless_spent("the last refit", final,
+                           [&] { return concluded(final, tools_, "refitting with what was found"); });
       if (result_.ladder.back().step == step_name(final.missing)) result_.ladder.pop_back();
       result_.ladder.push_back(step_of(step_name(final.missing), final.fit));
     }
@@ -213,10 +229,32 @@ class Course {
         balance.possible && balance.frequency > 0 ? balance.frequency : user_.spring.frequency;
     DiagnosisState state = with_terms(before, balance.terms, frequency);
     const bool nothing_found = state.missing.empty() && !balance.unlisted;
-    state.fit = tools_.fit(
-        state, nothing_found ? "refitting the parameters" : "refitting with what the momentum balance found",
-        state.knobs(), effort::refit);
+    const std::string stage =
+        nothing_found ? "refitting the parameters" : "refitting with what the momentum balance found";
+    try {
+      state.fit = tools_.fit(state, stage, state.knobs(), effort::refit);
+    } catch (const BudgetSpent&) {
+      // An answer needs one fit at least.
+      tools_.without_limit();
+      state.fit = tools_.fit(state, stage, state.knobs(), effort::look);
+      tools_.limit_to(rules::for_the_search);
+    }
     return settled_by_ensembles(before, state).settled(tools_.known());
+  }
+
+  /// What `step` makes of a state, or the state as it is where simulations or time do not suffice.
+  template <typename Step>
+  DiagnosisState unless_spent(const std::string& name, const DiagnosisState& otherwise, Step&& step) {
+    try {
+      return step();
+    } catch (const BudgetSpent&) {
+      leave_out(name);
+      return otherwise;
+    }
+  }
+  void leave_out(const std::string& step) {
+    std::vector<std::string>& list = result_.not_tried;
+    if (std::find(list.begin(), list.end(), step) == list.end()) list.push_back(step);
   }
 
   bool is_rejected(const Refit& fit) const {
@@ -232,10 +270,14 @@ class Course {
     double most = 0;
     const BalanceAlternative* kept = nullptr;
     for (const BalanceAlternative& alternative : balance.alternatives) {
-      if (tools_.spent()) break;
       DiagnosisState other = with_terms(before, alternative.terms, alternative.frequency);
-      other.fit = tools_.fit(other, "refitting with what else the momentum balance allows", other.knobs(),
-                             effort::refit, &found.fit);
+      try {
+        other.fit = tools_.fit(other, "refitting with what else the momentum balance allows", other.knobs(),
+                               effort::refit, &found.fit);
+      } catch (const BudgetSpent&) {
+        leave_out("what else the momentum balance allows");
+        break;
+      }
       const double log_odds = alternative.log_odds + (found.fit.judged_chi2 - other.fit.judged_chi2) / 2;
       if (log_odds > most) most = log_odds, best = other, kept = &alternative;
     }
@@ -258,8 +300,15 @@ class Course {
     // A model that is accepted is searched once: chi2 of hundreds of features does not see what a single
     // effect would take away.
     for (bool searched = false; !searched || state.fit.p_value <= rules::doubtful; searched = true) {
-      if (static_cast<double>(state.missing.size()) >= rules::most_effects || tools_.spent()) break;
-      SearchRound round = search_round(state, tools_, result_.momentum.seen);
+      if (static_cast<double>(state.missing.size()) >= rules::most_effects) break;
+      SearchRound round;
+      try {
+        round = search_round(state, tools_, result_.momentum.seen);
+      } catch (const BudgetSpent&) {
+        leave_out("one more effect");
+        break;
+      }
+      for (const std::string& effect : round.not_tried) leave_out(effect);
       for (const RankedEffect& ranked : round.ranking) keep_ranked(ranked);
       result_.notes.insert(result_.notes.end(), round.notes.begin(), round.notes.end());
       if (!round.added) {
@@ -270,7 +319,8 @@ class Course {
       state = round.next;
       runner_up_ = {round.next.missing.back(), round.runner_up, round.runner_up_setup};
       result_.ladder.push_back(step_of(step_name(state.missing), state.fit));
-      state = pruned(state, tools_, from_balance);
+      state = unless_spent("which effects are still needed", state,
+                           [&] { return pruned(state, tools_, from_balance); });
     }
     result_.runner_up = runner_up_;
     return state;

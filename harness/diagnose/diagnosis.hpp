@@ -75,11 +75,13 @@ struct Diagnosis {
   Setup amended;  ///< the user's setup with effects and refitted values
   double seconds = 0;
   std::int64_t runs_simulated = 0;
+  std::vector<std::string> not_tried;  ///< steps left out, for want of simulations or time
 };
 
 struct DiagnoseOptions {
   std::vector<std::string> effects;  ///< only these may be added; empty: all
   std::int64_t budget = 0;           ///< simulations at most; 0: usual_budget()
+  double seconds = 0;                ///< of the clock at most; 0: no limit
   int threads = 0;
   std::span<const EffectRecord* const> known;
   const std::atomic<bool>* stop = nullptr;
@@ -94,7 +96,7 @@ struct DiagnoseOptions {
   SimulationJournal* journal = nullptr;  ///< of this diagnosis, begun before or not; may be null
 };
 
-/// Simulations that a diagnosis may make unless told otherwise: 3500 for each different setup among the runs,
+/// Simulations that a diagnosis may make unless told otherwise: 6000 for each different setup among the runs,
 /// for four at least.
 std::int64_t usual_budget(const Measurement& measurement);
 

@@ -120,6 +120,7 @@ std::string diagnosis_json(const Diagnosis& d) {
            {"force_formula", d.force_formula.empty() ? Json(nullptr) : Json(d.force_formula)},
            {"next_experiments", d.next_experiments},
            {"notes", d.notes},
+           {"not_tried", d.not_tried},
            {"seconds", d.seconds},
            {"runs_simulated", d.runs_simulated}};
   explain_missing_numbers(all, [&](const std::string& path) { return reason_of(d, path); });

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis.hpp"
+#include "text.hpp"
 #include "validation.hpp"
 
 namespace shakedown {
@@ -90,6 +91,10 @@ std::string diagnosis_text(const Diagnosis& d) {
   if (!d.force_formula.empty()) text += "\n  force to try: " + d.force_formula + "\n";
   for (const std::string& next : d.next_experiments) text += "  next: " + next + "\n";
   for (const std::string& note : d.notes) text += "  note: " + note + "\n";
+  if (!d.not_tried.empty())
+    text +=
+        "  not tried, for want of time or simulations (--seconds, --budget): " + joined(d.not_tried, ", ") +
+        "\n";
   return text + fmt::format("\n  {} simulations in {:.0f} s\n", d.runs_simulated, d.seconds);
 }
 

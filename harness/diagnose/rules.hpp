@@ -57,6 +57,8 @@ constexpr Rule explains{
     "errors that an explanation leaves at most: right answers leave up to 1.5, foreign contact "
     "laws that imitate an effect 5 to 15"};
 constexpr Rule most_effects{"most_effects", 3, "effects", "what a fit of some ten parameters carries"};
+constexpr Rule for_the_search{"for_the_search", 0.75, "of the budget",
+                              "the rest is kept for the last fit, which takes a quarter: measured"};
 constexpr Rule most_tried{"most_tried", 4, "effects", "fitted in one round: cost"};
 
 }  // namespace rules

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "errors.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "rules.hpp"
@@ -115,7 +116,9 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
   const std::string stage = "trying " + candidate.effect;
   state.fit = tools.fit(state, stage, knobs, costly ? effort::attempt_when_dear : effort::attempt,
                         &before.fit, lowest);
-  if (std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; })) {
+  const bool two_minima =
+      std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; });
+  if (two_minima && !(state.fit.p_value > rules::holds_well)) {
     const Refit other = tools.fit(state, stage + " from elsewhere", second_start(state.fit, added),
                                   effort::attempt, &before.fit, std::min(lowest, state.fit.judged_chi2));
     if (other.judged_chi2 < state.fit.judged_chi2) state.fit = other;
@@ -194,7 +197,7 @@ void camera_first(std::vector<Rival*>& order, DiagnosisTools& tools) {
 
 SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
                          const std::vector<std::string>& seen_by_balance) {
-  SearchRound round{{{{}, 0, 0}}, {}, {}, false, state, "", {}};
+  SearchRound round{{{{}, 0, 0}}, {}, {}, {}, false, state, "", {}};
   const std::vector<Candidate> candidates = open_candidates(state, tools, seen_by_balance);
   if (candidates.empty()) return round;
   tools.begin("ranking the effects");
@@ -213,12 +216,14 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   double lowest = state.fit.judged_chi2;
   int tried = 0;
   const auto attempt = [&](Rival& rival) {
-    if (tried >= static_cast<int>(rules::most_tried) || (tools.spent() && tried > 0)) return;
+    if (tried >= static_cast<int>(rules::most_tried)) return;
     ++tried;
     try {
       fit_rival(rival, state, tools, lowest);
       lowest = std::min(lowest, rival.state.fit.judged_chi2);
       weigh_rival(rival, all);
+    } catch (const BudgetSpent&) {
+      round.not_tried.push_back(rival.candidate->effect);
     } catch (const PhysicsError& error) {
       round.notes.push_back(rival.candidate->effect + " could not be tried: " + error.what());
     }

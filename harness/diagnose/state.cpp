@@ -5,6 +5,7 @@
 #include <set>
 
 #include "camera_features.hpp"
+#include "errors.hpp"
 #include "rules.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
@@ -49,7 +50,8 @@ DiagnosisTools::DiagnosisTools(const Measurement& measurement, const Engine& eng
                                const DiagnoseOptions& options)
     : measurement_(measurement),
       options_(options),
-      budget_(options.budget > 0 ? options.budget : usual_budget(measurement)) {
+      budget_(options.budget > 0 ? options.budget : usual_budget(measurement)),
+      start_(std::chrono::steady_clock::now()) {
   workshop_.engine = &engine;
   workshop_.known = options.known;
   workshop_.threads = options.threads;
@@ -58,10 +60,29 @@ DiagnosisTools::DiagnosisTools(const Measurement& measurement, const Engine& eng
   workshop_.pool = &pool_;
   workshop_.journal = options.journal;
   workshop_.done = [this](int) {
-    if (options_.progress && runs_ % 64 == 0)
-      options_.progress(stage_, static_cast<double>(runs_) / static_cast<double>(budget_));
+    if (options_.progress && runs_ % 64 == 0) options_.progress(stage_, share_spent());
   };
 }
+
+double DiagnosisTools::share_spent() const {
+  const double runs = static_cast<double>(runs_) / static_cast<double>(budget_);
+  return options_.seconds > 0 ? std::max(runs, share_of_time()) : runs;
+}
+
+double DiagnosisTools::share_of_time() const {
+  if (!(options_.seconds > 0)) return 0;
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() / options_.seconds;
+}
+
+void DiagnosisTools::limit_to(double share) {
+  workshop_.ask_for = [this, share](std::int64_t more) {
+    if (more > 0 && static_cast<double>(runs_ + more) > share * static_cast<double>(budget_))
+      throw BudgetSpent("as many simulations were made as may be");
+    if (share_of_time() > share) throw BudgetSpent("the time is up");
+  };
+}
+
+void DiagnosisTools::without_limit() { workshop_.ask_for = nullptr; }
 
 std::vector<MeasuredFeatures> DiagnosisTools::features(const Setup& setup) const {
   return features_with_camera(with_setup(measurement_, setup, options_.known), options_.known);
@@ -86,7 +107,7 @@ Refit DiagnosisTools::fit(const DiagnosisState& state, const std::string& stage,
 }
 
 std::int64_t usual_budget(const Measurement& measurement) {
-  constexpr std::int64_t for_each_setup = 3500, at_least = 4;
+  constexpr std::int64_t for_each_setup = 6000, at_least = 4;
   std::set<std::string> different;
   for (const Measurement::Run& run : measurement.runs) {
     Setup of_run = run.setup;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A diagnosis on its way: values, and the tools that make the next one from it. Going back is not assigning.
 #pragma once
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -49,7 +50,11 @@ class DiagnosisTools {
   std::span<const EffectRecord* const> known() const { return options_.known; }
   Workshop& workshop() { return workshop_; }
   std::int64_t runs() const { return runs_; }
-  bool spent() const { return runs_ > budget_; }
+  /// Of the simulations or of the time, whichever is more.
+  double share_spent() const;
+  /// From now on BudgetSpent is thrown where this share of the simulations or of the time would be passed.
+  void limit_to(double share);
+  void without_limit();
   int next_batch() { return 100000 * ++batch_; }
   void begin(const std::string& stage) { stage_ = stage; }
 
@@ -62,7 +67,10 @@ class DiagnosisTools {
  private:
   const Measurement& measurement_;
   const DiagnoseOptions& options_;
+  double share_of_time() const;
+
   std::int64_t budget_, runs_ = 0;
+  std::chrono::steady_clock::time_point start_;
   SimulationPool pool_;
   Workshop workshop_;
   std::string stage_;
@@ -74,6 +82,7 @@ struct SearchRound {
   std::vector<Hypothesis> table;  ///< beside the state before; weighed
   std::vector<RankedEffect> ranking;
   std::vector<std::string> notes;
+  std::vector<std::string> not_tried;  ///< for want of simulations or time
   bool added = false;
   DiagnosisState next;
   std::string runner_up;  ///< the effect that explains nearly as well as the one added; empty: none

@@ -279,12 +279,14 @@ std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, con
   std::vector<std::vector<Simulated>> simulated(groups.size(),
                                                 std::vector<Simulated>(static_cast<std::size_t>(count)));
   const int groups_count = static_cast<int>(groups.size());
+  if (workshop.ask_for) workshop.ask_for(static_cast<std::int64_t>(count) * groups_count);
   // The longest runs are begun first: groups in turn, so that the last ones are spread over all.
   work_in_parallel_deliver_in_order(
       count * groups_count, threads_or_all(workshop.threads), [&](int job) -> std::function<void()> {
         const int row = job / groups_count;
         const auto g = static_cast<std::size_t>(job % groups_count);
         if (workshop.stop && *workshop.stop) throw Interrupted("interrupted");
+        if (workshop.ask_for) workshop.ask_for(0);
         simulated[g][static_cast<std::size_t>(row)] =
             simulate(groups[g], g, measured, knobs, first_run + row, sparse, workshop);
         return [&] {

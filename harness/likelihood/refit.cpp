@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "errors.hpp"
 #include "fit_round.hpp"
 
 namespace shakedown {
@@ -193,6 +194,47 @@ std::vector<Knob> next_look(const Refit& latest, const Refit& best, const std::v
   return knobs;
 }
 
+/// Rounds about better and better places; `best` is kept up to date, so that it stands where simulations are
+/// refused.
+Refit refit_by_rounds(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs,
+                      const Workshop& workshop, const RefitOptions& options, std::optional<Refit>& best) {
+  const std::vector<Knob> first = knobs;
+  SimulationPool of_this_fit;
+  Workshop pooling = workshop;
+  if (pooling.pool == nullptr) pooling.pool = &of_this_fit;
+  const bool nothing_to_scatter =
+      std::all_of(knobs.begin(), knobs.end(), [](const Knob& knob) { return knob.exact; });
+  int looks = 0;
+  for (int number = 1;; ++number) {
+    const std::vector<Knob> here = knobs;
+    // Rounds that only find the way, or look again where many were made, need fewer simulations than the one
+    // that judges.
+    const int count = nothing_to_scatter || (number >= options.rounds && !best)
+                          ? options.count
+                          : std::max(64, options.count / 2);
+    const FitRound round(
+        measured, here, emulate(measured, here, count, options.first_run + 10000 * number, pooling), options);
+    const Minimum minimum = minimum_of(round.objective(), reach, nothing_to_scatter ? 1 : 6);
+    bool left_the_box = false;
+    for (std::size_t k = 0; k < knobs.size(); ++k) {
+      const double z = minimum.z[static_cast<Eigen::Index>(k)];
+      const bool inner = here[k].at(z) > here[k].low && here[k].at(z) < here[k].high;
+      left_the_box = left_the_box || (std::abs(z) > 1.05 && inner && !here[k].exact);
+    }
+    const bool last =
+        nothing_to_scatter || number >= options.most_rounds || (number >= options.rounds && !left_the_box);
+    if (!last) {
+      knobs = next_box(here, minimum, round.covariance_at(minimum.z, reach), first);
+      continue;
+    }
+    Refit result = result_at(round, measured, here, minimum, pooling, options);
+    if (!best || result.scatter < best->scatter) best = result;
+    if (nothing_to_scatter) return *best;
+    knobs = next_look(result, *best, here, options, looks++);
+    if (knobs.empty()) return *best;
+  }
+}
+
 }  // namespace
 
 void set_errors(RunComparison& run, const FeaturePlan& plan) {
@@ -223,41 +265,12 @@ double Refit::floor_centre() const { return root_mean_square(runs, &RunCompariso
 
 Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs, const Workshop& workshop,
             const RefitOptions& options) {
-  const std::vector<Knob> first = knobs;
-  SimulationPool of_this_fit;
-  Workshop pooling = workshop;
-  if (pooling.pool == nullptr) pooling.pool = &of_this_fit;
-  const bool nothing_to_scatter =
-      std::all_of(knobs.begin(), knobs.end(), [](const Knob& knob) { return knob.exact; });
   std::optional<Refit> best;
-  int looks = 0;
-  for (int number = 1;; ++number) {
-    const std::vector<Knob> here = knobs;
-    // Rounds that only find the way, or look again where many were made, need fewer simulations than the one
-    // that judges.
-    const int count = nothing_to_scatter || (number >= options.rounds && !best)
-                          ? options.count
-                          : std::max(64, options.count / 2);
-    const FitRound round(
-        measured, here, emulate(measured, here, count, options.first_run + 10000 * number, pooling), options);
-    const Minimum minimum = minimum_of(round.objective(), reach, nothing_to_scatter ? 1 : 6);
-    bool left_the_box = false;
-    for (std::size_t k = 0; k < knobs.size(); ++k) {
-      const double z = minimum.z[static_cast<Eigen::Index>(k)];
-      const bool inner = here[k].at(z) > here[k].low && here[k].at(z) < here[k].high;
-      left_the_box = left_the_box || (std::abs(z) > 1.05 && inner && !here[k].exact);
-    }
-    const bool last =
-        nothing_to_scatter || number >= options.most_rounds || (number >= options.rounds && !left_the_box);
-    if (!last) {
-      knobs = next_box(here, minimum, round.covariance_at(minimum.z, reach), first);
-      continue;
-    }
-    Refit result = result_at(round, measured, here, minimum, pooling, options);
-    if (!best || result.scatter < best->scatter) best = result;
-    if (nothing_to_scatter) return *best;
-    knobs = next_look(result, *best, here, options, looks++);
-    if (knobs.empty()) return *best;
+  try {
+    return refit_by_rounds(measured, std::move(knobs), workshop, options, best);
+  } catch (const BudgetSpent&) {
+    if (!best) throw;
+    return *best;
   }
 }
 

@@ -389,12 +389,10 @@ Setup with_overrides(Setup setup, std::span<const Override> overrides, Known kno
 Setup read_setup(const std::filesystem::path& file, Known known, std::span<const Override> overrides) {
   const std::string text = read_text_file(file);
   if (parse_toml(text, file.string()).entries.empty())
-    throw InputError(
-        {{{file.string(), 0, 0},
-          "",
-          "holds no key (everything would be the paper's damper)",
-          "check that it is the file you mean; harness/examples/L040.toml is the paper's damper, "
-          "written out"}});
+    throw InputError({{{file.string(), 0, 0},
+                       "",
+                       "holds no key (everything would be the paper's damper)",
+                       "check that it is the file you mean; harness/examples/L040.toml is such a setup"}});
   return parse_setup(text, file.string(), known, overrides, file.parent_path());
 }
 

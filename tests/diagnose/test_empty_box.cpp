@@ -3,6 +3,7 @@
 // and origin of the recording.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include "effects.hpp"
 #include "engines.hpp"
 #include "random.hpp"
+#include "swing.hpp"
 
 using namespace shakedown;
 
@@ -96,3 +98,49 @@ TEST(EmptyBox, WithoutFrictionNothingIsMissing) {
 }
 
 }  // namespace
+
+TEST(EmptyBox, AnOriginIsToldThoughTheFrequencyWasGivenWrong) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  DiagnoseOptions options;
+  options.known = all_effects();
+  shakedown::Setup given = empty_box();
+  given.spring.frequency *= 0.95;
+  const Diagnosis d =
+      diagnose(given, measurement_of({given}, recorded({.viscous = 0.03, .start = 0.23, .origin = 0.012}, 7)),
+               *engine, options);
+  const auto origin = std::find_if(d.camera.begin(), d.camera.end(), [](const NuisanceFound& n) {
+    return n.name.starts_with("camera_origin");
+  });
+  ASSERT_NE(origin, d.camera.end());
+  EXPECT_NEAR(origin->value, 0.012, 4 * origin->error);
+  EXPECT_LT(origin->error, 2e-4);
+}
+
+TEST(EmptyBox, NoGrainsInAnyRunIsAnEmptyBoxToo) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  DiagnoseOptions options;
+  options.known = all_effects();
+  shakedown::Setup with_grains = empty_box();
+  with_grains.grains.count = shakedown::Setup{}.grains.count;
+  const Diagnosis d =
+      diagnose(with_grains, measurement_of({empty_box()}, recorded({.viscous = 0.03}, 1)), *engine, options);
+  EXPECT_EQ(d.missing, std::vector<std::string>{"blade_viscous_damping"});
+  EXPECT_EQ(d.runs_simulated, 0);
+  EXPECT_EQ(d.amended.grains.count, 0);
+}
+
+TEST(Swing, IsCountedFromItsFirstTurnAboutItsOwnOrigin) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  const Measurement recorded_anywhere =
+      measurement_of({empty_box()}, recorded({.start = 0.23, .origin = 0.012}, 3));
+  const Measurement started = from_first_turns(recorded_anywhere, *engine);
+  const Measurement::Run& run = started.runs.front();
+  // undamped: it turns as far away as it was released
+  EXPECT_NEAR(std::abs(run.setup.release.displacement), empty_box().release.displacement, 2e-5);
+  const double omega = 2 * std::numbers::pi * run.setup.spring.frequency;
+  double squares = 0;
+  for (std::size_t i = 0; i < run.recorded.time.size(); ++i)
+    squares += std::pow(
+        run.recorded.x_box[i] - run.setup.release.displacement * std::cos(omega * run.recorded.time[i]), 2);
+  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(run.recorded.time.size())), 1e-4, 1e-5);
+}

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "swing.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "experiment_file.hpp"
+#include "quantity.hpp"
+#include "toml_string.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// The runs without grains that start anywhere: those that a first turn is looked for in.
+bool is_swing(const Measurement::Run& run) {
+  return run.setup.grains.count == 0 && starts_anywhere(run.recorded, run.setup) &&
+         run.setup.spring.frequency > 0;
+}
+
+void start_at(const SwingFit& swing, MeasuredRun& recorded, Setup& setup) {
+  constexpr std::string_view key = "release.displacement";
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < recorded.time.size(); ++i)
+    if (recorded.time[i] >= swing.turn.time) {
+      recorded.time[kept] = recorded.time[i] - swing.turn.time;
+      recorded.x_box[kept++] = recorded.x_box[i] - swing.origin;
+    }
+  recorded.time.resize(kept), recorded.x_box.resize(kept);
+  recorded.x_com.clear();
+  recorded.lead_in = {};
+  recorded.start = Start::from_rest, recorded.origin_stated = true;
+  std::erase_if(recorded.overrides, [&](const Override& one) { return one.key == key; });
+  recorded.overrides.push_back(
+      {std::string(key), toml_string(write_quantity(swing.turn.place, "m")), "measured"});
+  setup.release.displacement = swing.turn.place;
+}
+
+}  // namespace
+
+SwingFrames frames_of(const Measurement::Run& run) {
+  SwingFrames frames;
+  for (std::size_t i = 0; i < run.recorded.time.size(); ++i)
+    if (std::isfinite(run.audit.x_box[i]) &&
+        (starts_anywhere(run.recorded, run.setup) || run.recorded.time[i] >= 0))
+      frames.time.push_back(run.recorded.time[i]), frames.x.push_back(run.audit.x_box[i]);
+  return frames;
+}
+
+double middle_of(const SwingFrames& frames) {
+  const auto [low, high] = std::minmax_element(frames.x.begin(), frames.x.end());
+  return (*low + *high) / 2;
+}
+
+/// The farthest place within the first period.
+FirstTurn first_turn(const SwingFrames& frames, double middle, double period) {
+  FirstTurn turn{frames.time.front(), frames.x.front() - middle};
+  for (std::size_t i = 0; i < frames.time.size() && frames.time[i] < frames.time.front() + 1.1 * period; ++i)
+    if (std::abs(frames.x[i] - middle) > std::abs(turn.place)) turn = {frames.time[i], frames.x[i] - middle};
+  return turn;
+}
+
+/// Measured less modelled from the turn on; empty where the box cannot start there.
+Eigen::VectorXd residual_of(const SwingFrames& frames, const FirstTurn& turn, Setup setup,
+                            const Engine& engine) {
+  constexpr double rate = swing_model_rate;
+  setup.release.displacement = turn.place;
+  setup.run.duration = std::max(0.1, frames.time.back() - turn.time) + 2 / rate;
+  setup.run.sample_rate = rate;
+  const Trajectory model = engine.run(setup, {});
+  std::vector<double> left;
+  for (std::size_t i = 0; i < frames.time.size(); ++i) {
+    const double place = (frames.time[i] - turn.time) * rate;
+    if (place < 0) continue;
+    const auto k = std::min(static_cast<std::size_t>(place), model.x_box.size() - 2);
+    const double part = place - static_cast<double>(k);
+    left.push_back(frames.x[i] - model.x_box[k] - part * (model.x_box[k + 1] - model.x_box[k]));
+  }
+  return Eigen::Map<Eigen::VectorXd>(left.data(), std::ssize(left));
+}
+
+SwingFit fit_of(const SwingFrames& frames, FirstTurn turn, const Setup& setup, const Engine& engine,
+                bool origin_unknown) {
+  // Noise moves the farthest frame by some hundredths of a period: later frames see the turn on either side.
+  const double period = 1 / setup.spring.frequency, first = turn.time + period / 20;
+  SwingFrames after;
+  for (std::size_t i = 0; i < frames.time.size(); ++i)
+    if (frames.time[i] >= first) after.time.push_back(frames.time[i]), after.x.push_back(frames.x[i]);
+  double origin = 0;
+  const auto at = [&](const FirstTurn& where) {
+    Eigen::VectorXd residual = residual_of(after, where, setup, engine);
+    origin = origin_unknown && residual.size() > 0 ? residual.mean() : 0;
+    residual.array() -= origin;
+    return residual;
+  };
+  Eigen::VectorXd best = at(turn);
+  double best_origin = origin;
+  const double dt = period / 1000, dx = 1e-3 * std::abs(turn.place);
+  for (int step = 0; step < 8; ++step) {
+    Eigen::MatrixXd slope(best.size(), 2);
+    slope.col(0) = (best - at({turn.time - dt, turn.place})) / dt;
+    slope.col(1) = (at({turn.time, turn.place + dx}) - best) / dx;
+    const Eigen::Vector2d move = -(slope.transpose() * slope).ldlt().solve(slope.transpose() * best);
+    const FirstTurn next{
+        std::min(turn.time + std::clamp(move[0], -period / 20, period / 20), after.time.front()),
+        turn.place + std::clamp(move[1], -0.1 * std::abs(turn.place), 0.1 * std::abs(turn.place))};
+    const Eigen::VectorXd here = at(next);
+    if (!(here.squaredNorm() < best.squaredNorm() * (1 - 1e-6))) break;
+    turn = next, best = here, best_origin = origin;
+  }
+  return {turn, best_origin, best};
+}
+
+SwingFit fit_of(const Measurement::Run& run, const Engine& engine) {
+  const SwingFrames frames = frames_of(run);
+  const bool anywhere = starts_anywhere(run.recorded, run.setup);
+  return fit_of(frames, first_turn(frames, anywhere ? middle_of(frames) : 0, 1 / run.setup.spring.frequency),
+                run.setup, engine, anywhere);
+}
+
+Measurement from_first_turns(const Measurement& measurement, const Engine& engine) {
+  if (std::none_of(measurement.runs.begin(), measurement.runs.end(), is_swing)) return measurement;
+  Experiment experiment{measurement.title, measurement.file, {}, measurement.known, measurement.notes};
+  std::vector<Setup> setups;
+  for (const Measurement::Run& run : measurement.runs) {
+    experiment.runs.push_back(run.recorded);
+    setups.push_back(run.setup);
+    constexpr std::size_t least = 8;  // frames
+    if (is_swing(run) && frames_of(run).time.size() >= least)
+      start_at(fit_of(run, engine), experiment.runs.back(), setups.back());
+  }
+  return measurement_of(setups, std::move(experiment));
+}
+
+}  // namespace shakedown
