@@ -38,6 +38,7 @@ Candidate candidate_of(const EffectRecord& record, const Search& search, const S
   candidate.dear = search.cost == Search::Cost::dear;
   candidate.slow = search.cost == Search::Cost::slow;
   candidate.always = search.hides_in_restitution;
+  candidate.towards = strength.typical < 0 ? -1 : 1;
   for (const auto& [parameter, value] : search.besides)
     candidate.fixed.emplace_back(candidate.effect + "." + std::string(parameter), value);
   const Knob knob = knob_of(record, strength, setup);

@@ -20,7 +20,8 @@ struct Candidate {
   /// Tried whatever the linear estimate says: inside the contacts a refit hides most of what is linear, and
   /// at full strength it is not.
   bool always = false;
-  bool slow = false;  ///< a run costs three to five times a plain one: screened by itself, with fewer runs
+  double towards = 1;  ///< -1: what the effect does lowers its parameter
+  bool slow = false;   ///< a run costs three to five times a plain one: screened by itself, with fewer runs
   std::vector<Knob> when_tried{};  ///< of one screened as on or off: what its fit may vary
 
   const std::vector<Knob>& fitted_knobs() const { return knobs.empty() ? when_tried : knobs; }

@@ -85,7 +85,7 @@ std::vector<Knob> knobs_of(const Candidate& candidate, const ScreenedEffect& scr
       knob.width *= std::clamp(screened.value, knob.low, knob.high) / knob.centre;
       knob.centre = std::clamp(screened.value, knob.low, knob.high);
     } else if (candidate.always) {
-      knob.centre += knob.width;
+      knob.centre = std::clamp(knob.centre + candidate.towards * knob.width, knob.low, knob.high);
     } else {
       knob.centre = std::clamp(screened.value, knob.low, knob.high);
       knob.width = std::max(knob.width, 0.5 * std::abs(screened.value));
