@@ -93,7 +93,7 @@ Eigen::Index MomentumProblem::windows() const {
 double MomentumProblem::longest() const {
   double longest = 0;
   for (const WeakForm& form : forms_)
-    longest = std::max(longest, form.run().time.tail(1)[0] - form.run().time[0]);
+    if (form.has_windows()) longest = std::max(longest, form.centre(form.windows() - 1) - form.centre(0));
   return longest;
 }
 

@@ -59,7 +59,7 @@ class MomentumProblem {
   void set_wander(const Wander& wander) { wander_ = wander; }
   const Wander& wander() const { return wander_; }
   Eigen::Index windows() const;
-  double longest() const;  ///< s, of a run
+  double longest() const;  ///< s, from the first window of a run to its last
 
   std::size_t runs() const { return forms_.size(); }
   const WeakForm& form(std::size_t run) const { return forms_[run]; }

@@ -175,7 +175,7 @@ Command add_diagnose_command(CLI::App& program) {
   command
       .add_option(
           "--budget", arguments->budget,
-          "simulations at most; default: 6000 for each different setup among the runs, for four at least")
+          "simulations at most; default: 10000 for each different setup among the runs, for four at least")
       ->check(positive_number())
       ->type_name("RUNS");
   command

@@ -273,7 +273,7 @@ class Course {
       DiagnosisState other = with_terms(before, alternative.terms, alternative.frequency);
       try {
         other.fit = tools_.fit(other, "refitting with what else the momentum balance allows", other.knobs(),
-                               effort::refit, &found.fit);
+                               effort::attempt, &found.fit);
       } catch (const BudgetSpent&) {
         leave_out("what else the momentum balance allows");
         break;

@@ -96,8 +96,8 @@ struct DiagnoseOptions {
   SimulationJournal* journal = nullptr;  ///< of this diagnosis, begun before or not; may be null
 };
 
-/// Simulations that a diagnosis may make unless told otherwise: 6000 for each different setup among the runs,
-/// for four at least.
+/// Simulations that a diagnosis may make unless told otherwise: 10000 for each different setup among the
+/// runs, for four at least.
 std::int64_t usual_budget(const Measurement& measurement);
 
 /// Throws InputError when the setup does not fit the experiment, Interrupted when stopped.

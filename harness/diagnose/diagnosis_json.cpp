@@ -49,6 +49,7 @@ Json momentum_json(const MomentumAudit& audit) {
                      {"low", number(term.low)},
                      {"high", number(term.high)},
                      {"unit", term.unit},
+                     {"frequency_hz", term.frequency > 0 ? Json(term.frequency) : Json(nullptr)},
                      {"gain", number(term.gain)},
                      {"look_alikes", term.look_alikes}});
   return {{"possible", audit.possible},

@@ -88,8 +88,16 @@ Setup in_design(Setup setup, const Design& design) {
 }
 
 FittedModel fitted_model(Setup setup, const Refit& fit) {
-  FittedModel model{std::move(setup), fit.knobs, fit.covariance};
-  for (std::size_t k = 0; k < model.knobs.size(); ++k) model.knobs[k].centre = fit.values[k].value;
+  // The camera of a new experiment is its own: what is known of this one's is left out.
+  FittedModel model{std::move(setup), {}, {}};
+  std::vector<Eigen::Index> kept;
+  for (std::size_t k = 0; k < fit.knobs.size(); ++k) {
+    if (fit.knobs[k].exact) continue;
+    kept.push_back(static_cast<Eigen::Index>(k));
+    model.knobs.push_back(fit.knobs[k]);
+    model.knobs.back().centre = fit.values[k].value;
+  }
+  model.covariance = fit.covariance(kept, kept);
   return model;
 }
 

@@ -107,7 +107,7 @@ Refit DiagnosisTools::fit(const DiagnosisState& state, const std::string& stage,
 }
 
 std::int64_t usual_budget(const Measurement& measurement) {
-  constexpr std::int64_t for_each_setup = 6000, at_least = 4;
+  constexpr std::int64_t for_each_setup = 10000, at_least = 4;
   std::set<std::string> different;
   for (const Measurement::Run& run : measurement.runs) {
     Setup of_run = run.setup;
