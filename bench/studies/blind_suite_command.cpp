@@ -26,7 +26,7 @@ struct BlindSuiteArguments {
   bool small = false, baselines = false, resume = false, score_only = false;
   std::vector<double> signals;
   std::uint64_t seed = 1;
-  std::int64_t budget = 14000;
+  std::int64_t budget = 40000;
   int threads = 0;
   std::string ledger = STUDIES_LEDGER;
   JsonOutput json;

@@ -25,15 +25,20 @@ ProgressDisplay::~ProgressDisplay() {
 
 void ProgressDisplay::rename(const std::string& what) {
   if (what == what_) return;
+  announce();
   what_ = what;
   if (!terminal_)
     fmt::print(stderr, "{:6.1f} s  {}\n",
                std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(), what_);
 }
 
-void ProgressDisplay::show(double fraction) {
+void ProgressDisplay::announce() {
   if (!terminal_ && !announced_) fmt::print(stderr, "{}\n", what_), std::fflush(stderr);
   announced_ = true;
+}
+
+void ProgressDisplay::show(double fraction) {
+  announce();
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_ || now - last_ < between_updates) return;
   last_ = now;

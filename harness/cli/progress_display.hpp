@@ -22,6 +22,8 @@ class ProgressDisplay {
   void rename(const std::string& what);
 
  private:
+  void announce();  ///< once, where the output is no terminal
+
   std::string what_;
   bool terminal_, announced_ = false;
   std::chrono::steady_clock::time_point start_, last_;

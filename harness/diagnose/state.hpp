@@ -56,7 +56,10 @@ class DiagnosisTools {
   void limit_to(double share);
   void without_limit();
   int next_batch() { return 100000 * ++batch_; }
-  void begin(const std::string& stage) { stage_ = stage; }
+  void begin(const std::string& stage) {
+    stage_ = stage;
+    if (options_.progress) options_.progress(stage_, share_spent());
+  }
 
   /// The measured runs beside this setup, with what the camera does to them.
   std::vector<MeasuredFeatures> features(const Setup& setup) const;

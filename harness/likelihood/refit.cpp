@@ -14,7 +14,7 @@ namespace shakedown {
 
 namespace {
 
-constexpr int most_looks = 1;
+constexpr int most_looks = 2;
 /// How far (in boxes) the regression's slopes are trusted about simulations at one point, and the share of
 /// chi2 that a step must promise to be worth simulations of its own at its end.
 constexpr double nearby = 0.5, step_gain = 0.1;

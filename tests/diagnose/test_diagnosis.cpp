@@ -55,6 +55,26 @@ TEST(Diagnosis, NothingHiddenIsAdequate) {
   EXPECT_GT(d.ladder.front().p_value, 0.03);
 }
 
+TEST(SlowDiagnosis, LimitsHoldAndWhatWasNotTriedIsSaid) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  const Measurement measurement = as_measured(measured({{"blade_viscous_damping=damping:0.05 N s/m"}}));
+  DiagnoseOptions options;
+  options.known = all_effects();
+  options.threads = 2;
+  options.budget = 2000;
+  const Diagnosis few = diagnose(believed(), measurement, *engine, options);
+  EXPECT_LE(few.runs_simulated, options.budget);
+  EXPECT_FALSE(few.not_tried.empty());
+  EXPECT_EQ(few.missing, std::vector<std::string>{"blade_viscous_damping"}) << few.sentence;
+  // No time at all: one fit of the model as given and one with what the balance found.
+  options.budget = 0;
+  options.seconds = 1e-9;
+  const Diagnosis hasty = diagnose(believed(), measurement, *engine, options);
+  EXPECT_EQ(hasty.runs_simulated, 2 * 2 * 128);
+  EXPECT_FALSE(hasty.not_tried.empty());
+  EXPECT_EQ(hasty.missing, std::vector<std::string>{"blade_viscous_damping"}) << hasty.sentence;
+}
+
 TEST(Diagnosis, AnotherPackingIsAParameterNotAnEffect) {
   const Diagnosis d = diagnosis_of({{}, {{"release.packing", "random"}}});
   EXPECT_EQ(d.verdict, Verdict::refit) << d.sentence;

@@ -308,7 +308,7 @@ TEST(SlowNaiveAnswers, NameAStrongForceAndAccuseWhereNothingIsHidden) {
   const TrialTools tools{hard.get(), hard.get(), all_effects(), 4000, 0, nullptr};
   Trial trial;
   trial.runs = small_design().runs;
-  trial.hidden = {{}, changed({}, at_strength(*find_hideable("spring_cubic"), 1), all_effects())};
+  trial.hidden = {{}, changed({}, at_strength(*find_hideable("spring_cubic"), 2), all_effects())};
   const Workshop workshop{hard.get(), all_effects(), 0, nullptr, {}, nullptr};
   const auto answers = [&] {
     return naive_answers({}, measurement_of(shakedown::Setup{}, measured_in(trial, tools), all_effects()),
