@@ -28,6 +28,7 @@ Diagnosis diagnosis_of(const EffectRecord& own, const char* key, double strength
   tools.model = hard.get();
   tools.known = known;
   tools.threads = 2;
+  tools.budget = 16000;  // of minutes: neither needs more
   tools.strength_uncertainty = &strength_uncertainty;
   Trial trial;
   trial.runs = full_design().runs;
