@@ -119,9 +119,12 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
   const bool two_minima =
       std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; });
   if (two_minima && !(state.fit.p_value > rules::holds_well)) {
-    const Refit other = tools.fit(state, stage + " from elsewhere", second_start(state.fit, added),
-                                  effort::attempt, &before.fit, std::min(lowest, state.fit.judged_chi2));
-    if (other.judged_chi2 < state.fit.judged_chi2) state.fit = other;
+    try {
+      const Refit other = tools.fit(state, stage + " from elsewhere", second_start(state.fit, added),
+                                    effort::attempt, &before.fit, std::min(lowest, state.fit.judged_chi2));
+      if (other.judged_chi2 < state.fit.judged_chi2) state.fit = other;
+    } catch (const BudgetSpent&) {  // the first fit stands
+    }
   }
   state.dear = before.dear || costly;
   rival.fitted = true;

@@ -42,8 +42,7 @@ extern const EffectRecord side_wall_restitution{
                               .low = 0.05,
                               .high = 0.999,
                               .absent_key = "restitution.grain_wall",
-                              .strongest = -0.66}},
-               .hides_in_restitution = true},
+                              .strongest = -0.66}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect
