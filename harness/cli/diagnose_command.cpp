@@ -179,10 +179,10 @@ Command add_diagnose_command(CLI::App& program) {
       ->check(positive_number())
       ->type_name("RUNS");
   command
-      .add_option(
-          "--seconds", arguments->seconds,
-          "time at most; what was not tried is said. Where it is never reached the answer is the same "
-          "for any number of threads")
+      .add_option("--seconds", arguments->seconds,
+                  "time at most, up to 1.6 times that beside other work; what was not tried is said. Where "
+                  "it is never reached the answer is the same "
+                  "for any number of threads")
       ->capture_default_str()
       ->check(positive_number());
   command.add_flag(

@@ -81,7 +81,7 @@ struct Diagnosis {
 struct DiagnoseOptions {
   std::vector<std::string> effects;  ///< only these may be added; empty: all
   std::int64_t budget = 0;           ///< simulations at most; 0: usual_budget()
-  double seconds = 0;                ///< of the clock at most; 0: no limit
+  double seconds = 0;  ///< at most, with its threads to itself; up to 1.6 times that beside others; 0: none
   int threads = 0;
   std::span<const EffectRecord* const> known;
   const std::atomic<bool>* stop = nullptr;

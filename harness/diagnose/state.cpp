@@ -6,6 +6,7 @@
 
 #include "camera_features.hpp"
 #include "errors.hpp"
+#include "in_order.hpp"
 #include "rules.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
@@ -51,7 +52,8 @@ DiagnosisTools::DiagnosisTools(const Measurement& measurement, const Engine& eng
     : measurement_(measurement),
       options_(options),
       budget_(options.budget > 0 ? options.budget : usual_budget(measurement)),
-      start_(std::chrono::steady_clock::now()) {
+      start_(std::chrono::steady_clock::now()),
+      clock_at_start_(std::clock()) {
   workshop_.engine = &engine;
   workshop_.known = options.known;
   workshop_.threads = options.threads;
@@ -71,7 +73,12 @@ double DiagnosisTools::share_spent() const {
 
 double DiagnosisTools::share_of_time() const {
   if (!(options_.seconds > 0)) return 0;
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() / options_.seconds;
+  // Work counts, not waiting for cores that others use; but nobody waits for more than this many times as
+  // long.
+  constexpr double patience = 1.6;
+  const double clock = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double worked = static_cast<double>(std::clock() - clock_at_start_) / CLOCKS_PER_SEC;
+  return std::max(worked / threads_or_all(options_.threads), clock / patience) / options_.seconds;
 }
 
 void DiagnosisTools::limit_to(double share) {

@@ -2,6 +2,7 @@
 // A diagnosis on its way: values, and the tools that make the next one from it. Going back is not assigning.
 #pragma once
 #include <chrono>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,7 @@ class DiagnosisTools {
 
   std::int64_t budget_, runs_ = 0;
   std::chrono::steady_clock::time_point start_;
+  std::clock_t clock_at_start_;
   SimulationPool pool_;
   Workshop workshop_;
   std::string stage_;
