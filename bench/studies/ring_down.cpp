@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ring_down.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -9,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "errors.hpp"
+#include "json_file.hpp"
 #include "known_effects.hpp"
 #include "random.hpp"
 #include "ring_down_signal.hpp"
@@ -175,6 +179,30 @@ RingDownAnswer answer_of(const RingDown& case_, const TrialTools& tools) {
     answer.stopped = error.what();
   }
   answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return answer;
+}
+
+std::string answer_json(const RingDownAnswer& answer, const std::string& program) {
+  return nlohmann::json{
+             {"program", program},        {"verdict", answer.verdict},       {"missing", answer.missing},
+             {"stopped", answer.stopped}, {"not_finite", answer.not_finite}, {"seconds", answer.seconds}}
+             .dump(2) +
+         "\n";
+}
+
+RingDownAnswer read_answer(const std::filesystem::path& file, const std::string& program) {
+  RingDownAnswer answer;
+  std::string answered_by;
+  constexpr std::string_view remedy = "remove it, and the case is answered again";
+  read_json_file(file, "a ring-down's answer", remedy, [&](const std::string& text) {
+    const nlohmann::json document = nlohmann::json::parse(text);
+    answered_by = document.at("program").get<std::string>();
+    answer = {document.at("verdict"), document.at("missing"), document.at("stopped"),
+              document.at("not_finite"), document.at("seconds")};
+  });
+  if (answered_by != program)
+    throw InputError(fmt::format("{} is the answer of another program ({}); {}, or choose another folder",
+                                 file.string(), answered_by, remedy));
   return answer;
 }
 

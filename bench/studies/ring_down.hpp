@@ -2,6 +2,7 @@
 // Empty boxes ringing down, as people record them: every real experiment with grains begins with one. Drawn
 // at random, measured by the laboratory, diagnosed, scored.
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -42,6 +43,11 @@ struct RingDownAnswer {
   bool not_finite = false;           ///< a number of the answer is none
   double seconds = 0;
 };
+/// As a file keeps it, with the program that answered. `read_answer` throws InputError for what is no answer
+/// of that program.
+std::string answer_json(const RingDownAnswer& answer, const std::string& program);
+RingDownAnswer read_answer(const std::filesystem::path& file, const std::string& program);
+
 /// An answer that is an exception is kept as `stopped`; only Interrupted is thrown on.
 RingDownAnswer answer_of(const RingDown& case_, const TrialTools& tools);
 

@@ -28,8 +28,21 @@ struct RingDownArguments {
   std::uint64_t seed = 1;
 };
 
+/// From the folder where an earlier call left it, or found now and left there.
+RingDownAnswer kept_or_found(const RingDown& drawn, const TrialTools& tools,
+                             const RingDownArguments& arguments) {
+  if (arguments.out.empty()) return answer_of(drawn, tools);
+  const std::string name = fmt::format("answers/seed_{}_case_{:04}.json", arguments.seed, drawn.number);
+  const std::filesystem::path file = std::filesystem::path(arguments.out) / name;
+  if (std::filesystem::exists(file)) return read_answer(file, version_line());
+  RingDownAnswer answer = answer_of(drawn, tools);
+  write_file(file, answer_json(answer, version_line()));
+  return answer;
+}
+
 /// Several cases at a time, each on one thread.
 std::vector<RingDownResult> results_of(const RingDownArguments& arguments) {
+  if (!arguments.out.empty()) const OutputFolder answers(arguments.out + "/answers");
   const std::unique_ptr<Engine> laboratory = engine_named(arguments.engine), model = engine_named("hard");
   const TrialTools tools{.laboratory = laboratory.get(),
                          .model = model.get(),
@@ -48,7 +61,7 @@ std::vector<RingDownResult> results_of(const RingDownArguments& arguments) {
         if (tools.stop->load()) throw Interrupted("stopped before the last case");
         RingDown drawn =
             draw_ring_down(arguments.seed, numbers[static_cast<std::size_t>(i)], *model, all_effects());
-        RingDownAnswer answer = answer_of(drawn, tools);
+        RingDownAnswer answer = kept_or_found(drawn, tools, arguments);
         auto result =
             std::make_shared<RingDownResult>(judged(std::move(drawn), std::move(answer), all_effects()));
         return [&, result] {
@@ -86,7 +99,10 @@ Command add_ring_down_command(CLI::App& program) {
   command.add_option("--only", a->only, "these numbers alone, e.g. 3,17")->delimiter(',')->type_name("N,...");
   command.add_option("--seed", a->seed, "of the draw")->capture_default_str();
   command.add_option("--engine", a->engine, "the laboratory's")->type_name("NAME")->capture_default_str();
-  command.add_option("--out", a->out, "folder for ring_downs.csv (a line a case) and ring_downs.txt")
+  command
+      .add_option("--out", a->out,
+                  "folder for ring_downs.csv (a line a case), ring_downs.txt and every answer as it comes; "
+                  "a second call with it goes on where the first stopped")
       ->type_name("DIR");
   command.add_option("--ledger", a->ledger, "table of seeds drawn, answered and opened (CSV); \"\": none")
       ->type_name("FILE");

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "effects.hpp"
 #include "engines.hpp"
+#include "errors.hpp"
+#include "output_file.hpp"
 #include "ring_down_signal.hpp"
 
 using namespace shakedown;
@@ -99,4 +102,19 @@ TEST(RingDowns, AreJudgedByTheirPhysics) {
   EXPECT_EQ(table.find("three laws"), std::string::npos) << "no line of nothing";
   const std::string csv = ring_down_csv({stopped});
   EXPECT_NE(csv.find("blade_viscous_damping clamp_dry_friction,20.0 30.0,white"), std::string::npos) << csv;
+}
+
+TEST(RingDowns, AnAnswerIsKeptForTheProgramThatGaveIt) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "ring_down_answer.json";
+  const RingDownAnswer given{"missing_effect", {"spring_cubic"}, "a \"reason\"", true, 1.25};
+  write_file(file, answer_json(given, "one"));
+  const RingDownAnswer read = read_answer(file, "one");
+  EXPECT_EQ(read.verdict, given.verdict);
+  EXPECT_EQ(read.missing, given.missing);
+  EXPECT_EQ(read.stopped, given.stopped);
+  EXPECT_EQ(read.not_finite, given.not_finite);
+  EXPECT_EQ(read.seconds, given.seconds);
+  EXPECT_THROW(read_answer(file, "another"), InputError);
+  write_file(file, "half an ans");
+  EXPECT_THROW(read_answer(file, "one"), InputError);
 }
