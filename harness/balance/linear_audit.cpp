@@ -8,6 +8,7 @@
 #include "balance_rules.hpp"
 #include "effect_strength.hpp"
 #include "force_formula.hpp"
+#include "foretold.hpp"
 #include "robust_statistics.hpp"
 #include "shape_found.hpp"
 #include "wander_choice.hpp"
@@ -371,9 +372,11 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
     q.problem.set_covariance({});
     const double cost_of_known = cost_of(q, fit_terms(q, sets.front().chosen));
     FormulaFit formulas = fit_formulas(q);
-    // A formula that leaves the balance rejected is no better than a sum of known forces that does.
+    // A formula that leaves the balance rejected or foretells nothing is no better than known forces that do.
     audit.unlisted = !formulas.formulas.empty() && formulas.cost < cost_of_known - price_of_the_unlisted &&
-                     balance_of(formulas.selection.fit).p_value > balance_rejected;
+                     balance_of(formulas.selection.fit).p_value > balance_rejected &&
+                     chi2_foretold(formulas.problem, formulas.selection.chosen) <
+                         chi2_foretold(formulas.problem, sets.front().chosen) - as_good;
     if (audit.unlisted || !(balance_of(selection.fit).p_value >= options.accept_p))
       audit.curves = std::move(formulas.curves);
     if (audit.unlisted) {

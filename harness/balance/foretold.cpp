@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "foretold.hpp"
+
+#include <utility>
+
+namespace shakedown {
+
+namespace {
+
+/// First row and number of rows.
+using Stretch = std::pair<Eigen::Index, Eigen::Index>;
+
+std::vector<Stretch> stretches_of(const MomentumProblem& problem) {
+  std::vector<Stretch> stretches;
+  for (std::size_t run = 0; run < problem.runs(); ++run)
+    if (problem.rows(run) > 0) stretches.push_back({problem.begin(run), problem.rows(run)});
+  if (stretches.size() != 1) return stretches;
+  const auto [begin, rows] = stretches.front();
+  return {{begin, rows / 2}, {begin + rows / 2, rows - rows / 2}};
+}
+
+}  // namespace
+
+double chi2_foretold(const SelectionProblem& p, const std::vector<ChosenTerm>& chosen) {
+  const Eigen::MatrixXd columns = columns_of(p, chosen);
+  const Eigen::VectorXd& impulse = p.problem.impulse();
+  double chi2 = 0;
+  for (const auto& [begin, rows] : stretches_of(p.problem)) {
+    // Rows of zeros take no part; what is known beforehand of the nuisances stands in rows of its own below.
+    Eigen::MatrixXd seen_columns = columns;
+    Eigen::VectorXd seen = impulse;
+    seen_columns.middleRows(begin, rows).setZero();
+    seen.segment(begin, rows).setZero();
+    const Eigen::VectorXd strength = regress(seen, seen_columns).strength;
+    chi2 += (impulse.segment(begin, rows) - columns.middleRows(begin, rows) * strength).squaredNorm();
+  }
+  return chi2;
+}
+
+}  // namespace shakedown
