@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ring_down.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -201,8 +199,10 @@ RingDownAnswer read_answer(const std::filesystem::path& file, const std::string&
               document.at("not_finite"), document.at("seconds")};
   });
   if (answered_by != program)
-    throw InputError(fmt::format("{} is the answer of another program ({}); {}, or choose another folder",
-                                 file.string(), answered_by, remedy));
+    throw InputError({{{file.string(), 0, 0},
+                       "program",
+                       "is another one (" + answered_by + ") than the one that asks",
+                       std::string(remedy) + ", or choose another folder"}});
   return answer;
 }
 
