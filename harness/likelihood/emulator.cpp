@@ -2,6 +2,7 @@
 #include "emulator.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -88,7 +89,17 @@ double share_left(const Eigen::MatrixXd& terms) {
   return std::max(static_cast<double>(terms.rows() - terms.cols()) / static_cast<double>(terms.rows()), 0.05);
 }
 
+/// A parameter whose column is constant, or the sum of others, has no slope to tell: whoever asks for one has
+/// mixed up the columns, or scattered a knob that cannot move.
+void expect_full_rank(const Eigen::MatrixXd& terms) {
+  constexpr double rounding = 1e-9;  // of columns whose entries are of order one
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(terms);
+  qr.setThreshold(rounding);
+  EXPECT(qr.rank() == terms.cols());
+}
+
 Emulator regress(Eigen::MatrixXd terms, const Eigen::MatrixXd& features) {
+  expect_full_rank(terms);
   Emulator emulator;
   const Eigen::MatrixXd normal = terms.transpose() * terms;
   emulator.inverse_normal = normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
@@ -141,11 +152,13 @@ bool is_point(const std::vector<Knob>& knobs) {
                      [](const Knob& knob) { return knob.width == 0 || knob.exact; });
 }
 
-std::vector<Knob> scattered_ones(const std::vector<Knob>& knobs) {
-  std::vector<Knob> scattered;
-  std::copy_if(knobs.begin(), knobs.end(), std::back_inserter(scattered),
-               [](const Knob& knob) { return !knob.exact; });
-  return scattered;
+/// Places among the knobs of those that simulations are scattered over: none where all stand at a point.
+std::vector<Eigen::Index> scattered_places(const std::vector<Knob>& knobs) {
+  std::vector<Eigen::Index> places;
+  if (is_point(knobs)) return places;
+  for (std::size_t k = 0; k < knobs.size(); ++k)
+    if (!knobs[k].exact) places.push_back(static_cast<Eigen::Index>(k));
+  return places;
 }
 
 /// What the exact knobs do at z to a run's features, m.
@@ -299,14 +312,14 @@ std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, con
     if (workshop.pool)
       exchange(simulated[g], model_name(groups[g], measured, knobs, workshop), knobs, *workshop.pool);
     const auto rows = static_cast<Eigen::Index>(simulated[g].size());
-    const std::vector<Knob> varied = is_point(knobs) ? std::vector<Knob>{} : scattered_ones(knobs);
-    const auto n_terms =
-        regression_terms(varied, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(varied.size()))).size();
+    const std::vector<Eigen::Index> places = scattered_places(knobs);
+    std::vector<Knob> varied;
+    for (const Eigen::Index place : places) varied.push_back(knobs[static_cast<std::size_t>(place)]);
+    const auto n_terms = regression_terms(varied, Eigen::VectorXd::Zero(std::ssize(varied))).size();
     Eigen::MatrixXd terms(rows, n_terms);
     for (Eigen::Index i = 0; i < rows; ++i)
-      terms.row(i) = regression_terms(varied, simulated[g][static_cast<std::size_t>(i)].z.head(
-                                                  static_cast<Eigen::Index>(varied.size())))
-                         .transpose();
+      terms.row(i) =
+          regression_terms(varied, simulated[g][static_cast<std::size_t>(i)].z(places)).transpose();
     for (std::size_t k = 0; k < groups[g].members.size(); ++k) {
       const std::size_t m = groups[g].members[k];
       Eigen::MatrixXd features(rows, measured[m].values.size());

@@ -36,6 +36,10 @@ struct Knob {
   /// Of the camera: what it does is arithmetic on the recording (MeasuredFeatures::by_camera), so runs are
   /// not scattered over it. Straight.
   bool exact = false;
+  /// Of an effect's strength: the value at which the effect is absent; infinite of a length. With a key of
+  /// the setup here that is the value of that parameter, wherever a fit takes it.
+  double absent = 0;
+  std::string absent_key{};
 
   double at(double z) const;  ///< value at z in [-1, 1], kept in bounds
   double z_of(double value) const { return width > 0 ? (value - centre) / width : 0; }
@@ -98,7 +102,8 @@ Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::
 
 /// One emulator for each measured run from `count` simulations (of each different setup) scattered over the
 /// knobs' box, and those in the workshop's pool that lie in it; knobs of no width: all at the centre, the
-/// mean and the chaos of one ensemble. first_run addresses the random numbers of the new ones. A knob with
+/// mean and the chaos of one ensemble. Exact knobs may stand anywhere among the others; their terms stand in
+/// the order of the knobs. first_run addresses the random numbers of the new ones. A knob with
 /// `sparse` < 1 is moved in that fraction of the simulations only.
 std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
                               int count, int first_run, const Workshop& workshop, double sparse = 1);
