@@ -63,7 +63,8 @@ class Naive {
         noise_(weights_of(measured, true)) {}
 
   NaiveAnswers answers() {
-    const std::vector<Candidate> candidates = candidates_for(measured_.front().setup, {}, workshop_.known);
+    const std::vector<Candidate> candidates =
+        candidates_for(measured_.front().setup, {}, workshop_.known, *workshop_.engine);
     for (const Candidate& candidate : candidates)
       if (candidate.knobs.empty()) offer_switch(candidate);
     const ScatterGroups groups = scatter_groups(candidates);

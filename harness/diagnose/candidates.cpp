@@ -7,6 +7,7 @@
 
 #include "camera.hpp"
 #include "effect_strength.hpp"
+#include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "physics.hpp"
 #include "setup_file.hpp"
@@ -25,6 +26,8 @@ Knob knob_of(const EffectRecord& record, const SearchedStrength& strength, const
   } else {
     knob.centre = strength.even ? strength.typical : absent_value(record, strength, setup);
   }
+  knob.absent = absent_value(record, strength, setup);
+  knob.absent_key = strength.absent_key;
   knob.cubic = strength.levels.size() > 3;
   knob.exact = !strength.inverse && find_camera_parameter(knob.key) != nullptr;
   if (knob.exact) knob.curved = knob.cubic = false;
@@ -66,13 +69,35 @@ bool possible_in(Setup setup, const Candidate& candidate, std::span<const Effect
   }
 }
 
-std::vector<Candidate> all_candidates(const Setup& setup, std::span<const EffectRecord* const> known) {
+/// Another effect of the setup has replaced the part of the model that this one would.
+bool is_claimed(const Setup& setup, const EffectRecord& record) {
+  return !record.claims.empty() &&
+         std::any_of(setup.effects.begin(), setup.effects.end(), [&](const EffectChoice& choice) {
+           return choice.record != &record && choice.record->claims == record.claims;
+         });
+}
+
+/// The setup has this strength already, another component of the same effect left aside.
+bool is_present(const Setup& setup, const EffectRecord& record, const SearchedStrength& strength,
+                std::span<const EffectRecord* const> known) {
+  if (find_choice(setup, record.name) == nullptr) return false;
+  const std::vector<std::string> keys = joined_keys(keys_of(record, strength));
+  const double absent = absent_value(record, strength, setup);
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const std::string& key) { return get_number(setup, key, known) != absent; });
+}
+
+std::vector<Candidate> all_candidates(const Setup& setup, std::span<const EffectRecord* const> known,
+                                      const Engine& engine) {
   std::vector<Candidate> list;
   for (const EffectRecord* record : known) {
     const Search search = search_of(*record);
     // the balance finds sines
-    if (record->nuisance || search.harmonic || find_choice(setup, record->name) != nullptr) continue;
+    if (record->nuisance || search.harmonic || !search.not_searched.empty() || is_claimed(setup, *record) ||
+        !is_modelled(engine, *record))
+      continue;
     for (const SearchedStrength& strength : search.strengths) {
+      if (is_present(setup, *record, strength, known)) continue;
       Candidate candidate = candidate_of(*record, search, strength, setup);
       if (possible_in(setup, candidate, known)) list.push_back(std::move(candidate));
     }
@@ -82,9 +107,16 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
 
 }  // namespace
 
+bool is_modelled(const Engine& engine, const EffectRecord& record) {
+  const EffectChoice choice = with_defaults(record);
+  Capability capability = engine.can_model(record);
+  if (record.capability_of != nullptr) capability = record.capability_of(choice, engine.name(), capability);
+  return capability.fidelity != Fidelity::not_modelled;
+}
+
 std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std::string>& only,
-                                      std::span<const EffectRecord* const> known) {
-  std::vector<Candidate> list = all_candidates(setup, known);
+                                      std::span<const EffectRecord* const> known, const Engine& engine) {
+  std::vector<Candidate> list = all_candidates(setup, known, engine);
   std::erase_if(list, [&](const Candidate& candidate) {
     return !only.empty() && std::find(only.begin(), only.end(), candidate.effect) == only.end();
   });

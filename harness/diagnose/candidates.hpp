@@ -11,8 +11,8 @@ namespace shakedown {
 
 struct Candidate {
   std::string effect;
-  std::vector<Knob> knobs;  ///< one typical strength wide, about the effect's absence where when_absent() is
-                            ///< the centre; empty: on or off
+  std::vector<Knob> knobs;  ///< one typical strength wide, about the effect's absence or, where both signs do
+                            ///< the same, about that strength; empty: on or off
   std::vector<std::pair<std::string, double>>
       fixed;  ///< setup paths and values (SI) that its presence needs besides, e.g. the length of the blade
   StrengthSeen prior{};  ///< what is typical of its strength; gain, value and error are not set
@@ -27,15 +27,14 @@ struct Candidate {
   const std::vector<Knob>& fitted_knobs() const { return knobs.empty() ? when_tried : knobs; }
 };
 
-/// The knob's value at which the effect is absent: zero for strengths, the centre for what replaces a
-/// parameter.
-inline double when_absent(const Knob& knob) { return knob.low <= 0 ? 0 : knob.centre; }
-
-/// Every effect that the hard engine models and that a diagnosis may add, given the setup's present values;
-/// effects that the setup has already, and those that replace the same part of the model, are left out.
-/// `only`: these alone (empty: all).
+/// Every effect that `engine` models and that a diagnosis may add, given the setup's present values. Left out
+/// are strengths that the setup has already, and effects that claim a part of the model that another of the
+/// setup's effects has replaced. `only`: these alone (empty: all).
 std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std::string>& only,
-                                      std::span<const EffectRecord* const> known);
+                                      std::span<const EffectRecord* const> known, const Engine& engine);
+
+/// True where the engine can run the setup with this effect at its defaults.
+bool is_modelled(const Engine& engine, const EffectRecord& record);
 
 /// Indices of the candidates with knobs, by which runs they are scattered in: the cheap ones together, then
 /// what makes runs slow or dear, each effect apart (gravity across bends what drag does).

@@ -29,7 +29,7 @@ void allow_for_engines(FittedValue& value, const Knob& knob, const Refit& fit, c
   double strongest = 0;
   for (std::size_t k = 0; k < fit.values.size(); ++k)
     if (effect_of(fit.values[k].key) == effect)
-      strongest = std::max(strongest, std::abs(fit.values[k].value - when_absent(fit.knobs[k])));
+      strongest = std::max(strongest, std::abs(fit.values[k].value - fit.knobs[k].absent));
   const double more = 1.96 * relative * strongest;
   value.low = std::max(knob.low, value.value - std::hypot(value.value - value.low, more));
   value.high = std::min(knob.high, value.value + std::hypot(value.high - value.value, more));
@@ -138,6 +138,8 @@ void advise_by_simulation(const DiagnosisState& final, DiagnosisTools& tools, Di
                   tools.next_batch());
   } catch (const BudgetSpent&) {
     d.not_tried.push_back("which experiment would decide");
+  } catch (const PhysicsError& error) {
+    d.notes.push_back(std::string("which experiment would decide could not be simulated: ") + error.what());
   }
   for (const Advice& advice : list)
     if (d.next_experiments.size() < 4 && advice.sigmas > 1)

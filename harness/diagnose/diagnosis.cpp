@@ -62,8 +62,8 @@ void add_sine(const FoundTerm& term, const SearchedHarmonic& harmonic, double lo
 /// What the balance found goes in at the strength that it finds and stays near it: chaos does not touch the
 /// balance, and it knows strengths five times better than ensembles do.
 DiagnosisState with_balance(DiagnosisState state, const std::vector<FoundTerm>& terms,
-                            const Measurement& measurement, const DiagnoseOptions& options,
-                            std::vector<std::string>& notes) {
+                            const Measurement& measurement, const Engine& engine,
+                            const DiagnoseOptions& options, std::vector<std::string>& notes) {
   double longest = 0;
   for (const Measurement::Run& run : measurement.runs)
     if (!run.recorded.time.empty())
@@ -72,6 +72,12 @@ DiagnosisState with_balance(DiagnosisState state, const std::vector<FoundTerm>& 
     if (!allowed(options, term.effect)) continue;
     const EffectRecord* record = find_record(options.known, term.effect);
     if (record == nullptr) continue;
+    if (!is_modelled(engine, *record)) {
+      notes.push_back("the momentum balance finds " + term.effect + ", which the " +
+                      std::string(engine.name()) + " engine does not model: ensembles are fitted without it");
+      state.missing.push_back(term.effect);
+      continue;
+    }
     const bool had_already = find_choice(state.setup, term.effect) != nullptr;
     if (had_already)
       notes.push_back("the momentum balance asks for another " + term.key() + ": it is refitted");
@@ -160,8 +166,10 @@ class Course {
         !balance.possible || (balance.terms.empty() && balance.refitted.p_value > balance_rejected);
     result_.hypotheses = hypotheses_of(balance);
     const bool accepted = given.fit.p_value > rules::doubtful && balance_holds;
-    if (accepted && given.fit.p_value > rules::holds_well)
+    if (accepted && given.fit.p_value > rules::holds_well) {
+      keep_priors(given);
       return conclude(user_, given, given, false, tools_, result_);
+    }
     DiagnosisState refitted = refit_of(state);
     result_.ladder.push_back(step_of(
         step_name(refitted.missing) + (balance.unlisted ? " + the force of the formula" : ""), refitted.fit));
@@ -217,7 +225,8 @@ class Course {
       const std::vector<std::string>& fixed = tools_.options().fixed;
       return std::find(fixed.begin(), fixed.end(), knob.key) != fixed.end();
     });
-    state = with_balance(state, terms, tools_.measurement(), tools_.options(), result_.notes);
+    state = with_balance(state, terms, tools_.measurement(), *tools_.workshop().engine, tools_.options(),
+                         result_.notes);
     if (balance.unlisted && allowed(tools_.options(), "user_force"))
       state.setup = with_force(state.setup, sum_of(balance.formulas), tools_.known());
     return state;
@@ -238,6 +247,16 @@ class Course {
       tools_.without_limit();
       state.fit = tools_.fit(state, stage, state.knobs(), effort::look);
       tools_.limit_to(rules::for_the_search);
+    } catch (const PhysicsError& error) {
+      if (state.found.empty()) throw;
+      result_.notes.push_back(
+          std::string("with what the momentum balance found the model cannot be simulated, "
+                      "so that ensembles are fitted without it: ") +
+          error.what());
+      const std::vector<std::string> found = state.missing;
+      state = with_terms(before, {}, frequency);
+      state.missing = found;
+      state.fit = tools_.fit(state, stage, state.knobs(), effort::look);
     }
     return settled_by_ensembles(before, state).settled(tools_.known());
   }
@@ -249,8 +268,10 @@ class Course {
       return step();
     } catch (const BudgetSpent&) {
       leave_out(name);
-      return otherwise;
+    } catch (const PhysicsError& error) {
+      result_.notes.push_back(name + ": could not be simulated: " + error.what());
     }
+    return otherwise;
   }
   void leave_out(const std::string& step) {
     std::vector<std::string>& list = result_.not_tried;
@@ -277,6 +298,10 @@ class Course {
       } catch (const BudgetSpent&) {
         leave_out("what else the momentum balance allows");
         break;
+      } catch (const PhysicsError& error) {
+        result_.notes.push_back(std::string("a set that the momentum balance allows cannot be simulated: ") +
+                                error.what());
+        continue;
       }
       const double log_odds = alternative.log_odds + (found.fit.judged_chi2 - other.fit.judged_chi2) / 2;
       if (log_odds > most) most = log_odds, best = other, kept = &alternative;
@@ -306,21 +331,24 @@ class Course {
         round = search_round(state, tools_, result_.momentum.seen);
       } catch (const BudgetSpent&) {
         leave_out("one more effect");
+        keep_priors(state);
         break;
       }
       for (const std::string& effect : round.not_tried) leave_out(effect);
       for (const RankedEffect& ranked : round.ranking) keep_ranked(ranked);
       result_.notes.insert(result_.notes.end(), round.notes.begin(), round.notes.end());
-      if (!round.added) {
-        weigh_remaining(round);
-        break;
-      }
-      weigh_added(round);
+      result_.hypotheses = combined(result_.hypotheses, round.table);
+      if (!round.added) break;
       state = round.next;
       runner_up_ = {round.next.missing.back(), round.runner_up, round.runner_up_setup};
       result_.ladder.push_back(step_of(step_name(state.missing), state.fit));
+      const std::vector<std::string> before = state.missing;
       state = unless_spent("which effects are still needed", state,
                            [&] { return pruned(state, tools_, from_balance); });
+      for (const std::string& effect : before)
+        if (std::find(state.missing.begin(), state.missing.end(), effect) == state.missing.end())
+          result_.hypotheses = taken_back(result_.hypotheses, effect,
+                                          prior_log_odds(1, static_cast<double>(tools_.known().size())));
     }
     result_.runner_up = runner_up_;
     return state;
@@ -335,13 +363,9 @@ class Course {
       *same = ranked;
   }
 
-  /// The hypotheses so far with the alternatives to the effect that was added.
-  void weigh_added(const SearchRound& round) {
-    result_.hypotheses = combined(result_.hypotheses, round.table);
-  }
-  /// ... and with what might be missing besides.
-  void weigh_remaining(const SearchRound& round) {
-    result_.hypotheses = combined(result_.hypotheses, round.table);
+  /// What was not looked at stays as probable as it was.
+  void keep_priors(const DiagnosisState& state) {
+    result_.hypotheses = combined(result_.hypotheses, not_looked_at(state, tools_, result_.momentum.seen));
   }
 
   const Setup& user_;

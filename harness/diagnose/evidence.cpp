@@ -18,10 +18,14 @@ double log_odds_of(const StrengthSeen& seen, double candidates) {
     return impossible;
   const double ratio = seen.value / seen.typical;
   const double density = (seen.one_sided ? 2 : 1) / (std::numbers::pi * seen.typical * (1 + ratio * ratio));
-  const double each = std::min(0.5, rules::expected_effects * seen.odds / std::max(1.0, candidates));
   // A strength known worse than the prior takes nothing of it away.
   const double share = std::min(1.0, density * seen.error * std::sqrt(2 * std::numbers::pi));
-  return seen.gain / 2 + std::log(share) + std::log(each / (1 - each));
+  return seen.gain / 2 + std::log(share) + prior_log_odds(seen.odds, candidates);
+}
+
+double prior_log_odds(double odds, double candidates) {
+  const double each = std::min(0.5, rules::expected_effects * odds / std::max(1.0, candidates));
+  return std::log(each / (1 - each));
 }
 
 double beyond_emulator_noise(double fitted_gain) { return fitted_gain - rules::emulator_noise; }
@@ -79,6 +83,31 @@ std::vector<Hypothesis> answer_set(const std::vector<Hypothesis>& table) {
   return set;
 }
 
+namespace {
+
+/// Adds it, or its probability where the same set is there already.
+void add_to(std::vector<Hypothesis>& table, Hypothesis hypothesis) {
+  const auto same = std::find_if(table.begin(), table.end(), [&](const Hypothesis& other) {
+    return std::is_permutation(other.effects.begin(), other.effects.end(), hypothesis.effects.begin(),
+                               hypothesis.effects.end());
+  });
+  if (same == table.end()) {
+    table.push_back(std::move(hypothesis));
+    return;
+  }
+  const double most = std::max(same->log_odds, hypothesis.log_odds),
+               least = std::min(same->log_odds, hypothesis.log_odds);
+  if (std::isfinite(most)) same->log_odds = most + std::log1p(std::exp(least - most));
+  same->probability += hypothesis.probability;
+}
+
+void sort_by_probability(std::vector<Hypothesis>& table) {
+  std::stable_sort(table.begin(), table.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.probability > b.probability; });
+}
+
+}  // namespace
+
 std::vector<Hypothesis> combined(const std::vector<Hypothesis>& a, const std::vector<Hypothesis>& b) {
   std::vector<Hypothesis> both;
   for (const Hypothesis& one : a)
@@ -87,11 +116,27 @@ std::vector<Hypothesis> combined(const std::vector<Hypothesis>& a, const std::ve
       for (const std::string& effect : other.effects)
         if (std::find(h.effects.begin(), h.effects.end(), effect) == h.effects.end())
           h.effects.push_back(effect);
-      both.push_back(std::move(h));
+      add_to(both, std::move(h));
     }
-  std::stable_sort(both.begin(), both.end(),
-                   [](const Hypothesis& x, const Hypothesis& y) { return x.probability > y.probability; });
+  sort_by_probability(both);
   return both;
+}
+
+std::vector<Hypothesis> taken_back(const std::vector<Hypothesis>& table, const std::string& effect,
+                                   double log_odds) {
+  const double kept = 1 / (1 + std::exp(-log_odds));
+  std::vector<Hypothesis> rest;
+  for (const Hypothesis& h : table) {
+    Hypothesis without = h;
+    std::erase(without.effects, effect);
+    if (without.effects.size() < h.effects.size()) {
+      add_to(rest, {h.effects, h.log_odds + std::log(kept), h.probability * kept});
+      without.log_odds += std::log1p(-kept), without.probability *= 1 - kept;
+    }
+    add_to(rest, std::move(without));
+  }
+  sort_by_probability(rest);
+  return rest;
 }
 
 double probability_of_something(const std::vector<Hypothesis>& table) {

@@ -28,6 +28,10 @@ struct StrengthSeen {
 /// (Laplace), and the prior of one effect among `candidates`. Not finite input gives -infinity.
 double log_odds_of(const StrengthSeen& seen, double candidates);
 
+/// ln odds of an effect of which nothing was looked at: the prior of one among `candidates`, `odds` times as
+/// likely as a usual one.
+double prior_log_odds(double odds, double candidates);
+
 /// A gain that fits found, which differ by their emulators' noise: what is left beyond one standard
 /// deviation.
 double beyond_emulator_noise(double fitted_gain);
@@ -53,8 +57,14 @@ std::vector<Hypothesis> with_something_else(std::vector<Hypothesis> table, doubl
 /// The first hypotheses that together hold rules::answer_set; `table` is weighed.
 std::vector<Hypothesis> answer_set(const std::vector<Hypothesis>& table);
 
-/// Each hypothesis of one table with each of an independent one.
+/// Each hypothesis of one table with each of an independent one; equal sets are one.
 std::vector<Hypothesis> combined(const std::vector<Hypothesis>& a, const std::vector<Hypothesis>& b);
+
+/// The table after an effect of it was taken back, because a model with the others does not need it: each set
+/// with it gives its probability to the set without it but for what `log_odds` of the effect beside the
+/// others leave; equal sets are one.
+std::vector<Hypothesis> taken_back(const std::vector<Hypothesis>& table, const std::string& effect,
+                                   double log_odds);
 
 /// Probability that anything is missing; `table` is weighed.
 double probability_of_something(const std::vector<Hypothesis>& table);

@@ -50,7 +50,7 @@ Eigen::VectorXd residual_without(const LinearModel& model, const std::vector<Kno
                                  std::size_t fitted) {
   Eigen::VectorXd residual = model.residual;
   for (std::size_t k = fitted; k < knobs.size(); ++k)
-    residual -= model.columns.col(static_cast<Eigen::Index>(k)) * knobs[k].z_of(when_absent(knobs[k]));
+    residual -= model.columns.col(static_cast<Eigen::Index>(k)) * knobs[k].z_of(knobs[k].absent);
   return residual;
 }
 

@@ -4,10 +4,13 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "errors.hpp"
 #include "feature_covariance.hpp"
 #include "linear_model.hpp"
+#include "refit.hpp"
 
 namespace shakedown {
 
@@ -15,11 +18,12 @@ namespace {
 
 using Roots = std::vector<Eigen::LLT<Eigen::MatrixXd>>;
 
-/// Of each run's chaos and camera noise.
+/// Of each run's chaos, camera noise and difference of two codes, as a fit weighs them.
 Roots roots_of(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators) {
   Roots roots;
   for (std::size_t r = 0; r < measured.size(); ++r) {
-    Eigen::MatrixXd covariance = feature_covariance(emulators[r].residuals, measured[r].plan, 0);
+    const double model_error = RefitOptions{}.model_error * measured[r].setup.release.displacement;
+    Eigen::MatrixXd covariance = feature_covariance(emulators[r].residuals, measured[r].plan, model_error);
     if (measured[r].own.cols() > 0) covariance += measured[r].own * measured[r].own.transpose();
     roots.emplace_back(covariance);
   }
@@ -46,11 +50,33 @@ LinearModel whitened(const std::vector<MeasuredFeatures>& measured, const std::v
   return model;
 }
 
-/// What the regression's own error adds to a whitened square: a term's share of each feature.
-double own_error(const std::vector<Emulator>& emulators) {
+/// An effect that stands for a parameter of its own where the setup has one for all (the side walls'
+/// restitution) is absent where it equals that one. In the simulations it was held still while the other
+/// moved: without the effect both move together.
+void move_together(LinearModel& model, const std::vector<Knob>& knobs, std::size_t fitted) {
+  for (std::size_t k = fitted; k < knobs.size(); ++k)
+    for (std::size_t j = 0; j < fitted; ++j)
+      if (!knobs[k].absent_key.empty() && knobs[k].absent_key == knobs[j].key)
+        model.columns.col(static_cast<Eigen::Index>(j)) +=
+            knobs[j].width / knobs[k].width * model.columns.col(static_cast<Eigen::Index>(k));
+}
+
+/// Chaos that went into each regression, whitened: its coefficients err by this times (X'X)^-1.
+std::vector<double> chaos_of(const std::vector<Emulator>& emulators, const Roots& roots) {
+  std::vector<double> chaos;
+  for (std::size_t r = 0; r < emulators.size(); ++r) {
+    const Eigen::MatrixXd& residuals = emulators[r].residuals;
+    chaos.push_back(roots[r].matrixL().solve(residuals.transpose()).squaredNorm() /
+                    static_cast<double>(residuals.rows()));
+  }
+  return chaos;
+}
+
+/// Expected inner product of the errors of two terms of the regressions, whitened, over all runs.
+double shared_error(const std::vector<Emulator>& emulators, const std::vector<double>& chaos, Eigen::Index a,
+                    Eigen::Index b) {
   double sum = 0;
-  for (const Emulator& e : emulators)
-    sum += static_cast<double>(e.coefficients.size()) / static_cast<double>(e.residuals.rows());
+  for (std::size_t r = 0; r < emulators.size(); ++r) sum += chaos[r] * emulators[r].inverse_normal(a, b);
   return sum;
 }
 
@@ -69,17 +95,11 @@ class Outside {
   Eigen::LDLT<Eigen::MatrixXd> normal_;
 };
 
-struct Screening {
-  std::vector<ScreenedEffect> list;
-  Roots roots;                              ///< one metric for all, of the first and largest regression
-  std::vector<Eigen::VectorXd> signatures;  ///< of each in the list, whitened, with the fitted parameters
-                                            ///< projected out; empty: on or off
-};
-
 /// What the fitted parameters alone leave.
 struct Left {
   Outside outside;
   Eigen::VectorXd residual;
+  double own_error = 0;  ///< expected square of the residual's error by the simulations
 };
 
 /// Candidates with knobs, scattered together beside the fitted parameters.
@@ -87,122 +107,187 @@ struct Scattered {
   std::vector<Knob> knobs;  ///< the fitted parameters first
   std::vector<std::size_t> candidate_of;
   LinearModel linear;
+  std::vector<Emulator> emulators;
+  std::vector<double> chaos;
   Eigen::Index fitted = 0;
 
   Left left() const {
     const Outside outside(linear.columns.leftCols(fitted));
-    return {outside, outside(residual_without(linear, knobs, static_cast<std::size_t>(fitted)))};
+    return {outside, outside(residual_without(linear, knobs, static_cast<std::size_t>(fitted))),
+            shared_error(emulators, chaos, 0, 0)};
+  }
+};
+
+/// All that one screening shares.
+struct Screen {
+  const std::vector<Knob>& fitted;
+  const std::vector<Candidate>& candidates;
+  const Workshop& workshop;
+  int first_run;
+  Roots roots{};  ///< one metric for all
+  int batches = 0;
+  Screening result{};
+  std::vector<Eigen::VectorXd> signatures{};  ///< of each in the list, whitened, with the fitted parameters
+                                              ///< projected out; empty: not weighed
+
+  int next_run() { return first_run + 5000 * batches++; }
+  void keep(ScreenedEffect effect, Eigen::VectorXd signature) {
+    result.list.push_back(std::move(effect));
+    signatures.push_back(std::move(signature));
   }
 };
 
 /// In `count` runs of each setup. Sets the metric, if none is there.
-Scattered scattered(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
-                    const std::vector<Candidate>& candidates, const std::vector<std::size_t>& members,
-                    const Workshop& workshop, int count, int first_run, Roots& roots) {
-  auto [knobs, candidate_of, with] = beside_fitted(measured, fitted, candidates, members, workshop.known);
-  const std::vector<Emulator> emulators = emulate(with, knobs, count, first_run, workshop);
-  if (roots.empty()) roots = roots_of(with, emulators);
-  LinearModel linear = whitened(with, emulators, knobs, fitted.size(), roots);
-  return {std::move(knobs), std::move(candidate_of), std::move(linear),
-          static_cast<Eigen::Index>(fitted.size())};
+Scattered scattered(Screen& s, const std::vector<MeasuredFeatures>& measured,
+                    const std::vector<std::size_t>& members, int count) {
+  auto [knobs, candidate_of, with] =
+      beside_fitted(measured, s.fitted, s.candidates, members, s.workshop.known);
+  std::vector<Emulator> emulators = emulate(with, knobs, count, s.next_run(), s.workshop);
+  if (s.roots.empty()) s.roots = roots_of(with, emulators);
+  LinearModel linear = whitened(with, emulators, knobs, s.fitted.size(), s.roots);
+  move_together(linear, knobs, s.fitted.size());
+  std::vector<double> chaos = chaos_of(emulators, s.roots);
+  return {std::move(knobs),     std::move(candidate_of), std::move(linear),
+          std::move(emulators), std::move(chaos),        std::ssize(s.fitted)};
 }
 
-/// Each scattered candidate by what the fitted parameters leave without them: in the same runs, or, where
-/// they are few and what is scattered is far from linear, in others.
-void judge_scattered(const Scattered& s, const std::vector<Candidate>& candidates, const Left& without,
-                     Screening& screening) {
-  const auto& [outside, residual] = without;
-  for (std::size_t k = 0; k < s.candidate_of.size(); ++k) {
-    const Eigen::Index column = s.fitted + static_cast<Eigen::Index>(k);
-    const Knob& knob = s.knobs[static_cast<std::size_t>(column)];
-    const Eigen::VectorXd signature = outside(s.linear.columns.col(column));
-    const double square = signature.squaredNorm(), by = square > 0 ? signature.dot(residual) / square : 0;
-    const double z = knob.z_of(when_absent(knob)) + by;
-    const bool allowed = by == 0 || knob.at(z) != when_absent(knob);  // a drag cannot push
-    const Candidate& candidate = candidates[s.candidate_of[k]];
+/// What the engine cannot simulate is left out: a group that it refuses is halved until what it refuses
+/// stands alone. Elsewhere, in batches of those that it can.
+std::vector<Scattered> what_runs(Screen& s, const std::vector<MeasuredFeatures>& measured,
+                                 const std::vector<std::size_t>& members, int count) {
+  const auto apart = [&](const std::string& reason) -> std::vector<Scattered> {
+    if (members.size() == 1) {
+      s.result.left_out.push_back({s.candidates[members.front()].effect, reason});
+      return {};
+    }
+    const auto middle = members.begin() + std::ssize(members) / 2;
+    std::vector<Scattered> both = what_runs(s, measured, {members.begin(), middle}, count);
+    for (Scattered& other : what_runs(s, measured, {middle, members.end()}, count))
+      both.push_back(std::move(other));
+    return both;
+  };
+  std::vector<Scattered> whole;
+  try {
+    whole.push_back(scattered(s, measured, members, count));
+  } catch (const PhysicsError& error) {
+    if (members.empty()) throw;  // the model itself, whatever the candidates
+    return apart(error.what());
+  } catch (const InputError& error) {
+    if (members.empty()) throw;
+    return apart(error.what());
+  }
+  return whole;
+}
+
+/// Each scattered candidate by what the fitted parameters leave without them: in the same runs (`same_runs`),
+/// or, where they are few and what is scattered is far from linear, in others.
+void judge_scattered(Screen& s, const Scattered& scattered, const Left& without, bool same_runs) {
+  const auto& [outside, residual, error_of_residual] = without;
+  for (std::size_t k = 0; k < scattered.candidate_of.size(); ++k) {
+    const Eigen::Index column = scattered.fitted + static_cast<Eigen::Index>(k);
+    const Knob& knob = scattered.knobs[static_cast<std::size_t>(column)];
+    const Eigen::VectorXd signature = outside(scattered.linear.columns.col(column));
+    // The regression's noise in the signature lengthens it, and where the residual has the same noise in it
+    // the two seem to agree.
+    const double absent = knob.z_of(knob.absent),
+                 own = knob.exact
+                           ? 0
+                           : shared_error(scattered.emulators, scattered.chaos, column + 1, column + 1),
+                 with_constant =
+                     knob.exact ? 0 : shared_error(scattered.emulators, scattered.chaos, 0, column + 1),
+                 square = signature.squaredNorm(), true_square = square - own,
+                 along = signature.dot(residual) + (same_runs ? with_constant + absent * own : 0.0);
+    const bool seen_at_all = true_square > 0;  // else all that is there is noise
+    const double by = seen_at_all ? along / true_square : 0, z = absent + by;
+    const bool allowed = by == 0 || knob.at(z) != knob.absent;  // a drag cannot push
+    const Candidate& candidate = s.candidates[scattered.candidate_of[k]];
     StrengthSeen seen = candidate.prior;
-    seen.gain = allowed ? by * by * square : 0;
-    seen.value = knob.at(z) - when_absent(knob);
+    seen.gain = allowed && seen_at_all ? along * along / square : 0;
+    seen.value = knob.at(z) - knob.absent;
     if (seen.one_sided) seen.value = std::abs(seen.value);
-    seen.error = square > 0 ? knob.width / std::sqrt(square) : 0;
-    screening.list.push_back({s.candidate_of[k], candidate.effect, seen.gain, knob.at(z), seen, {}});
-    screening.signatures.push_back(signature);
+    seen.error = seen_at_all ? knob.width * std::sqrt(square) / true_square : 0;
+    s.keep({scattered.candidate_of[k], candidate.effect, seen.gain, knob.at(z), seen, {}, seen_at_all},
+           signature);
   }
 }
 
 /// On or off: the model with it, beside the model without. The difference is its signature at the strength
 /// that it is prepared with; what is fixed of it is a length, and its strength goes with the curvature.
-void screen_switch(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
-                   const std::vector<Candidate>& candidates, std::size_t c, const Workshop& workshop,
-                   int count, int first_run, const Left& without, Screening& screening) {
+void screen_switch(Screen& s, const std::vector<MeasuredFeatures>& measured, std::size_t c, int count,
+                   const Left& without) {
+  const Candidate& candidate = s.candidates[c];
   std::vector<MeasuredFeatures> with = measured;
-  for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidates[c], workshop.known);
-  const std::vector<Knob> beside = straight(fitted, 0.5);
-  const std::vector<Emulator> emulators = emulate(with, beside, count, first_run, workshop);
+  for (MeasuredFeatures& m : with) m.setup = prepared(m.setup, candidate, s.workshop.known);
+  const std::vector<Knob> beside = straight(s.fitted, 0.5);
+  const std::vector<Emulator> emulators = emulate(with, beside, count, s.next_run(), s.workshop);
   const Eigen::VectorXd signature =
       without.residual -
-      without.outside(whitened(with, emulators, beside, fitted.size(), screening.roots).residual);
-  const double square = std::max(0.0, signature.squaredNorm() - own_error(emulators)),
-               along = signature.dot(without.residual);
+      without.outside(whitened(with, emulators, beside, s.fitted.size(), s.roots).residual);
+  const double own = shared_error(emulators, chaos_of(emulators, s.roots), 0, 0),
+               square = std::max(0.0, signature.squaredNorm() - own - without.own_error),
+               along = signature.dot(without.residual) - without.own_error;
   const bool is_seen = square > 0 && along > 0;
-  const double length = candidates[c].fixed.back().second * (is_seen ? std::sqrt(square / along) : 1);
-  StrengthSeen seen = candidates[c].prior;
+  const double length = candidate.fixed.back().second * (is_seen ? std::sqrt(square / along) : 1);
+  StrengthSeen seen = candidate.prior;
   seen.gain = is_seen ? along * along / signature.squaredNorm() : 0;
   seen.value = 1 / (length * length);
   seen.error = seen.gain > 0 ? seen.value / std::sqrt(seen.gain) : 0;
-  screening.list.push_back({c, candidates[c].effect, seen.gain, length, seen, {}});
-  screening.signatures.push_back(signature);
+  s.keep({c, candidate.effect, seen.gain, length, seen, {}, true}, signature);
+}
+
+void name_look_alikes(Screen& s) {
+  std::vector<ScreenedEffect>& list = s.result.list;
+  for (std::size_t a = 0; a < list.size(); ++a)
+    for (std::size_t b = 0; b < list.size(); ++b) {
+      if (a == b || list[a].effect == list[b].effect || s.signatures[a].size() == 0 ||
+          s.signatures[b].size() == 0)
+        continue;
+      const double cosine = s.signatures[a].dot(s.signatures[b]) /
+                            std::max(1e-300, s.signatures[a].norm() * s.signatures[b].norm());
+      if (std::abs(cosine) > 0.9) list[a].look_alikes.push_back(list[b].effect);
+    }
 }
 
 }  // namespace
 
-std::vector<ScreenedEffect> screen(const std::vector<MeasuredFeatures>& measured,
-                                   const std::vector<Knob>& fitted, const std::vector<Candidate>& candidates,
-                                   const Workshop& workshop, int count, int first_run) {
-  Screening screening;
+Screening screen(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
+                 const std::vector<Candidate>& candidates, const Workshop& workshop, int count, int first_run,
+                 const std::vector<Eigen::MatrixXd>& metric) {
+  Screen s{fitted, candidates, workshop, first_run};
+  for (const Eigen::MatrixXd& covariance : metric) s.roots.emplace_back(covariance);
   const ScatterGroups groups = scatter_groups(candidates);
-  int batch = 0;
-  const auto together = [&](const std::vector<MeasuredFeatures>& of, const std::vector<std::size_t>& members,
-                            int simulations) {
-    return scattered(of, fitted, candidates, members, workshop, simulations, first_run + 5000 * batch++,
-                     screening.roots);
-  };
-  const Scattered all = together(measured, groups.cheap, count);
-  const Left without = all.left();
-  judge_scattered(all, candidates, without, screening);
+  std::vector<Scattered> cheap = what_runs(s, measured, groups.cheap, count);
+  if (cheap.empty()) cheap.push_back(scattered(s, measured, {}, count));
+  const Left without = cheap.front().left();
+  for (const Scattered& group : cheap) judge_scattered(s, group, without, &group == &cheap.front());
   const int few = std::max(40, count / 8), fewest = std::max(24, few / 2);
   const std::vector<MeasuredFeatures> rough = kicked_rarely(measured);
   for (const std::vector<std::size_t>& members : groups.slow)
-    judge_scattered(together(rough, members, std::max(few, count / 6 * static_cast<int>(members.size()))),
-                    candidates, without, screening);
+    for (const Scattered& group :
+         what_runs(s, rough, members, std::max(few, count / 6 * static_cast<int>(members.size()))))
+      judge_scattered(s, group, without, false);
   for (const std::vector<std::size_t>& members : groups.dear) {
     const Candidate& candidate = candidates[members.front()];
-    if (candidate.always) {
-      screening.list.push_back(
-          {members.front(), candidate.effect, 0, candidate.knobs.front().centre, candidate.prior, {}});
-      screening.signatures.emplace_back();
-    } else {  // what is dear has a strong signature
-      judge_scattered(together(measured, members, fewest), candidates, without, screening);
-    }
+    if (candidate.always)
+      s.keep(
+          {members.front(), candidate.effect, 0, candidate.knobs.front().centre, candidate.prior, {}, false},
+          {});
+    else  // what is dear has a strong signature
+      for (const Scattered& group : what_runs(s, measured, members, fewest))
+        judge_scattered(s, group, without, false);
   }
   for (std::size_t c = 0; c < candidates.size(); ++c)
-    if (candidates[c].knobs.empty())
-      screen_switch(measured, fitted, candidates, c, workshop, few, first_run + 5000 * batch++, without,
-                    screening);
-  std::vector<ScreenedEffect>& list = screening.list;
-  const std::vector<Eigen::VectorXd>& signatures = screening.signatures;
-  for (std::size_t a = 0; a < list.size(); ++a)
-    for (std::size_t b = 0; b < list.size(); ++b) {
-      if (a == b || list[a].effect == list[b].effect || signatures[a].size() == 0 ||
-          signatures[b].size() == 0)
-        continue;
-      const double cosine =
-          signatures[a].dot(signatures[b]) / std::max(1e-300, signatures[a].norm() * signatures[b].norm());
-      if (std::abs(cosine) > 0.9) list[a].look_alikes.push_back(list[b].effect);
-    }
-  std::stable_sort(list.begin(), list.end(),
+    if (candidates[c].knobs.empty()) try {
+        screen_switch(s, measured, c, few, without);
+      } catch (const PhysicsError& error) {
+        s.result.left_out.push_back({candidates[c].effect, error.what()});
+      } catch (const InputError& error) {
+        s.result.left_out.push_back({candidates[c].effect, error.what()});
+      }
+  name_look_alikes(s);
+  std::stable_sort(s.result.list.begin(), s.result.list.end(),
                    [](const ScreenedEffect& a, const ScreenedEffect& b) { return a.gain > b.gain; });
-  return list;
+  return std::move(s.result);
 }
 
 }  // namespace shakedown

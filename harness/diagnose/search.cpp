@@ -2,6 +2,7 @@
 // One round of the search: which effect, beside what the model has, would explain what is left?
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "errors.hpp"
 #include "key_unit.hpp"
@@ -21,7 +22,8 @@ struct Rival {
   double log_odds = 0;
   double gain = 0, held_out_gain = 0;  ///< of chi2, fitted
   bool fitted = false;
-  DiagnosisState state;  ///< where it was fitted
+  DiagnosisState state{};  ///< where it was fitted
+  bool weighed = false;    ///< log_odds is more than its prior
 };
 
 bool is_joint(const Knob& knob) { return joined_keys(knob.key).size() > 1; }
@@ -109,7 +111,8 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
   const std::vector<Knob> added = knobs_of(candidate, rival.screened);
   state.found = together(before.found, added);
   state.camera = without(before.camera, added);
-  state.missing.push_back(candidate.effect);
+  if (std::find(state.missing.begin(), state.missing.end(), candidate.effect) == state.missing.end())
+    state.missing.push_back(candidate.effect);  // else of another component
   const bool costly = candidate.dear && !candidate.always;
   const std::vector<Knob> knobs =
       together(together(covering_the_users_values(before.theta), state.found), state.camera);
@@ -136,18 +139,23 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
 StrengthSeen strength_fitted(const Rival& rival) {
   StrengthSeen seen = rival.screened.seen;
   const std::vector<Knob> added = rival.candidate->fitted_knobs();
-  for (const FittedValue& value : rival.state.fit.values)
+  const Refit& fit = rival.state.fit;
+  for (std::size_t k = 0; k < fit.values.size(); ++k)
     for (const Knob& knob : added)
-      if (value.key == knob.key && rival.candidate->knobs.size() > 0) {
-        seen.value = value.value - when_absent(knob);
+      if (fit.values[k].key == knob.key && rival.candidate->knobs.size() > 0) {
+        std::tie(seen.value, seen.error) = strength_of(fit, k);
         if (seen.one_sided) seen.value = std::abs(seen.value);
-        seen.error = value.error;
       }
   return seen;
 }
 
 void weigh_rival(Rival& rival, double candidates) {
   StrengthSeen seen = rival.screened.seen;
+  rival.weighed = rival.fitted || rival.screened.weighed;
+  if (!rival.weighed) {
+    rival.log_odds = prior_log_odds(seen.odds, candidates);
+    return;
+  }
   if (rival.fitted) {
     const double linear = rival.candidate->always ? 0 : rival.screened.gain;
     seen = strength_fitted(rival);
@@ -174,7 +182,11 @@ RankedEffect ranked_as(const Rival& rival) {
 
 std::vector<Candidate> open_candidates(const DiagnosisState& state, DiagnosisTools& tools,
                                        const std::vector<std::string>& seen_by_balance) {
-  std::vector<Candidate> candidates = candidates_for(state.setup, tools.options().effects, tools.known());
+  // What replaces a parameter is absent at the value that the fit has found of it.
+  Setup at_fit = state.setup;
+  for (const Knob& knob : state.theta) set_knob(at_fit, knob, tools.known());
+  std::vector<Candidate> candidates =
+      candidates_for(at_fit, tools.options().effects, tools.known(), *tools.workshop().engine);
   std::erase_if(candidates, [&](const Candidate& candidate) {
     const auto judged = [&](const std::string& key) {
       return std::find(seen_by_balance.begin(), seen_by_balance.end(), key) != seen_by_balance.end();
@@ -198,18 +210,37 @@ void camera_first(std::vector<Rival*>& order, DiagnosisTools& tools) {
 
 }  // namespace
 
+std::vector<Hypothesis> not_looked_at(const DiagnosisState& state, DiagnosisTools& tools,
+                                      const std::vector<std::string>& seen_by_balance) {
+  std::vector<Hypothesis> table{{{}, 0, 0}};
+  const double all = static_cast<double>(tools.known().size());
+  for (const Candidate& candidate : open_candidates(state, tools, seen_by_balance))
+    table.push_back({{candidate.effect}, prior_log_odds(candidate.prior.odds, all), 0});
+  weigh(table);
+  return table;
+}
+
 SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
                          const std::vector<std::string>& seen_by_balance) {
   SearchRound round{{{{}, 0, 0}}, {}, {}, {}, false, state, "", {}};
   const std::vector<Candidate> candidates = open_candidates(state, tools, seen_by_balance);
-  if (candidates.empty()) return round;
+  if (candidates.empty()) {
+    weigh(round.table);
+    return round;
+  }
   tools.begin("ranking the effects");
   const int count = state.dear ? effort::rank_when_dear : effort::rank;
-  std::vector<Rival> rivals;
-  for (const ScreenedEffect& screened : screen(tools.features(state.setup), state.knobs(), candidates,
-                                               tools.workshop(), count, tools.next_batch()))
-    rivals.push_back({&candidates[screened.candidate], screened, 0, 0, 0, false, {}});
   const double all = static_cast<double>(tools.known().size());
+  const Screening screening = screen(tools.features(state.setup), state.knobs(), candidates, tools.workshop(),
+                                     count, tools.next_batch(), state.fit.covariances);
+  std::vector<Rival> rivals;
+  for (const ScreenedEffect& screened : screening.list)
+    rivals.push_back({&candidates[screened.candidate], screened});
+  for (const Screening::LeftOut& left_out : screening.left_out) {
+    round.notes.push_back(left_out.effect + " was not looked for: it cannot be simulated here (" +
+                          left_out.reason + ")");
+    round.table.push_back({{left_out.effect}, prior_log_odds(1, all), 0});
+  }
   for (Rival& rival : rivals) weigh_rival(rival, all);
   std::vector<Rival*> order;
   for (Rival& rival : rivals) order.push_back(&rival);
@@ -221,6 +252,9 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   const auto attempt = [&](Rival& rival) {
     if (tried >= static_cast<int>(rules::most_tried)) return;
     ++tried;
+    const auto could_not = [&](const std::exception& error) {
+      round.notes.push_back(rival.candidate->effect + " could not be tried: " + error.what());
+    };
     try {
       fit_rival(rival, state, tools, lowest);
       lowest = std::min(lowest, rival.state.fit.judged_chi2);
@@ -228,20 +262,22 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
     } catch (const BudgetSpent&) {
       round.not_tried.push_back(rival.candidate->effect);
     } catch (const PhysicsError& error) {
-      round.notes.push_back(rival.candidate->effect + " could not be tried: " + error.what());
+      could_not(error);
+    } catch (const InputError& error) {
+      could_not(error);
     }
   };
   // What a linear estimate promises goes first; what only its full strength shows has its turn where the
   // model is in doubt, or where something would be added that it may imitate.
   for (Rival* rival : order)
-    if (!rival->candidate->always && rival->log_odds > 0) attempt(*rival);
+    if (rival->weighed && rival->log_odds > 0) attempt(*rival);
   const bool promising = std::any_of(rivals.begin(), rivals.end(),
                                      [](const Rival& rival) { return rival.fitted && rival.log_odds > 0; });
   for (Rival* rival : order)
-    if (rival->candidate->always && (in_doubt || promising)) attempt(*rival);
+    if (rival->candidate->always && !rival->fitted && (in_doubt || promising)) attempt(*rival);
   for (Rival* rival : order) {
-    if (!rival->candidate->always || rival->fitted) round.ranking.push_back(ranked_as(*rival));
-    if (std::isfinite(rival->log_odds) && (!rival->candidate->always || rival->fitted))
+    if (rival->weighed) round.ranking.push_back(ranked_as(*rival));
+    if (std::isfinite(rival->log_odds))
       round.table.push_back({{rival->candidate->effect}, rival->log_odds, 0});
   }
   weigh(round.table);
@@ -293,11 +329,13 @@ DiagnosisState pruned(const DiagnosisState& state, DiagnosisTools& tools,
   for (std::size_t i = 0; i + 1 < state.missing.size(); ++i) {
     const std::string effect = state.missing[i];
     if (std::find(from_balance.begin(), from_balance.end(), effect) != from_balance.end()) continue;
-    const bool stands =
-        std::any_of(state.fit.values.begin(), state.fit.values.end(), [&](const FittedValue& value) {
-          constexpr double beyond_doubt = 2;  // standard errors: what a 95 % interval leaves out
-          return effect_of(value.key) == effect && std::abs(value.value) > beyond_doubt * value.error;
-        });
+    bool stands = false;
+    for (std::size_t k = 0; k < state.fit.values.size(); ++k) {
+      constexpr double beyond_doubt = 2;  // standard errors: what a 95 % interval leaves out
+      const auto [strength, error] = strength_of(state.fit, k);
+      stands = stands ||
+               (effect_of(state.fit.values[k].key) == effect && std::abs(strength) > beyond_doubt * error);
+    }
     if (stands) continue;
     DiagnosisState less = state;
     std::erase_if(less.setup.effects,

@@ -2,6 +2,7 @@
 #include "state.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "camera_features.hpp"
@@ -19,6 +20,21 @@ std::vector<Knob> together(std::vector<Knob> a, const std::vector<Knob>& b) {
 }
 
 bool is_believed(const Knob& knob) { return knob.believed_error > 0 && find_setup_key(knob.key) != nullptr; }
+
+std::pair<double, double> strength_of(const Refit& fit, std::size_t value) {
+  const Knob& knob = fit.knobs[value];
+  const double at = fit.values[value].value, error = fit.values[value].error;
+  if (std::isinf(knob.absent)) return {1 / (at * at), 2 * error / std::abs(at * at * at)};
+  if (!knob.absent_key.empty())
+    for (std::size_t k = 0; k < fit.values.size(); ++k)
+      if (fit.values[k].key == knob.absent_key) {
+        const auto a = static_cast<Eigen::Index>(value), b = static_cast<Eigen::Index>(k);
+        const double variance =
+            fit.covariance(a, a) + fit.covariance(b, b) - fit.covariance(a, b) - fit.covariance(b, a);
+        return {at - fit.values[k].value, std::sqrt(std::max(0.0, variance))};
+      }
+  return {at - knob.absent, error};
+}
 
 std::vector<Knob> DiagnosisState::knobs() const { return together(together(theta, found), camera); }
 

@@ -93,9 +93,14 @@ struct SearchRound {
   std::string runner_up;  ///< the effect that explains nearly as well as the one added; empty: none
   Setup runner_up_setup;  ///< as it was fitted
 };
-/// `seen_by_balance`: keys that the momentum balance has judged better.
+/// `seen_by_balance`: keys that the momentum balance has judged better. An effect that the engine cannot
+/// simulate here is left out and named in the notes; PhysicsError and InputError are of the model itself.
 SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
                          const std::vector<std::string>& seen_by_balance);
+
+/// What a round would weigh, each effect at its prior: the table where no round was held.
+std::vector<Hypothesis> not_looked_at(const DiagnosisState& state, DiagnosisTools& tools,
+                                      const std::vector<std::string>& seen_by_balance);
 
 /// The fit with full effort; strengths that were looked for as one are fitted by themselves where the data
 /// bear it.
@@ -109,6 +114,10 @@ DiagnosisState pruned(const DiagnosisState& state, DiagnosisTools& tools,
 LadderStep step_of(const std::string& name, const Refit& fit);
 
 std::vector<Knob> together(std::vector<Knob> a, const std::vector<Knob>& b);
+
+/// Strength of the effect of this fitted value, from its absence, and its standard error; of a length the
+/// curvature, 1/m^2.
+std::pair<double, double> strength_of(const Refit& fit, std::size_t value);
 
 /// A restitution, of which the user believes something.
 bool is_believed(const Knob& knob);

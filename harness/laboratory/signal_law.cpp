@@ -88,8 +88,8 @@ double distance_of_imitation(const HiddenCase& hidden, const std::string& imitat
   RefitOptions options;
   options.count = options.confirming = settings.count;
   const auto with = [&](const std::string& effect) {
-    return refit_of(sight, hidden.believed, candidates_for(hidden.believed, {effect}, tools.known), options,
-                    tools);
+    return refit_of(sight, hidden.believed,
+                    candidates_for(hidden.believed, {effect}, tools.known, *tools.model), options, tools);
   };
   const Refit as_it_is = with(truth);
   options.judged_by = &as_it_is;

@@ -154,7 +154,10 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
   for (std::size_t r = 0; r < measured.size(); ++r)
     result.judged_chi2 += round.judged_chi2(r, minimum.z, own[r]);
   result.covariances = round.covariances();
-  if (options.confirming > 0 && scattered > 0) confirm(round, measured, workshop, options, minimum.z, result);
+  if (options.confirming > 0 && scattered > 0) try {
+      confirm(round, measured, workshop, options, minimum.z, result);
+    } catch (const BudgetSpent&) {  // the emulator's solution stands
+    }
   // Lengths left out are fitted anew, which only the emulators can do.
   round.hold_out(result, round.rules_of(options.judged_by ? options.judged_by : &result));
   return result;
@@ -228,7 +231,7 @@ Refit refit_by_rounds(const std::vector<MeasuredFeatures>& measured, std::vector
       continue;
     }
     Refit result = result_at(round, measured, here, minimum, pooling, options);
-    if (!best || result.scatter < best->scatter) best = result;
+    if (!best || result.scatter < best->scatter || std::isnan(best->scatter)) best = result;
     if (nothing_to_scatter) return *best;
     knobs = next_look(result, *best, here, options, looks++);
     if (knobs.empty()) return *best;

@@ -7,6 +7,7 @@
 
 #include "candidates.hpp"
 #include "effects.hpp"
+#include "engines.hpp"
 #include "physics.hpp"
 #include "setup_file.hpp"
 
@@ -19,6 +20,7 @@ EffectRecord brake_of_tomorrow() {
   brake.name = "cubic_brake";
   brake.parameters = {
       {.name = "drag", .unit = "N s^3/m^3", .low = 0, .high = 5, .neutral = 0, .typical = 0.2}};
+  brake.engines = {{every_engine, {Fidelity::exact, ""}}};
   brake.apply = [](const EffectChoice& choice, int index, Physics& physics) {
     const double drag = choice.number("drag");
     physics.box.free.push_back({[drag](double, double v, double) { return -drag * v * v * v; }, index});
@@ -39,7 +41,7 @@ TEST(Candidates, AnEffectOfTomorrowIsLookedForByItsRecordAlone) {
   const EffectRecord brake = brake_of_tomorrow();
   std::vector<const EffectRecord*> known(all_effects().begin(), all_effects().end());
   known.push_back(&brake);
-  const std::vector<Candidate> list = candidates_for({}, {}, known);
+  const std::vector<Candidate> list = candidates_for({}, {}, known, *engine_named("hard"));
   const Candidate& found = candidate_for(list, "cubic_brake");
   ASSERT_EQ(found.knobs.size(), 1u);
   EXPECT_EQ(found.knobs[0].key, "cubic_brake.drag");
@@ -54,11 +56,12 @@ TEST(Candidates, AnEffectOfTomorrowIsLookedForByItsRecordAlone) {
 TEST(Candidates, KnobsStandWhereTheEffectIsAbsent) {
   shakedown::Setup setup;
   setup.restitution.grain_wall = 0.6;
-  const std::vector<Candidate> list = candidates_for(setup, {}, all_effects());
+  const std::vector<Candidate> list = candidates_for(setup, {}, all_effects(), *engine_named("hard"));
   const Knob& side = candidate_for(list, "side_wall_restitution").knobs.at(0);
   EXPECT_EQ(side.centre, 0.6);
   EXPECT_EQ(side.width, 0.2);
-  EXPECT_EQ(when_absent(side), 0.6);
+  EXPECT_EQ(side.absent, 0.6);
+  EXPECT_EQ(side.absent_key, "restitution.grain_wall");
   const Candidate& friction = candidate_for(list, "grain_friction");
   EXPECT_TRUE(friction.always && friction.dear && friction.knobs.at(0).cubic);
   EXPECT_EQ(friction.knobs.at(0).key, "grain_friction.grain_grain&grain_friction.grain_wall");
@@ -75,12 +78,57 @@ TEST(Candidates, KnobsStandWhereTheEffectIsAbsent) {
 TEST(Candidates, LeaveOutWhatTheSetupHasAndWhatItCannotHave) {
   shakedown::Setup setup;
   set_number(setup, "spring_cubic.coefficient", 0.1, all_effects());
-  for (const Candidate& candidate : candidates_for(setup, {}, all_effects()))
+  for (const Candidate& candidate : candidates_for(setup, {}, all_effects(), *engine_named("hard")))
     EXPECT_NE(candidate.effect, "spring_cubic");
   shakedown::Setup at_rest;
   at_rest.release.displacement = 0;  // a cubic spring would have no scale
-  const std::vector<Candidate> list = candidates_for(at_rest, {}, all_effects());
+  const std::vector<Candidate> list = candidates_for(at_rest, {}, all_effects(), *engine_named("hard"));
   EXPECT_FALSE(list.empty());
   for (const Candidate& candidate : list) EXPECT_NE(candidate.effect, "spring_cubic");
-  EXPECT_EQ(candidates_for({}, {"grain_cohesion"}, all_effects()).size(), 1u);
+  EXPECT_EQ(candidates_for({}, {"grain_cohesion"}, all_effects(), *engine_named("hard")).size(), 1u);
+}
+
+namespace {
+
+bool is_candidate(const std::vector<Candidate>& list, std::string_view effect, std::string_view key = "") {
+  return std::any_of(list.begin(), list.end(), [&](const Candidate& candidate) {
+    return candidate.effect == effect && (key.empty() || candidate.fitted_knobs().at(0).key == key);
+  });
+}
+
+std::vector<Candidate> candidates_of(const shakedown::Setup& setup,
+                                     std::span<const EffectRecord* const> known = all_effects()) {
+  return candidates_for(setup, {}, known, *engine_named("hard"));
+}
+
+}  // namespace
+
+TEST(Candidates, WhatARecordSaysNoDiagnosisLooksForIsNone) {
+  const std::vector<Candidate> list = candidates_of({});
+  for (const EffectRecord* record : all_effects())
+    EXPECT_FALSE(!record->search.not_searched.empty() && is_candidate(list, record->name)) << record->name;
+}
+
+TEST(Candidates, WhatTheEngineDoesNotModelIsNone) {
+  EffectRecord brake = brake_of_tomorrow();
+  brake.engines = {{"soft", {Fidelity::exact, ""}}};
+  std::vector<const EffectRecord*> known(all_effects().begin(), all_effects().end());
+  known.push_back(&brake);
+  EXPECT_FALSE(is_modelled(*engine_named("hard"), brake));
+  EXPECT_FALSE(is_candidate(candidates_of({}, known), "cubic_brake"));
+  EXPECT_TRUE(is_candidate(candidates_of({}, known), "grain_cohesion"));
+}
+
+TEST(Candidates, TwoEffectsWithOneClaimAreNeverBothInTheModel) {
+  shakedown::Setup setup;
+  set_number(setup, "fluctuating_restitution.deviation", 0.05, all_effects());
+  EXPECT_FALSE(is_candidate(candidates_of(setup), "velocity_dependent_restitution"));
+}
+
+TEST(Candidates, AnotherComponentOfAnEffectThatIsThereStaysACandidate) {
+  shakedown::Setup setup;
+  set_number(setup, "constant_acceleration.acceleration.x", 0.1, all_effects());
+  const std::vector<Candidate> list = candidates_of(setup);
+  EXPECT_FALSE(is_candidate(list, "constant_acceleration", "constant_acceleration.acceleration.x"));
+  EXPECT_TRUE(is_candidate(list, "constant_acceleration", "constant_acceleration.acceleration.z"));
 }

@@ -25,9 +25,9 @@ ScreenedEffect screened(const std::string& hidden, const std::string& candidate)
   workshop.engine = engine.get();
   workshop.known = all_effects();
   workshop.threads = 2;
-  const std::vector<Candidate> candidates = candidates_for(setup, {candidate}, all_effects());
+  const std::vector<Candidate> candidates = candidates_for(setup, {candidate}, all_effects(), *engine);
   const std::vector<ScreenedEffect> list =
-      screen(features, free_parameters(setup), candidates, workshop, 256, 1000);
+      screen(features, free_parameters(setup), candidates, workshop, 256, 1000).list;
   EXPECT_FALSE(list.empty());
   return list.empty() ? ScreenedEffect{} : list.front();
 }
