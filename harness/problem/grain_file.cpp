@@ -100,17 +100,24 @@ double deepest_overlap(const Setup& setup, const State& state) {
   return push_once(setup, near_pairs(state, 0), copy);
 }
 
+/// By how much the largest pair of grains is wider than the diameter with which positions were measured, m.
+double growth(const Setup& setup, const State& state) {
+  const double largest = *std::max_element(state.radius.begin(), state.radius.end());
+  return std::max(0.0, 2 * largest - setup.grains.diameter);
+}
+
 /// Measured positions err, and grains that touch then overlap: they are moved apart as far as that error
-/// goes.
+/// goes; grains of unequal sizes, which were measured as equal ones, by as much more as they are larger.
 void push_apart(const Setup& setup, State& state) {
   constexpr double rounding = 1e-12;  // m
   constexpr int most_sweeps = 2000;
   constexpr std::size_t most_grains = 20000;  // the engine's own check covers larger systems
   if (state.size() > most_grains) return;
   const double overlap = deepest_overlap(setup, state);
-  if (overlap <= rounding || overlap > most_measured_overlap) return;
+  const double most = most_measured_overlap + growth(setup, state);
+  if (overlap <= rounding || overlap > most) return;
   State pushed = state;
-  const std::vector<Contact> pairs = near_pairs(state, 10 * most_measured_overlap);
+  const std::vector<Contact> pairs = near_pairs(state, 10 * most);
   for (int sweep = 0; sweep < most_sweeps; ++sweep)
     if (push_once(setup, pairs, pushed) <= 0) break;
   if (deepest_overlap(setup, pushed) > rounding) return;  // there is no room: the overlaps are reported

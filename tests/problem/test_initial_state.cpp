@@ -125,6 +125,19 @@ TEST(InitialState, UnequalGrainsNeitherOverlapNorStickOut) {
   EXPECT_THROW(initial_state(dense), InputError);
 }
 
+// Positions are measured of grains that were taken for equal; in a model with unequal ones they may not
+// overlap.
+TEST(InitialState, UnequalGrainsAtMeasuredPositionsArePushedApart) {
+  for (const double deviation : {0.01, 0.05, 0.1})
+    for (int run = 0; run < 5; ++run) {
+      shakedown::Setup setup = unequal(deviation);
+      setup.release.initial_grains = std::string(TEST_DATA) + "/init_damper_L40.csv";
+      const State state = initial_state(setup, run);
+      EXPECT_LE(deepest_overlap(setup, state), 1e-12) << deviation << ' ' << run;
+      EXPECT_EQ(state.pushed_apart > 0, deviation >= 0.05);  // the grains of this file lie 1 mm apart
+    }
+}
+
 // Grains pushed back from the wall, and nothing else to relax: they may come to lie in others.
 TEST(InitialState, GrainsSlightlyUnequalDoNotOverlapBehindTheWall) {
   for (const double deviation : {5e-4, 2e-3, 5e-3})
