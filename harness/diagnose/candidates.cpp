@@ -34,14 +34,28 @@ Knob knob_of(const EffectRecord& record, const SearchedStrength& strength, const
   return knob;
 }
 
+/// A polynomial through the levels is trusted up to twice the strongest.
+void set_levels(Candidate& candidate, const SearchedStrength& strength, double absent) {
+  constexpr double trusted = 2;
+  double strongest = 0;
+  for (const double level : strength.levels) {
+    const double value = value_at_level(strength, level, absent);
+    candidate.levels.push_back({value, candidate.strength_of(value)});
+    strongest = std::max(strongest, std::abs(candidate.levels.back().strength));
+  }
+  const auto [low, high] =
+      std::minmax({candidate.strength_of(strength.low), candidate.strength_of(strength.high)});
+  candidate.strengths = {candidate.prior.typical, std::max(low, -trusted * strongest),
+                         std::min(high, trusted * strongest)};
+  if (strength.even) candidate.strengths.low = std::max(candidate.strengths.low, 0.0);
+}
+
 Candidate candidate_of(const EffectRecord& record, const Search& search, const SearchedStrength& strength,
                        const Setup& setup) {
   Candidate candidate;
   candidate.effect = record.name;
   candidate.dear = search.cost == Search::Cost::dear;
   candidate.slow = search.cost == Search::Cost::slow;
-  candidate.always = search.hides_in_restitution;
-  candidate.towards = strength.typical < 0 ? -1 : 1;
   for (const auto& [parameter, value] : search.besides)
     candidate.fixed.emplace_back(candidate.effect + "." + std::string(parameter), value);
   const Knob knob = knob_of(record, strength, setup);
@@ -52,6 +66,7 @@ Candidate candidate_of(const EffectRecord& record, const Search& search, const S
   candidate.prior.one_sided =
       strength.inverse || strength.even || (strength.low >= 0 && strength.absent_key.empty());
   candidate.prior.odds = search.odds;
+  set_levels(candidate, strength, absent_value(record, strength, setup));
   return candidate;
 }
 
@@ -106,6 +121,17 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
 }
 
 }  // namespace
+
+double Candidate::value_of(double strength) const {
+  const Knob& knob = fitted_knobs().front();
+  if (!std::isinf(knob.absent)) return knob.at(knob.z_of(knob.absent + strength));
+  return strength > 0 ? std::clamp(1 / std::sqrt(strength), knob.low, knob.high) : knob.high;
+}
+
+double Candidate::strength_of(double value) const {
+  const double absent = fitted_knobs().front().absent;
+  return std::isinf(absent) ? 1 / (value * value) : value - absent;
+}
 
 bool is_modelled(const Engine& engine, const EffectRecord& record) {
   const EffectChoice choice = with_defaults(record);

@@ -6,25 +6,32 @@
 
 #include "emulator.hpp"
 #include "evidence.hpp"
+#include "signature.hpp"
 
 namespace shakedown {
 
 struct Candidate {
   std::string effect;
   std::vector<Knob> knobs;  ///< one typical strength wide, about the effect's absence or, where both signs do
-                            ///< the same, about that strength; empty: on or off
+                            ///< the same, about that strength; empty: a length, which `when_tried` holds
   std::vector<std::pair<std::string, double>>
       fixed;  ///< setup paths and values (SI) that its presence needs besides, e.g. the length of the blade
-  StrengthSeen prior{};  ///< what is typical of its strength; gain, value and error are not set
-  bool dear = false;     ///< a run costs some ten times a plain one: screened by itself, with few runs
-  /// Tried whatever the linear estimate says: inside the contacts a refit hides most of what is linear, and
-  /// at full strength it is not.
-  bool always = false;
-  double towards = 1;  ///< -1: what the effect does lowers its parameter
-  bool slow = false;   ///< a run costs three to five times a plain one: screened by itself, with fewer runs
-  std::vector<Knob> when_tried{};  ///< of one screened as on or off: what its fit may vary
+  StrengthSeen prior{};            ///< what is typical of its strength; gain, value and error are not set
+  bool dear = false;               ///< a run costs some ten times a plain one
+  bool slow = false;               ///< a run costs three to five times a plain one
+  std::vector<Knob> when_tried{};  ///< of a length: what its fit may vary
+
+  /// Where its signature is simulated: value of the parameter, and strength from the effect's absence (of a
+  /// length the curvature, 1/m^2).
+  struct Level {
+    double value = 0, strength = 0;
+  };
+  std::vector<Level> levels{};
+  StrengthPrior strengths{};  ///< those that its levels and the parameter's bounds allow
 
   const std::vector<Knob>& fitted_knobs() const { return knobs.empty() ? when_tried : knobs; }
+  double value_of(double strength) const;
+  double strength_of(double value) const;
 };
 
 /// Every effect that `engine` models and that a diagnosis may add, given the setup's present values. Left out

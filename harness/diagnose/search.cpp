@@ -39,15 +39,6 @@ std::vector<Knob> taken_apart(const std::vector<Knob>& knobs) {
   return parts;
 }
 
-/// A restitution had to go far from what the user believes: effects inside the contacts hide there.
-bool has_strayed(const Refit& fit) {
-  for (std::size_t k = 0; k < fit.values.size(); ++k)
-    if (is_believed(fit.knobs[k]) &&
-        std::abs(fit.values[k].value - fit.knobs[k].believed) > 1.5 * fit.knobs[k].believed_error)
-      return true;
-  return false;
-}
-
 /// Without the effect the restitutions were led astray: the box reaches from there to what the user gave.
 std::vector<Knob> covering_the_users_values(std::vector<Knob> knobs) {
   for (Knob& knob : knobs) {
@@ -59,39 +50,15 @@ std::vector<Knob> covering_the_users_values(std::vector<Knob> knobs) {
   return knobs;
 }
 
-/// Elsewhere: the user's restitutions, and of the effect's first range the half in which the fit is not. The
-/// restitutions are known well only together, and friction with them: along that valley there may be two
-/// minima.
-std::vector<Knob> second_start(const Refit& fit, const std::vector<Knob>& first_range) {
-  std::vector<Knob> start = fit.knobs;
-  for (std::size_t k = 0; k < start.size(); ++k) {
-    Knob& knob = start[k];
-    if (knob.exact) continue;
-    knob.centre = fit.values[k].value;
-    if (is_believed(knob)) knob.centre = knob.believed, knob.width = knob.believed_error;
-    for (const Knob& first : first_range)
-      if (first.key == knob.key) {
-        knob.width = 0.6 * first.width;
-        knob.centre = first.centre + (knob.centre < first.centre ? 0.5 : -0.5) * first.width;
-      }
-  }
-  return start;
-}
-
-/// Where the fit of a candidate begins: at the linear estimate, or over its whole usual range where there is
-/// none.
+/// The fit of a candidate begins at the strength that its signature asks for.
 std::vector<Knob> knobs_of(const Candidate& candidate, const ScreenedEffect& screened) {
   std::vector<Knob> added = candidate.fitted_knobs();
   for (Knob& knob : added) {
-    if (candidate.knobs.empty()) {  // a length, known by what it does
-      knob.width *= std::clamp(screened.value, knob.low, knob.high) / knob.centre;
-      knob.centre = std::clamp(screened.value, knob.low, knob.high);
-    } else if (candidate.always) {
-      knob.centre = std::clamp(knob.centre + candidate.towards * knob.width, knob.low, knob.high);
-    } else {
-      knob.centre = std::clamp(screened.value, knob.low, knob.high);
-      knob.width = std::max(knob.width, 0.5 * std::abs(screened.value));
-    }
+    if (std::isinf(knob.absent))  // a length, known by what it does
+      knob.width *= screened.value / knob.centre;
+    else
+      knob.width = std::max(knob.width, 0.5 * std::abs(screened.value - knob.absent));
+    knob.centre = std::clamp(screened.value, knob.low, knob.high);
   }
   return added;
 }
@@ -113,22 +80,12 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
   state.camera = without(before.camera, added);
   if (std::find(state.missing.begin(), state.missing.end(), candidate.effect) == state.missing.end())
     state.missing.push_back(candidate.effect);  // else of another component
-  const bool costly = candidate.dear && !candidate.always;
+  const bool costly = candidate.dear;
   const std::vector<Knob> knobs =
       together(together(covering_the_users_values(before.theta), state.found), state.camera);
   const std::string stage = "trying " + candidate.effect;
   state.fit = tools.fit(state, stage, knobs, costly ? effort::attempt_when_dear : effort::attempt,
                         &before.fit, lowest);
-  const bool two_minima =
-      std::any_of(added.begin(), added.end(), [](const Knob& knob) { return knob.cubic; });
-  if (two_minima && !(state.fit.p_value > rules::holds_well)) {
-    try {
-      const Refit other = tools.fit(state, stage + " from elsewhere", second_start(state.fit, added),
-                                    effort::attempt, &before.fit, std::min(lowest, state.fit.judged_chi2));
-      if (other.judged_chi2 < state.fit.judged_chi2) state.fit = other;
-    } catch (const BudgetSpent&) {  // the first fit stands
-    }
-  }
   state.dear = before.dear || costly;
   rival.fitted = true;
   rival.gain = before.fit.judged_chi2 - state.fit.judged_chi2;
@@ -149,20 +106,16 @@ StrengthSeen strength_fitted(const Rival& rival) {
   return seen;
 }
 
+/// The table is of what the signatures say; a fit that keeps less than half of the gain takes it back.
 void weigh_rival(Rival& rival, double candidates) {
-  StrengthSeen seen = rival.screened.seen;
   rival.weighed = rival.fitted || rival.screened.weighed;
-  if (!rival.weighed) {
-    rival.log_odds = prior_log_odds(seen.odds, candidates);
-    return;
-  }
-  if (rival.fitted) {
-    const double linear = rival.candidate->always ? 0 : rival.screened.gain;
-    seen = strength_fitted(rival);
-    seen.gain =
-        rival.candidate->always ? beyond_emulator_noise(rival.gain) : believed_gain(linear, rival.gain);
-  }
-  rival.log_odds = log_odds_of(seen, candidates);
+  const StrengthSeen& seen = rival.screened.seen;
+  rival.log_odds = prior_log_odds(seen.odds, candidates);
+  if (rival.screened.weighed) rival.log_odds += rival.screened.log_evidence;
+  if (!rival.fitted) return;
+  StrengthSeen fitted = strength_fitted(rival);
+  fitted.gain = believed_gain(rival.screened.gain, rival.gain);
+  rival.log_odds = log_odds_of(fitted, candidates);
 }
 
 RankedEffect ranked_as(const Rival& rival) {
@@ -229,10 +182,10 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
     return round;
   }
   tools.begin("ranking the effects");
-  const int count = state.dear ? effort::rank_when_dear : effort::rank;
   const double all = static_cast<double>(tools.known().size());
-  const Screening screening = screen(tools.features(state.setup), state.knobs(), candidates, tools.workshop(),
-                                     count, tools.next_batch(), state.fit.covariances);
+  const Screening screening =
+      screen(tools.features(state.setup), state.knobs(), candidates, tools.workshop(),
+             state.dear ? effort::rank_when_dear : effort::rank, tools.next_batch(), state.fit.covariances);
   std::vector<Rival> rivals;
   for (const ScreenedEffect& screened : screening.list)
     rivals.push_back({&candidates[screened.candidate], screened});
@@ -246,7 +199,8 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   for (Rival& rival : rivals) order.push_back(&rival);
   const auto by_odds = [](const Rival* a, const Rival* b) { return a->log_odds > b->log_odds; };
   std::stable_sort(order.begin(), order.end(), by_odds);
-  const bool in_doubt = state.fit.p_value <= rules::doubtful || has_strayed(state.fit);
+  for (const Rival& rival : rivals)
+    if (!rival.weighed) round.not_tried.push_back(rival.candidate->effect);
   double lowest = state.fit.judged_chi2;
   int tried = 0;
   const auto attempt = [&](Rival& rival) {
@@ -267,14 +221,10 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
       could_not(error);
     }
   };
-  // What a linear estimate promises goes first; what only its full strength shows has its turn where the
-  // model is in doubt, or where something would be added that it may imitate.
+  // Fits confirm the most probable, and what has more than a tenth of its probability.
+  const double worth_a_fit = std::max(0.0, order.front()->log_odds - std::log(10));
   for (Rival* rival : order)
-    if (rival->weighed && rival->log_odds > 0) attempt(*rival);
-  const bool promising = std::any_of(rivals.begin(), rivals.end(),
-                                     [](const Rival& rival) { return rival.fitted && rival.log_odds > 0; });
-  for (Rival* rival : order)
-    if (rival->candidate->always && !rival->fitted && (in_doubt || promising)) attempt(*rival);
+    if (rival->weighed && rival->log_odds > worth_a_fit) attempt(*rival);
   for (Rival* rival : order) {
     if (rival->weighed) round.ranking.push_back(ranked_as(*rival));
     if (std::isfinite(rival->log_odds))

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "diagnosis.hpp"
+#include "effect_screen.hpp"
 #include "evidence.hpp"
-#include "linear_screen.hpp"
 
 namespace shakedown {
 
@@ -36,7 +36,8 @@ struct Effort {
 namespace effort {
 constexpr Effort look{1, 128, 0}, refit{2, 160, 128, true}, attempt{2, 128, 96}, attempt_when_dear{1, 72, 48},
     conclude{1, 192, 160}, apart{2, 160, 128};
-constexpr int rank = 192, rank_when_dear = 128, most_when_dear = 80;
+constexpr int most_when_dear = 80;
+constexpr ScreenEffort rank{}, rank_when_dear{32, 48, 12, 12, 12};
 }  // namespace effort
 
 /// What all steps share. Counts simulations and numbers the batches of random microstates.

@@ -63,7 +63,15 @@ TEST(Candidates, KnobsStandWhereTheEffectIsAbsent) {
   EXPECT_EQ(side.absent, 0.6);
   EXPECT_EQ(side.absent_key, "restitution.grain_wall");
   const Candidate& friction = candidate_for(list, "grain_friction");
-  EXPECT_TRUE(friction.always && friction.dear && friction.knobs.at(0).cubic);
+  EXPECT_TRUE(friction.dear && friction.knobs.at(0).cubic);
+  ASSERT_EQ(friction.levels.size(), 5u);
+  EXPECT_EQ(friction.levels[2].strength, 0.2);
+  EXPECT_EQ(friction.levels[2].value, 0.2);
+  const Candidate& walls = candidate_for(list, "side_wall_restitution");
+  EXPECT_NEAR(walls.levels.at(2).value, 0.2, 1e-12);
+  EXPECT_NEAR(walls.levels.at(2).strength, -0.4, 1e-12);
+  EXPECT_NEAR(walls.strengths.low, 0.05 - 0.6, 1e-12);
+  EXPECT_NEAR(walls.strengths.high, 0.999 - 0.6, 1e-12);
   EXPECT_EQ(friction.knobs.at(0).key, "grain_friction.grain_grain&grain_friction.grain_wall");
   const Candidate& arc = candidate_for(list, "blade_arc");
   EXPECT_TRUE(arc.knobs.empty());
@@ -71,6 +79,8 @@ TEST(Candidates, KnobsStandWhereTheEffectIsAbsent) {
   // The curvature of a blade of this length, which cannot be negative.
   EXPECT_NEAR(arc.prior.typical, 1 / (0.59 * 0.59), 1e-12);
   EXPECT_TRUE(arc.prior.one_sided);
+  EXPECT_NEAR(arc.levels.at(1).strength, 1 / (0.59 * 0.59), 1e-12);
+  EXPECT_NEAR(arc.value_of(arc.strength_of(0.4)), 0.4, 1e-12);
   EXPECT_LT(candidate_for(list, "grain_air_drag").prior.odds, 0.01);  // air does so little in fact
   EXPECT_FALSE(candidate_for(list, "spring_cubic").prior.one_sided);
 }

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Which effects are worth a fit, and how probable each is: every candidate is simulated at a few strengths
+// beside the fitted model, with its parameters as they are fitted, and the measured features say which
+// strength they ask for when those parameters move along. A fit only confirms.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "candidates.hpp"
+
+namespace shakedown {
+
+struct ScreenedEffect {
+  std::size_t candidate = 0;  ///< index among the candidates
+  std::string effect;
+  double gain = 0;          ///< of chi2
+  double value = 0;         ///< estimate of the parameter, SI
+  double log_evidence = 0;  ///< ln of its likelihood, averaged over the prior, over that of nothing
+  StrengthSeen seen{};      ///< the strength from its absence, with its error and prior
+  std::vector<std::string>
+      look_alikes{};     ///< candidates whose signature after refitting has a cosine above 0.9 with its own
+  bool weighed = false;  ///< false: not simulated, for want of simulations or time
+};
+
+struct Screening {
+  std::vector<ScreenedEffect> list;  ///< best first
+  struct LeftOut {
+    std::string effect, reason;
+  };
+  std::vector<LeftOut> left_out;  ///< candidates that the engine could not simulate
+};
+
+/// Simulations of each different setup.
+struct ScreenEffort {
+  int slopes = 64;   ///< for what the fitted parameters do, beside those that fits have made
+  int nothing = 96;  ///< of the model without candidates
+  int plain = 32, slow = 16, dear = 12;  ///< of each candidate at each level, by what a run costs
+};
+
+/// `fitted` stand at their fitted values. `metric`: covariance of each measured run's features, m^2, by which
+/// the fit of the model without candidates was judged, so that gains here and there are one thing; empty: of
+/// these simulations. `first_run` addresses the random numbers. PhysicsError and InputError are of the model
+/// without candidates.
+Screening screen(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
+                 const std::vector<Candidate>& candidates, const Workshop& workshop,
+                 const ScreenEffort& effort, int first_run, const std::vector<Eigen::MatrixXd>& metric = {});
+
+}  // namespace shakedown

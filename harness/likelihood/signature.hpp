@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// How the features change with the strength of an effect, from simulations at a few strengths, and what the
+// measured ones say of that strength: no line about nothing, which an effect that hides in refitted
+// parameters does not follow.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+namespace shakedown {
+
+/// All features of an experiment, whitened, with what refitted parameters take up projected out.
+struct SignatureLevel {
+  double strength = 0;     ///< from the effect's absence, in its own unit; never 0
+  Eigen::VectorXd change;  ///< mean with the effect less mean without
+  double noise = 0;        ///< expected square of the change's error by the simulations with the effect
+};
+
+/// What the model without the effect leaves of the measured features.
+struct SignatureResidual {
+  Eigen::VectorXd residual;  ///< measured less mean without the effect, as `change`
+  double noise = 0;          ///< expected square of the error of that mean, which every change has too
+};
+
+/// A polynomial through nothing at strength zero: straight with one level, a parabola with two or three, a
+/// cubic with more.
+class Signature {
+ public:
+  /// `exact`: the changes are arithmetic and share no error with the residual.
+  Signature(const std::vector<SignatureLevel>& levels, const SignatureResidual& without, bool exact = false);
+
+  /// ln of the likelihood of the measured features at this strength over that of nothing. What is known of
+  /// the change is b = D'r and a = |D|^2, the simulations' noise nu taken off both: b is normal about a where
+  /// the effect is there and about 0 where it is not, with the variance a + nu, so that
+  /// l = a (b - a / 2) / (a + nu).
+  double log_likelihood(double strength) const;
+
+  /// The mean change at this strength, the noise of the simulations in it.
+  Eigen::VectorXd change(double strength) const;
+
+ private:
+  Eigen::VectorXd powers(double strength) const;
+
+  double unit_ = 1;                 ///< strength of which powers are taken
+  Eigen::MatrixXd shapes_;          ///< features x order
+  Eigen::MatrixXd square_, noise_;  ///< order x order: of the shapes, and of their errors
+  Eigen::VectorXd overlap_;         ///< with the residual
+  double chi2_per_feature_ = 1;
+};
+
+/// What is known of a strength before and where it may lie.
+struct StrengthPrior {
+  double typical = 1;        ///< scale of a Cauchy distribution about none
+  double low = 0, high = 0;  ///< strengths that are possible; the prior is normalised between them
+};
+
+struct StrengthPosterior {
+  double log_evidence = 0;  ///< ln of the likelihood averaged over the prior, over that of nothing
+  double gain = 0;          ///< twice the largest ln likelihood, as a fall of chi2
+  double strength = 0;      ///< where that is
+  double error = 0;         ///< standard deviation of the strength, the likelihood alone counted
+};
+
+/// By a sum over 2000 strengths, equally likely beforehand.
+StrengthPosterior posterior_of(const Signature& signature, const StrengthPrior& prior);
+
+}  // namespace shakedown

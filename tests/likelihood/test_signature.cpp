@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Signatures at levels against closed forms: a change that is known exactly, one that simulations know to an
+// error, one that is no line about nothing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "random.hpp"
+#include "signature.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+constexpr Eigen::Index features = 600;
+
+Eigen::VectorXd noise(std::uint64_t seed, double deviation = 1) {
+  Random random(seed, 1, Stream::other);
+  Eigen::VectorXd values(features);
+  for (double& value : values) value = deviation * random.normal();
+  return values;
+}
+
+/// A shape of unit length.
+Eigen::VectorXd shape(double turns) {
+  Eigen::VectorXd values(features);
+  for (Eigen::Index f = 0; f < features; ++f)
+    values[f] = std::sin(2 * std::numbers::pi * turns * static_cast<double>(f) / features);
+  return values.normalized();
+}
+
+/// Means of `runs` simulations of unit chaos at each strength.
+std::vector<SignatureLevel> simulated(const std::vector<double>& strengths, int runs, std::uint64_t seed,
+                                      const std::function<Eigen::VectorXd(double)>& change,
+                                      const Eigen::VectorXd& error_of_nothing) {
+  std::vector<SignatureLevel> levels;
+  for (const double strength : strengths)
+    levels.push_back({strength, change(strength) + noise(seed++, 1 / std::sqrt(runs)) - error_of_nothing,
+                      static_cast<double>(features) / runs});
+  return levels;
+}
+
+}  // namespace
+
+TEST(Signature, OfAnExactLineIsTheClosedForm) {
+  const Eigen::VectorXd line = 20 * shape(3), residual = 0.7 * line + noise(5);
+  const Signature signature({{1.0, line, 0}}, {residual, 0}, true);
+  const double b = line.dot(residual), a = line.squaredNorm();
+  for (const double s : {-0.4, 0.3, 0.7, 1.5})  // seen: 1e-13
+    EXPECT_NEAR(signature.log_likelihood(s), s * b - s * s * a / 2, 1e-11);
+  const StrengthPosterior found = posterior_of(signature, {0.5, -2, 2});
+  EXPECT_NEAR(found.strength, b / a, 2e-3);  // a step of the sum there; seen: 4e-4
+  EXPECT_NEAR(found.error, 1 / std::sqrt(a), 1e-4);
+  EXPECT_NEAR(found.gain, b * b / a, 1e-2);
+  // Laplace, the prior being wide: the largest likelihood times the share of the prior under it.
+  const double share = std::sqrt(2 * std::numbers::pi / a) / (std::numbers::pi * 0.5) /
+                       (1 + std::pow(b / a / 0.5, 2)) / (2 / std::numbers::pi * std::atan(4.0));
+  EXPECT_NEAR(found.log_evidence, b * b / a / 2 + std::log(share), 0.02);
+}
+
+TEST(Signature, IsAParabolaThroughItsLevels) {
+  const Eigen::VectorXd slope = 5 * shape(2), bend = 9 * shape(5);
+  const auto change = [&](double s) -> Eigen::VectorXd { return s * slope + s * s * bend; };
+  const Signature signature({{0.5, change(0.5), 0}, {1, change(1), 0}, {2, change(2), 0}}, {noise(1), 0},
+                            true);
+  for (const double s : {-1.0, 0.1, 1.5})
+    EXPECT_LT((signature.change(s) - change(s)).cwiseAbs().maxCoeff(), 1e-12);  // seen: 3e-14
+}
+
+// An effect whose change has its square alone, far beyond any line about nothing, is seen at its strength.
+TEST(Signature, FindsAStrengthThatNoLineAboutNothingShows) {
+  const auto change = [](double s) -> Eigen::VectorXd { return 15 * s * s * shape(4); };
+  const Eigen::VectorXd nothing = noise(3, 1 / std::sqrt(96)), residual = change(1.2) + noise(9) - nothing;
+  const Signature signature(simulated({0.5, 1, 2}, 32, 40, change, nothing), {residual, features / 96.0});
+  const StrengthPosterior found = posterior_of(signature, {1, 0, 3});
+  EXPECT_GT(found.log_evidence, 100);
+  EXPECT_NEAR(found.strength, 1.2, 0.06);  // seen: 0.016
+}
+
+// Of many null experiments ln evidence is below zero on average, and large by no more than chance allows: the
+// evidence against nothing is above e^2 in at most a share of e^-2 of them (Markov's inequality).
+TEST(Signature, OfNothingIsNoEvidenceThoughItsSimulationsAreFew) {
+  const auto change = [](double s) -> Eigen::VectorXd { return 6 * s * shape(4); };
+  constexpr int experiments = 300;
+  double sum = 0;
+  int beyond = 0;
+  for (int e = 0; e < experiments; ++e) {
+    const auto seed = static_cast<std::uint64_t>(1000 + 10 * e);
+    const Eigen::VectorXd nothing = noise(seed, 1 / std::sqrt(64));
+    const Signature signature(simulated({0.5, 1, 2}, 16, seed + 1, change, nothing),
+                              {noise(seed + 5) - nothing, features / 64.0});
+    const double evidence = posterior_of(signature, {1, -3, 3}).log_evidence;
+    sum += evidence;
+    beyond += evidence > 2;
+  }
+  EXPECT_LT(sum / experiments, 0);        // seen: -1.1
+  EXPECT_LE(beyond, 0.05 * experiments);  // seen: 5
+}
+
+TEST(Signature, WhatIsNoNumberIsNoEvidence) {
+  Eigen::VectorXd residual = noise(1);
+  residual[7] = std::nan("");
+  EXPECT_TRUE(
+      std::isnan(posterior_of(Signature({{1.0, shape(1), 0}}, {residual, 0}), {1, -1, 1}).log_evidence));
+}
