@@ -1,27 +1,29 @@
 # SPDX-License-Identifier: MIT
-import contextlib, io, json, math, os, pathlib, random, runpy, subprocess, sys, tempfile, unittest
+import json, math, os, pathlib, random, subprocess, sys, tempfile, unittest
 
 import asking, drawing, record, scoring
 
 PROGRAM = os.environ.get("SHAKEDOWN")
 
-# Stands in for the program: hides nothing, answers at once. What it does with case c001 is in its argument file.
-STAND_IN = """#!/usr/bin/env python3
-import json, pathlib, sys
-words = sys.argv[1:]
-def after(option): return words[words.index(option) + 1]
-if words == ["--version"]: print("stand-in 1")
-elif words[0] == "effects": print(pathlib.Path(__file__).with_name("effects.json").read_text())
-elif words[0] == "hide":
-    folder = pathlib.Path(after("--out")); folder.mkdir(parents=True)
-    (folder / "setup.toml").write_text(""); (folder / "experiment.toml").write_text("")
-else:
-    case = pathlib.Path(words[1]).parent.name
-    with pathlib.Path(__file__).with_name("asked").open("a") as log: log.write(case + "\\n")
-    if case in pathlib.Path(__file__).with_name("breaks").read_text(): sys.exit("something broke")
-    answer = json.loads(pathlib.Path(__file__).with_name("answer.json").read_text())
-    pathlib.Path(after("--json")).write_text(json.dumps(answer)); sys.exit(1)
+# Stands in for the program: hides nothing, gives every case the answer in answer.json, and breaks down at those named in breaks.
+STAND_IN = """#!/bin/sh
+here='FOLDER'
+case "$1" in
+--version) echo "stand-in 1" ;;
+effects) cat "$here/effects.json" ;;
+hide)
+  while [ "$1" != --out ]; do shift; done
+  mkdir -p "$2" && touch "$2/setup.toml" "$2/experiment.toml" ;;
+diagnose)
+  name=$(basename "$(dirname "$2")")
+  echo "$name" >> "$here/asked"
+  if grep -q "$name" "$here/breaks"; then echo "something broke" >&2; exit 70; fi
+  while [ "$1" != --json ]; do shift; done
+  cp "$here/answer.json" "$2"
+  exit 1 ;;
+esac
 """
+
 
 def strength(parameters, typical, **more):
     return dict(strengths=[dict(parameters=parameters, typical=typical, levels=[], low=0, high=0, strongest=0) | more])
@@ -198,7 +200,7 @@ class Whole(unittest.TestCase):
         self.folder = pathlib.Path(self.scratch.name)
         self.addCleanup(self.scratch.cleanup)
         self.program = self.folder / "shakedown"
-        self.program.write_text(STAND_IN)
+        self.program.write_text(STAND_IN.replace("FOLDER", str(self.folder)))
         self.program.chmod(0o755)
         (self.folder / "effects.json").write_text(json.dumps(EFFECTS))
         self.says([], "")
@@ -249,6 +251,14 @@ class Whole(unittest.TestCase):
         self.assertEqual(code, 0, said)
         self.assertEqual(sorted(self.asked()), ["c000", "c001", "c002", "c002", "c003"])
 
+    def test_a_build_beside_it_changes_nothing(self):
+        self.exam("--seed", "3", "--cases", "2")
+        self.program.write_text(self.program.read_text().replace("stand-in 1", "stand-in 2"))
+        (self.folder / "exam/answers/now/c001.json").unlink()
+        code, said = self.exam("--seed", "3", "--cases", "2")
+        self.assertEqual(code, 0, said)
+        self.assertIn("- program: stand-in 1", said)
+
     def test_two_programs_are_asked_the_same(self):
         code, said = self.exam("--seed", "3", "--cases", "3", "--before", str(self.program))
         self.assertEqual(code, 0, said)
@@ -269,7 +279,7 @@ class Whole(unittest.TestCase):
         self.says([], "c001")
         code, said = self.exam("--ci", "--seed", self.seed_with(4))
         self.assertEqual(code, 1, said)
-        self.assertIn("exam FAILED: c001 has no answer (exit 1: something broke)", said)
+        self.assertIn("exam FAILED: c001 has no answer (exit 70: something broke)", said)
 
     def test_an_exam_asks_nothing_that_it_could_not_finish(self):
         exam = asking.Exam(self.folder, {}, [], None, 1, 60, 1.5, print)
