@@ -1,12 +1,21 @@
 # SPDX-License-Identifier: MIT
 """Puts the cases of an exam to one or two programs. Each answer is kept as it comes: a second call goes on where the first stopped."""
-import concurrent.futures, json, os, shutil, subprocess, threading, time
+import concurrent.futures, json, os, pathlib, shutil, subprocess, tempfile, threading, time
 
 from drawing import draw_by_script, draw_one, effects_of, wait_until_drawn, write_truth
 
 USUAL_SECONDS = 300  # of a diagnosis, with all cores: the program's own limit where nobody says another
 PATIENCE = 1.6       # times its limit that a diagnosis may take beside other work (`shakedown diagnose --help`)
-HANGS = 3            # times its limit after which it is ended: it keeps no promise any more
+HANGS = 3            # times its limit, in work and not in waiting for cores, after which it is ended without an answer
+
+
+def seconds_worked(process):
+    """Processor time of a process that runs, s."""
+    try:
+        fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    except OSError:
+        return 0.
 
 
 def cores():
@@ -83,12 +92,8 @@ class Exam:
         case, start = self.cases / name, time.monotonic()
         words = [program, "diagnose", str(case / "setup.toml"), "--data", str(case / "experiment.toml"), "--json",
                  str(fresh), "--threads", str(self.threads), "--seconds", f"{self.limit:g}"]
-        try:
-            run = subprocess.run(words, capture_output=True, text=True, timeout=HANGS * self.limit)
-            code, why = run.returncode, run.stderr.strip()[-200:]
-        except subprocess.TimeoutExpired:
-            code, why = 124, f"no answer after {HANGS * self.limit:.0f} s"
-        if code in (130, -2) or self.stopped:  # interrupted, by its own exit code or by the signal
+        code, why = self.answered_or_ended(words)
+        if code is None or code in (130, -2) or self.stopped:  # out of time; interrupted, by exit code or by signal
             fresh.unlink(missing_ok=True)
             return
         if code not in (0, 1) or not fresh.exists():
@@ -97,6 +102,24 @@ class Exam:
         (folder / f"{name}.seconds").write_text(f"{seconds:.1f}")
         fresh.replace(answer)
         self.tell(f"{name} answered by {label}, {seconds:.0f} s")
+
+    def answered_or_ended(self, words):
+        """Exit code and the end of what was said; the code is None where the exam's time is over first."""
+        with tempfile.TemporaryFile("w+") as said:
+            process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=said)
+            while True:
+                try:
+                    process.wait(timeout=.2)
+                except subprocess.TimeoutExpired:
+                    hangs = seconds_worked(process) > HANGS * self.limit * self.threads
+                    late = self.end is not None and time.monotonic() > self.end
+                    if not hangs and not late:
+                        continue
+                    process.kill()
+                    process.wait()
+                    return (124, f"no answer after {HANGS * self.limit:.0f} s of work") if hangs else (None, "")
+                said.seek(0)
+                return process.returncode, said.read().strip()[-200:]
 
     def answer(self, label, name):
         """The answer and its seconds, or None."""

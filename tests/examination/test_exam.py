@@ -182,9 +182,9 @@ class Ledger(unittest.TestCase):
             self.assertEqual(record.opened_before(file, "exam", 6, "later"), [])
 
     def test_the_ledger_of_the_project_reads(self):
-        file = drawing.ROOT / "bench/studies/ledger.csv"
-        if file.exists():
-            self.assertTrue(all(len(row) == 6 and row[1].isdigit() for row in record.read_ledger(file)))
+        rows = record.read_ledger(drawing.ROOT / "bench/studies/ledger.csv")
+        self.assertTrue(all(len(row) == 6 and row[1].isdigit() for row in rows))
+        self.assertIn("9000", [row[1] for row in rows])
 
     def test_a_table_of_something_else_is_refused(self):
         with tempfile.TemporaryDirectory() as scratch:
@@ -280,6 +280,16 @@ class Whole(unittest.TestCase):
         code, said = self.exam("--ci", "--seed", self.seed_with(4))
         self.assertEqual(code, 1, said)
         self.assertIn("exam FAILED: c001 has no answer (exit 70: something broke)", said)
+
+    def test_what_works_without_end_is_ended(self):
+        exam = asking.Exam(self.folder, {}, [], None, 1, .1 / asking.cores(), None, print)
+        code, why = exam.answered_or_ended([sys.executable, "-c", "while True: pass"])
+        self.assertEqual(code, 124)
+        self.assertIn("of work", why)
+
+    def test_what_waits_when_the_time_is_over_has_no_answer_and_is_no_failure(self):
+        exam = asking.Exam(self.folder, {}, [], None, 1, 60, 1e-3, print)
+        self.assertEqual(exam.answered_or_ended(["sleep", "100"]), (None, ""))
 
     def test_an_exam_asks_nothing_that_it_could_not_finish(self):
         exam = asking.Exam(self.folder, {}, [], None, 1, 60, 1.5, print)

@@ -59,3 +59,10 @@ TEST(Ledger, RefusesWhatIsNone) {
   write(folder / "broken.csv", "study,seed,program,drawn,answered,opened\nblind-suite,nine,,,,\n");
   EXPECT_THROW(SeedLedger(folder / "broken.csv"), InputError);
 }
+
+TEST(Ledger, ThatOfTheProjectKnowsWhatWasOpened) {
+  const SeedLedger ledger(std::filesystem::path(PROJECT_ROOT) / "bench/studies/ledger.csv");
+  for (const std::uint64_t seed : {2026, 4000, 5000, 8000, 8100, 8200, 9000, 9500})
+    EXPECT_TRUE(ledger.seen({"blind-suite", seed, "drawn later"})) << seed;
+  EXPECT_FALSE(ledger.seen({"blind-suite", 9001, "drawn later"}));
+}
