@@ -209,7 +209,7 @@ int compare(const CompareArguments& arguments) {
     decays = compare_decay(measurement, workshop, std::min(32, arguments.runs), 1);
   }
   const MomentumAudit momentum = audit_momentum(recorded, all_effects());
-  const ModelJudgement judgement = judgement_of(fit.test(), momentum.test_of(momentum.as_given));
+  const ModelJudgement judgement = judgement_of(fit.test(), momentum.test_of(momentum.as_given), fit.left());
   const PaperValues taken(setup, given_by_measurements);
   const std::string document = taken.added_to(json_of(fit, momentum, decays, judgement).dump());
   taken.print(arguments.json.for_people());
@@ -254,9 +254,11 @@ Command add_compare_command(CLI::App& program) {
       "ladder,\n"
       "fit and diagnose: a model fails where the momentum balance has p <= 0.001, or the features p <= 0.01 "
       "with a\n"
-      "misfit of 1.4 times that of the model's own runs or more; with less it is undecided, for two codes of "
-      "one\n"
-      "physics differ by as much, and so it is where a p-value could not be computed.");
+      "misfit of 1.4 times that of the model's own runs or more, or where more than 2.5 times noise and "
+      "spread from\n"
+      "run to run remain; with a smaller misfit it is undecided, for two codes of one physics differ by as "
+      "much, and\n"
+      "so it is where a p-value could not be computed.");
   return {&command, [arguments] { return compare(*arguments); }};
 }
 

@@ -67,7 +67,8 @@ int fit(const FitArguments& arguments) {
   const MomentumAudit balance =
       audit_momentum(with_setup(measurement, found.fitted, all_effects()), all_effects());
   if (!found.used.empty())
-    found.judgement = judgement_of({found.p_value, found.scatter, ""}, balance.test_of(balance.as_given));
+    found.judgement = judgement_of({found.p_value, found.scatter, ""}, balance.test_of(balance.as_given),
+                                   differences_of(found.used));
   const PaperValues taken(setup, given_by_measurements);
   const std::string document = taken.added_to(fit_json(found));
   taken.print(arguments.json.for_people());

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace shakedown {
 
 namespace {
@@ -23,9 +25,37 @@ std::string times_of(double misfit) {
 
 void add(std::string& list, const std::string& text) { list += (list.empty() ? "" : ", ") + text; }
 
+/// The worst difference that a model which holds cannot have; empty: there is none.
+std::string too_much(const std::vector<Difference>& left) {
+  const Difference* worst = nullptr;
+  for (const Difference& one : left)
+    if (times_floor(one) > most_left && (worst == nullptr || times_floor(one) > times_floor(*worst)))
+      worst = &one;
+  if (worst != nullptr)
+    return fmt::format("{} of the {} remain, {:.2g} times noise and spread", words_of(*worst), worst->of,
+                       times_floor(*worst));
+  for (const Difference& one : left)
+    if (has_risen(one))
+      return fmt::format("the error of the {} rose from {:.3g} mm as given to {:.3g} mm", one.of,
+                         one.as_given * 1e3, one.error * 1e3);
+  return "";
+}
+
 }  // namespace
 
-ModelJudgement judgement_of(const ModelTest& features, const ModelTest& balance) {
+double times_floor(const Difference& difference) { return difference.error / difference.floor; }
+
+bool has_risen(const Difference& d) { return d.error > std::hypot(d.as_given, d.floor); }
+
+std::string words_of(const Difference& d) {
+  if (std::isinf(d.error)) return "a motion without bounds, so all";
+  std::string words = fmt::format("{:.2g} mm", d.error * 1e3);
+  if (d.amplitude > 0) words += fmt::format(" ({:.2g} % of the amplitude)", 100 * d.error / d.amplitude);
+  return words + (d.looks_like.empty() ? "" : ", " + d.looks_like + ",");
+}
+
+ModelJudgement judgement_of(const ModelTest& features, const ModelTest& balance,
+                            const std::vector<Difference>& left) {
   std::string against, doubts, in_favour;
   bool complete = true;
   if (is_made(balance)) {
@@ -46,6 +76,7 @@ ModelJudgement judgement_of(const ModelTest& features, const ModelTest& balance)
     else
       add(against, said + times_of(features.misfit));
   }
+  if (const std::string remains = too_much(left); !remains.empty()) add(against, remains);
   if (!against.empty()) return {Standing::fails, complete, "rejected: " + against};
   if (!doubts.empty()) return {Standing::undecided, complete, "undecided: " + doubts};
   if (!in_favour.empty()) return {Standing::holds, complete, "holds: " + in_favour};

@@ -16,15 +16,25 @@ double Validation::model_error() const {
   return error <= u ? 0 : std::sqrt(error * error - u * u);
 }
 
+std::vector<Difference> differences_of(const std::vector<Validation>& rows) {
+  std::vector<Difference> list;
+  for (const Validation& row : rows)
+    list.push_back({row.observable + " of run " + row.run, row.error, row.uncertainty()});
+  return list;
+}
+
 std::string validation_text(const std::vector<Validation>& rows) {
   if (rows.empty()) return "";
   std::string text = fmt::format("  {:<16} {:<7} {:>8} {:>8} {:>8} {:>8} {:>8}  {}\n", "V&V 20, mm", "", "E",
                                  "u_num", "u_input", "u_D", "u_val", "error of the model");
   for (const Validation& row : rows) {
     const double left = row.model_error();
-    const std::string said = !std::isfinite(left) ? "could not be computed"
-                             : left == 0          ? "within u_val"
-                                                  : fmt::format("about {:.3f}", left * 1e3);
+    const std::string said =
+        !std::isfinite(left) ? "could not be computed"
+        : left == 0          ? "within u_val"
+        : row.error <= most_left * row.uncertainty()
+            ? fmt::format("not told from none ({:.2g} u_val)", row.error / row.uncertainty())
+            : fmt::format("about {:.3f}", left * 1e3);
     text += fmt::format("  {:<16} {:<7} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f}  {}\n", row.run,
                         row.observable, row.error * 1e3, row.numerical * 1e3, row.input * 1e3, row.data * 1e3,
                         row.uncertainty() * 1e3, said);

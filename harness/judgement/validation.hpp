@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "judgement.hpp"
+
 namespace shakedown {
 
 /// Of one observable of one run; root mean squares over what of it is compared, standard uncertainties, m.
@@ -22,6 +24,10 @@ struct Validation {
   /// where one of the two is not finite.
   double model_error() const;
 };
+
+/// The rows as differences that a judgement asks about: the table and the judgement never say different
+/// things, because a row beyond most_left u_val is one that no model which holds has.
+std::vector<Difference> differences_of(const std::vector<Validation>& rows);
 
 /// The table for a terminal, mm; empty without rows.
 std::string validation_text(const std::vector<Validation>& rows);

@@ -131,7 +131,7 @@ class Fitter {
     fit_.used = found.runs;
     fit_.p_value = found.p_value;
     fit_.scatter = found.scatter;
-    fit_.judgement = judgement_of(found.test(), {std::nan(""), std::nan(""), "not asked"});
+    fit_.judgement = judgement_of(found.test(), {std::nan(""), std::nan(""), "not asked"}, found.left());
     fit_.fitted = setup_at(setup_, knobs_, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs_.size())),
                            options_.known);
     for (std::size_t k = 0; k < knobs_.size(); ++k)

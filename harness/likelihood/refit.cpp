@@ -261,6 +261,16 @@ std::vector<Validation> Refit::validation() const {
   return rows;
 }
 
+std::vector<Difference> differences_of(const std::vector<RunComparison>& runs) {
+  const auto of_all = [&](double RunComparison::*member) { return root_mean_square(runs, member); };
+  std::vector<Difference> list{{"box", of_all(&RunComparison::error_box), of_all(&RunComparison::floor_box)}};
+  if (const double floor = of_all(&RunComparison::floor_centre); floor > 0)
+    list.push_back({"grains' centre", of_all(&RunComparison::error_centre), floor});
+  for (const RunComparison& run : runs)
+    for (Difference& row : differences_of(run.validation)) list.push_back(std::move(row));
+  return list;
+}
+
 double Refit::error_box() const { return root_mean_square(runs, &RunComparison::error_box); }
 double Refit::error_centre() const { return root_mean_square(runs, &RunComparison::error_centre); }
 double Refit::floor_box() const { return root_mean_square(runs, &RunComparison::floor_box); }

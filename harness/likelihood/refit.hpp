@@ -33,6 +33,9 @@ struct RunComparison {
 /// Fills in errors and floors, rms over the features of each observable, from residual and spread.
 void set_errors(RunComparison& run, const FeaturePlan& plan);
 
+/// For the judgement: box and centre of all runs, then the rows of their validation.
+std::vector<Difference> differences_of(const std::vector<RunComparison>& runs);
+
 struct Refit {
   std::vector<Knob> knobs;
   Eigen::VectorXd least_known;  ///< a standard error along the direction in which the knobs are known least,
@@ -53,6 +56,7 @@ struct Refit {
   std::vector<Validation> validation() const;  ///< of every run
   /// As a test of the model.
   ModelTest test() const { return {p_value, scatter, ""}; }
+  std::vector<Difference> left() const { return differences_of(runs); }
   double promised_scatter = 1, promised_chi2 = 0;  ///< `scatter` and `judged_chi2` by the emulator, where
                                                    ///< simulations at the solution have judged
   /// chi2, and its sum over the lengths left out, in the covariances of RefitOptions::judged_by, so that

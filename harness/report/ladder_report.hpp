@@ -12,7 +12,9 @@ struct Rung {
   std::string effects;  ///< "plain", or those it has
   Refit fit;
   MomentumAudit momentum;
-  ModelJudgement judgement() const { return judgement_of(fit.test(), momentum.test_of(momentum.as_given)); }
+  ModelJudgement judgement() const {
+    return judgement_of(fit.test(), momentum.test_of(momentum.as_given), fit.left());
+  }
   bool holds() const { return judgement().holds(); }
 };
 

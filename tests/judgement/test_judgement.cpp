@@ -61,14 +61,48 @@ TEST(Judgement, NoNumberNeverHolds) {
   EXPECT_EQ(judgement_of({nan, nan, ""}, {1e-5, nan, ""}).standing, Standing::fails);
 }
 
+const ModelTest in_order{0.9, 1, ""};
+
+TEST(Judgement, WhatIsLeftIsAtMostSomeTimesNoiseAndSpread) {
+  const auto with = [](double error) {
+    return judgement_of(in_order, in_order, {{"box", error, 1e-3, nan, 0.1, "mostly a swing of 2 Hz"}});
+  };
+  EXPECT_EQ(with(0.99e-3 * most_left).standing, Standing::holds);
+  const ModelJudgement fails = with(1.01e-3 * most_left);
+  EXPECT_EQ(fails.standing, Standing::fails);
+  EXPECT_EQ(fails.reason,
+            "rejected: 2.5 mm (2.5 % of the amplitude), mostly a swing of 2 Hz, of the box remain, 2.5 times "
+            "noise and spread");
+  EXPECT_EQ(with(INFINITY).standing, Standing::fails);
+  EXPECT_EQ(with(nan).standing, Standing::holds);  // not asked about
+}
+
+TEST(Judgement, AnErrorThatRoseNeverHolds) {
+  const auto with = [](double given, double error) {
+    return judgement_of(in_order, in_order, {{"box", error, 1e-3, given}}).standing;
+  };
+  EXPECT_EQ(with(0.9e-3, 1.3e-3), Standing::holds);  // by less than noise and spread
+  EXPECT_EQ(with(2.2e-3, 2.4e-3), Standing::holds);
+  EXPECT_EQ(with(0.9e-3, 1.4e-3), Standing::fails);
+  EXPECT_EQ(with(3e-3, 1e-3), Standing::holds);
+}
+
+TEST(Judgement, AndTheTableOfValidationNeverSayDifferentThings) {
+  for (const double error : {0.5e-3, 1.5e-3, 2.4e-3, 2.6e-3, 40e-3}) {
+    const std::vector<Validation> rows{{"a", "box", error, 0.6e-3, 0.8e-3, 0}};
+    const bool holds = judgement_of(in_order, in_order, differences_of(rows)).holds();
+    EXPECT_EQ(validation_text(rows).find("about") == std::string::npos, holds) << error;
+  }
+}
+
 TEST(Validation, AddsItsUncertaintiesInSquares) {
-  const Validation row{"a", "box", 5e-3, 2e-3, 1e-3, 2e-3};
-  EXPECT_DOUBLE_EQ(row.uncertainty(), 3e-3);
-  EXPECT_DOUBLE_EQ(row.model_error(), 4e-3);
+  const Validation row{"a", "box", 13e-3, 3e-3, 0, 4e-3};
+  EXPECT_DOUBLE_EQ(row.uncertainty(), 5e-3);
+  EXPECT_DOUBLE_EQ(row.model_error(), 12e-3);
   const Validation within{"a", "box", 2.9e-3, 2e-3, 1e-3, 2e-3};
   EXPECT_EQ(within.model_error(), 0);
   const std::string text = validation_text({row, within});
-  EXPECT_NE(text.find("about 4.000"), std::string::npos) << text;
+  EXPECT_NE(text.find("about 12.000"), std::string::npos) << text;
   EXPECT_NE(text.find("within u_val"), std::string::npos) << text;
   EXPECT_EQ(validation_json({row}).at(0).at("u_val_mm").get<double>(), row.uncertainty() * 1e3);
   EXPECT_EQ(validation_text({}), "");
