@@ -23,6 +23,16 @@ std::pair<std::string, std::string> key_and_run(const std::string& name) {
 
 }  // namespace
 
+namespace {
+
+/// A linear estimate may ask for more than there can be; the setup's keys have bounds.
+double within_bounds(double value, const std::string& key, std::span<const EffectRecord* const> known) {
+  const Parameter* parameter = find_parameter(known, key);
+  return parameter == nullptr ? value : std::clamp(value, parameter->low, parameter->high);
+}
+
+}  // namespace
+
 Measurement read_with(const Measurement& measurement, const NuisanceValues& values,
                       std::span<const EffectRecord* const> known) {
   Measurement read = measurement;
@@ -30,7 +40,8 @@ Measurement read_with(const Measurement& measurement, const NuisanceValues& valu
     const auto [key, of_run] = key_and_run(name);
     for (Measurement::Run& run : read.runs)
       if (of_run.empty() || run.recorded.name == of_run)
-        set_number(run.setup, key, get_number(run.setup, key, known) + value, known);
+        set_number(run.setup, key, within_bounds(get_number(run.setup, key, known) + value, key, known),
+                   known);
   }
   return read;
 }

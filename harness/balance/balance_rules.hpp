@@ -12,6 +12,14 @@ constexpr double expected_effects = 0.5;
 /// to a tenth of the error of a frame and keep its bias (scale of a half-Cauchy prior).
 constexpr double usual_wander = 0.1;
 
+/// Most that a track can wander by, in standard deviations of a frame's white noise: a tracker that reads a
+/// mark to a tenth of a pixel has a bias of a third of a pixel at most (half a pixel would be the next one).
+constexpr double most_wander_of_noise = 3;
+
+/// ... or as a share of the largest excursion, whichever is more: half of what a usual lens does to it
+/// (camera_lens, 0.5 %, is a term of its own). What is more is no tracker's, and physics may not hide in it.
+constexpr double most_wander_of_swing = 0.0025;
+
 /// The noise of a frame is known to 2 % of its variance: it is estimated from the frames.
 constexpr double error_of_noise_variance = 0.02;
 

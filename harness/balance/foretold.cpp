@@ -37,4 +37,24 @@ double chi2_foretold(const SelectionProblem& p, const std::vector<ChosenTerm>& c
   return chi2;
 }
 
+bool imitates_known(const SelectionProblem& p, const std::vector<ChosenTerm>& chosen) {
+  std::vector<ChosenTerm> others;
+  for (const ChosenTerm& c : chosen)
+    if (c.term < 0 || p.is_known(c.term)) others.push_back(c);
+  if (others.size() == chosen.size()) return false;
+  const Eigen::MatrixXd columns = columns_of(p, others);
+  const Regression without = regress(p.problem.impulse(), columns);
+  const double of_formulas = without.chi2 - regress(p.problem.impulse(), columns_of(p, chosen)).chi2;
+  const Eigen::MatrixXd basis = orthonormal_basis(columns);
+  double best = 0;
+  for (int known = 1; p.is_known(known); ++known) {
+    const MomentumTerm& term = p.known[static_cast<std::size_t>(known)];
+    if (term.kind != TermKind::physics) continue;
+    const PreparedTerm& prepared = p.terms[static_cast<std::size_t>(known)];
+    const Gain gain = gain_of(without.residual, basis, p.problem.column(prepared), prepared.never_negative);
+    if (term.possible(gain.strength)) best = std::max(best, gain.gain);
+  }
+  return best >= imitated * of_formulas;
+}
+
 }  // namespace shakedown

@@ -294,6 +294,13 @@ BalanceFit without_effects(const SelectionProblem& p, bool free_frequency) {
 
 }  // namespace
 
+void by_what_they_explain(std::vector<FoundTerm>& terms) {
+  std::stable_sort(terms.begin(), terms.end(), [](const FoundTerm& a, const FoundTerm& b) {
+    const bool a_sine = a.frequency > 0, b_sine = b.frequency > 0;
+    return a_sine != b_sine ? b_sine : a.gain > b.gain;
+  });
+}
+
 MomentumAudit linear_audit(const Measurement& measurement, std::span<const EffectRecord* const> known,
                            const MomentumOptions& options, const NuisanceValues& already) {
   MomentumAudit audit;
@@ -375,6 +382,7 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
     // A formula that leaves the balance rejected or foretells nothing is no better than known forces that do.
     audit.unlisted = !formulas.formulas.empty() && formulas.cost < cost_of_known - price_of_the_unlisted &&
                      balance_of(formulas.selection.fit).p_value > balance_rejected &&
+                     !imitates_known(formulas.problem, formulas.selection.chosen) &&
                      chi2_foretold(formulas.problem, formulas.selection.chosen) <
                          chi2_foretold(formulas.problem, sets.front().chosen) - as_good;
     if (audit.unlisted || !(balance_of(selection.fit).p_value >= options.accept_p))
@@ -387,12 +395,15 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
     }
   }
   describe(p, selection, sets, known, audit);
+  audit.white_noise = balance.noise();
+  audit.most_wander = most_wander(balance.runs(), balance.noise());
   if (options.formulas && !audit.unlisted && !audit.terms.empty()) {
     const std::vector<std::vector<std::string>> alike = formulas_like_known_terms(p, selection);
     for (std::size_t i = 0; i < audit.terms.size(); ++i)
       audit.terms[i].look_alikes.insert(audit.terms[i].look_alikes.end(), alike[i + 1].begin(),
                                         alike[i + 1].end());
   }
+  by_what_they_explain(audit.terms);
   audit.unexplained = !(audit.final_fit.p_value > balance_rejected);
   return audit;
 }

@@ -10,4 +10,7 @@ namespace shakedown {
 MomentumAudit linear_audit(const Measurement& measurement, std::span<const EffectRecord* const> known,
                            const MomentumOptions& options, const NuisanceValues& already);
 
+/// What explains most stands first; sines behind all others, for what is left of any law looks like one.
+void by_what_they_explain(std::vector<FoundTerm>& terms);
+
 }  // namespace shakedown

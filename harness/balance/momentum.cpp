@@ -19,7 +19,8 @@ NuisanceValues values_of(const MomentumAudit& audit, double frequency) {
   NuisanceValues values;
   if (std::abs(audit.frequency / frequency - 1) > far_off)
     values["spring.frequency"] = audit.frequency - frequency;
-  for (const NuisanceFound& nuisance : audit.nuisances) values[nuisance.name] = nuisance.value;
+  for (const NuisanceFound& nuisance : audit.nuisances)
+    if (std::isfinite(nuisance.value)) values[nuisance.name] = nuisance.value;
   return values;
 }
 

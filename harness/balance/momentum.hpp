@@ -3,11 +3,14 @@
 // with no simulation, because whatever happens in the contacts, M x_box'' + N m x_com'' = -k x_box + F.
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "balance_rules.hpp"
 #include "force_shapes.hpp"
 #include "judgement.hpp"
 #include "measurement.hpp"
@@ -110,7 +113,13 @@ struct MomentumAudit {
   std::vector<BalanceAlternative> alternatives;  ///< most probable first
   std::vector<WeighedSet> sets;                  ///< most probable first, those that hold 99 % together
   std::vector<NuisanceFound> nuisances;
-  Wander wander;             ///< of the track, as the balance shows it
+  Wander wander;           ///< of the track, as the balance shows it
+  double white_noise = 0;  ///< m, of a frame, the largest of all runs
+  double most_wander = 0;  ///< m, that a track can wander by: what is more is physics that nothing explains
+  /// m, noise of a frame as a model may leave it.
+  double noise() const { return std::hypot(white_noise, std::min(wander.deviation, most_wander)); }
+  /// The track wanders by more than three times the white noise of its frames: that is itself an answer.
+  bool wanders_much() const { return wander.deviation > most_wander_of_noise * white_noise; }
   double rest = 0;           ///< m, rms of what remains, as a displacement of the spring
   double rest_as_given = 0;  ///< m, the same of the setup as it is
   double explained = 0;      ///< share of chi2 as given that the final fit takes away

@@ -10,6 +10,13 @@
 
 namespace shakedown {
 
+double most_wander(const std::vector<MomentumRun>& runs, double white) {
+  double swing = 0;
+  for (const MomentumRun& run : runs)
+    if (run.x_box.size() > 0) swing = std::max(swing, (run.x_box.maxCoeff() - run.x_box.minCoeff()) / 2);
+  return std::max(most_wander_of_noise * white, most_wander_of_swing * swing);
+}
+
 void choose_wander(SelectionProblem& p, double white) {
   const auto evidence = [&](const Wander& wander) {
     p.problem.set_wander(wander);

@@ -4,8 +4,11 @@
 
 namespace shakedown {
 
+/// m, that a track can wander by at most (balance_rules.hpp); `white`: standard deviation of a frame's noise.
+double most_wander(const std::vector<MomentumRun>& runs, double white);
+
 /// The wander of the track that makes the data most probable, whatever acts on the box: by a grid in strength
-/// (a factor of two) and memory.
+/// (a factor of two) and memory. It may come out larger than most_wander: then it is no tracker's.
 /// `white`: m, standard deviation of a frame's noise.
 void choose_wander(SelectionProblem& p, double white);
 

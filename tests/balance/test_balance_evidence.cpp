@@ -8,9 +8,14 @@
 #include "balance_problem.hpp"
 #include "dahl_friction.hpp"
 #include "effects.hpp"
+#include "force_map.hpp"
+#include "force_shapes.hpp"
+#include "foretold.hpp"
+#include "linear_audit.hpp"
 #include "momentum.hpp"
 #include "pushed_box.hpp"
 #include "random.hpp"
+#include "wander_choice.hpp"
 
 namespace shakedown {
 namespace {
@@ -199,6 +204,65 @@ TEST(BalanceEvidence, ABoxAGramTooHeavyIsNoForce) {
   PushedBox what;
   what.extra_mass = 1e-3;
   expect_nothing(pushed_box(what, 6));
+}
+
+TEST(BalanceEvidence, AWanderIsBoundedByNoiseOrByTheSwing) {
+  MomentumRun run;
+  run.x_box = Eigen::ArrayXd::LinSpaced(11, -0.1, 0.1);
+  EXPECT_DOUBLE_EQ(most_wander({run}, 1e-3), most_wander_of_noise * 1e-3);
+  EXPECT_DOUBLE_EQ(most_wander({run}, 1e-5), most_wander_of_swing * 0.1);
+  EXPECT_DOUBLE_EQ(most_wander({MomentumRun{}}, 1e-3), most_wander_of_noise * 1e-3);
+}
+
+/// In the regression of this box, with the formula among its terms.
+bool formula_imitates(std::string_view formula, const ShapeValues& values, const PushedBox& what) {
+  const Measurement measurement = measured(pushed_box(what, 5));
+  const BalanceProblem balance(measurement, all_effects());
+  const double window = 0.6 / balance.frequency();
+  SelectionProblem p = balance.windows_of(window, window / 4);
+  p.problem.set_covariance({});
+  for (const ForceShape& shape : force_shapes())
+    if (shape.formula == formula) {
+      PreparedTerm& term = p.terms.emplace_back();
+      term.shape = &shape, term.shape_values = values;
+      for (const MomentumRun& run : *p.runs) term.samples.push_back(shape_samples(shape, values, run));
+    }
+  return imitates_known(p, {{0, 0}, {static_cast<int>(p.terms.size()) - 1, 0}});
+}
+
+// A power of the speed that linear damping imitates to a thousandth is linear damping, however sharp the
+// data.
+TEST(BalanceEvidence, AFormulaNeverBeatsTheKnownEffectThatItImitates) {
+  PushedBox what;
+  what.grains = false, what.box_noise = 2e-5;
+  what.force = [](double, double v, double) {
+    return -0.02 * std::copysign(std::pow(std::abs(v), 0.974), v);
+  };
+  EXPECT_TRUE(formula_imitates("-c*sign(v)*abs(v)^p", {0.974}, what));
+  what.force = [](double x, double v, double) { return -20 * v * x * x; };
+  EXPECT_FALSE(formula_imitates("-c*v*x^2", {}, what));
+}
+
+// A bump in space is like nothing in the list.
+TEST(BalanceEvidence, AFormulaThatImitatesNothingIsOffered) {
+  const auto bump = [](double x, double v, double) {
+    return -0.4 * v * std::exp(-std::pow((x - 0.03) / 0.01, 2));
+  };
+  const MomentumAudit audit =
+      audit_momentum(measured(pushed_box({.force = bump, .box_noise = 5e-5}, 5)), all_effects());
+  EXPECT_TRUE(audit.unlisted);
+}
+
+TEST(BalanceEvidence, SinesStandBehindWhatDampsTheBox) {
+  FoundTerm sine, weak, strong;
+  sine.effect = "oscillating_acceleration", weak.effect = "spring_cubic",
+  strong.effect = "blade_viscous_damping";
+  sine.frequency = 2.4, sine.gain = 900, weak.gain = 10, strong.gain = 50;
+  std::vector<FoundTerm> terms{sine, weak, strong};
+  by_what_they_explain(terms);
+  EXPECT_EQ(terms[0].effect, "blade_viscous_damping");
+  EXPECT_EQ(terms[1].effect, "spring_cubic");
+  EXPECT_EQ(terms[2].effect, "oscillating_acceleration");
 }
 
 TEST(BalanceEvidence, LostFramesMakeNoNaN) {
