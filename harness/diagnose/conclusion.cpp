@@ -54,6 +54,11 @@ void set_parameters(const DiagnosisState& final, const DiagnosisTools& tools, Di
   for (std::size_t k = 0; k < final.fit.values.size(); ++k) {
     if (final.fit.knobs[k].exact) continue;
     FittedValue value = final.fit.values[k];
+    if (value.at_bound) {
+      d.notes.push_back(value.key + " would go beyond what is possible (" + write_number(value.value) +
+                        "): the measurements do not tell it");
+      continue;
+    }
     const bool found = std::any_of(final.found.begin(), final.found.end(),
                                    [&](const Knob& knob) { return knob.key == value.key; });
     if (!take_from_balance(d.momentum, value) && found)
@@ -158,10 +163,9 @@ void set_formula(Diagnosis& d) {
 }
 
 void complete_ranking(Diagnosis& d) {
-  if (!d.momentum.unlisted)
-    for (const FoundTerm& term : d.momentum.terms)
-      d.ranking.push_back(
-          {term.effect, term.gain, std::nan(""), std::nan(""), term.value, term.look_alikes, true, true});
+  for (const FoundTerm& term : d.momentum.terms)
+    d.ranking.push_back(
+        {term.effect, term.gain, std::nan(""), std::nan(""), term.value, term.look_alikes, true, true});
   const auto place = [&](const RankedEffect& ranked) {
     return std::find(d.missing.begin(), d.missing.end(), ranked.effect) - d.missing.begin();
   };
@@ -174,7 +178,7 @@ void settle_hypotheses(Diagnosis& d, const Findings& findings) {
   // Where a formula closes the balance and no set of known strengths does, odds are those of the two fits.
   const double something_else = findings.unlisted ? 1 / (1 + std::exp(-d.momentum.unlisted_log_odds))
                                                   : probability_of_something_else(worst_p_value(findings));
-  d.hypotheses = with_something_else(std::move(d.hypotheses), something_else);
+  d.hypotheses = with_something_else(std::move(d.hypotheses), something_else, d.missing);
   constexpr double shown = 0.99;
   double sum = 0;
   std::size_t count = 0;
@@ -199,7 +203,11 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   findings.features = final.fit.test();
   findings.far_p_value = final.fit.far_p_value;
   findings.balance = d.momentum.test_of(d.momentum.final_fit);
-  d.judgement = judgement_of(findings.features, findings.balance);
+  findings.left = final.fit.left();
+  for (Difference& one : findings.left) one.amplitude = std::abs(user.release.displacement);
+  if (refitted) findings.left.front().as_given = given.fit.error_box();
+  d.left = findings.left;
+  d.judgement = judgement_of(findings.features, findings.balance, findings.left);
   d.validation = final.fit.validation();
   d.verdict = verdict_of(findings);
   if (d.verdict == Verdict::adequate || !refitted) {
@@ -207,7 +215,8 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
     note_failures(given.fit, d);
   }
   if (d.verdict == Verdict::unknown) {
-    d.missing.clear();
+    // Known effects found beside a formula stay named.
+    if (!d.momentum.unlisted) d.missing.clear();
     set_formula(d);
   }
   if (refitted) set_parameters(final, tools, d);

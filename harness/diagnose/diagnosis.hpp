@@ -59,6 +59,7 @@ struct Diagnosis {
   std::vector<Hypothesis> hypotheses;  ///< most probable first, those that hold 99 % together
   std::vector<Hypothesis> answers;     ///< the fewest of them that hold 95 %
   ModelJudgement judgement;            ///< of the final model
+  std::vector<Difference> left;        ///< by the final model, all runs together first
   std::vector<Validation> validation;  ///< of the final model, each run
   double explained = 0;                ///< share of chi2 as given that the final model takes away
   std::vector<NuisanceFound> camera;   ///< what the data say of camera and weights

@@ -29,6 +29,17 @@ Json sets_json(const std::vector<Hypothesis>& hypotheses) {
   return list;
 }
 
+Json left_json(const std::vector<Difference>& left) {
+  Json list = Json::array();
+  for (const Difference& one : left)
+    list.push_back({{"of", one.of},
+                    {"error_mm", number(one.error * 1e3)},
+                    {"floor_mm", number(one.floor * 1e3)},
+                    {"share_of_amplitude", number(one.error / one.amplitude)},
+                    {"looks_like", one.looks_like}});
+  return list;
+}
+
 Json camera_json(const std::vector<NuisanceFound>& camera) {
   Json list = Json::array();
   for (const NuisanceFound& n : camera)
@@ -108,6 +119,7 @@ std::string diagnosis_json(const Diagnosis& d) {
            {"answer_set", sets_json(d.answers)},
            {"judgement",
             {{"standing", std::string(name_of(d.judgement.standing))}, {"reason", d.judgement.reason}}},
+           {"left", left_json(d.left)},
            {"validation", validation_json(d.validation)},
            {"explained", number(d.explained)},
            {"camera", camera_json(d.camera)},

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "conclusion.hpp"
+#include "errors.hpp"
 #include "experiment_file.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
@@ -23,12 +24,12 @@ namespace shakedown {
 
 namespace {
 
-LadderStep step_of(const std::string& name, const SwingError& swing, const SwingError& floor,
+LadderStep step_of(const std::string& name, const SwingError& swing, double floor,
                    const BalanceFit& balance) {
   LadderStep step;
   step.step = name;
   step.error_box = swing.error;
-  step.floor_box = floor.error;
+  step.floor_box = floor;
   step.p_value = balance.p_value;
   step.scatter = balance.chi2_per_degree();
   step.held_out_error_box = std::nan("");
@@ -70,8 +71,12 @@ double input_uncertainty(const SwingFrames& frames, const FirstTurn& turn, const
     const double end = p.high - p.value > p.value - p.low ? p.high : p.low;
     Setup moved = setup;
     set_number(moved, p.name, end, known);
-    const Eigen::VectorXd change = residual_of(frames, turn, moved, engine) - here;
-    squares += change.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, change.size()));
+    try {
+      const Eigen::VectorXd change = residual_of(frames, turn, moved, engine) - here;
+      squares += change.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, change.size()));
+    } catch (const PhysicsError&) {
+      return std::nan("");  // the box runs away there
+    }
   }
   return std::sqrt(squares) / of_95_percent;
 }
@@ -83,7 +88,7 @@ std::vector<Validation> validation_of(const Measurement& final, const Engine& en
   for (const Measurement::Run& run : final.runs) {
     const SwingFrames frames = frames_of(run);
     if (frames.time.size() < 8 || !(run.setup.spring.frequency > 0)) continue;
-    const auto [turn, origin, left] = fit_of(run, engine);
+    const auto [turn, origin, time, left] = fit_of(run, engine);
     // A line between two samples of the model misses by an eighth of (2 pi f / rate)^2 of the amplitude.
     const double between =
         std::pow(2 * std::numbers::pi * run.setup.spring.frequency / swing_model_rate, 2) / 8;
@@ -91,7 +96,8 @@ std::vector<Validation> validation_of(const Measurement& final, const Engine& en
         {run.recorded.name, "box",
          std::sqrt(left.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, left.size()))),
          between * std::abs(turn.place), input_uncertainty(frames, turn, run.setup, engine, known, d),
-         std::hypot(run.audit.box.standard_deviation, d.momentum.wander.deviation)});
+         std::hypot(run.audit.box.standard_deviation,
+                    std::min(d.momentum.wander.deviation, d.momentum.most_wander))});
   }
   return rows;
 }
@@ -100,20 +106,69 @@ std::vector<Validation> validation_of(const Measurement& final, const Engine& en
 
 SwingError swing_error(const Measurement& measurement, const Engine& engine, bool as_stated) {
   SwingError all;
+  double worst = 0;
   for (const Measurement::Run& run : measurement.runs) {
     const SwingFrames frames = frames_of(run);
     if (frames.time.size() < 8 || !(run.setup.spring.frequency > 0)) continue;
-    const Eigen::VectorXd residual =
-        as_stated
-            ? residual_of(frames, {frames.time.front(), run.setup.release.displacement}, run.setup, engine)
-            : fit_of(run, engine).residual;
-    all.frames += static_cast<double>(residual.size());
-    all.error += residual.squaredNorm();
-    all.chi2 += residual.squaredNorm() / std::pow(run.audit.box.standard_deviation, 2);
+    SwingFit fit;
+    try {
+      fit = as_stated ? SwingFit{{},
+                                 0,
+                                 frames.time,
+                                 residual_of(frames, {frames.time.front(), run.setup.release.displacement},
+                                             run.setup, engine)}
+                      : fit_of(run, engine);
+    } catch (const PhysicsError& gave_up) {
+      all.error = all.chi2 = std::numeric_limits<double>::infinity();
+      all.why_not = gave_up.what();
+      return all;
+    }
+    all.frames += static_cast<double>(fit.residual.size());
+    all.error += fit.residual.squaredNorm();
+    all.chi2 += fit.residual.squaredNorm() / std::pow(run.audit.box.standard_deviation, 2);
+    all.amplitude = std::max(all.amplitude, half_span_of(frames));
+    if (fit.residual.squaredNorm() > worst)
+      worst = fit.residual.squaredNorm(), all.looks_like = words_of_swing(fit.time, fit.residual);
   }
   all.error = std::sqrt(all.error / std::max(1.0, all.frames));
   return all;
 }
+
+namespace {
+
+/// How much of chi2 a frame `final` takes away.
+double share_explained(const SwingError& given, const SwingError& final) {
+  const double share = 1 - final.chi2 / given.chi2 * given.frames / std::max(1.0, final.frames);
+  return std::isfinite(share) ? share : 0;
+}
+
+/// The verdict of an empty box, by the same rule as all others.
+void judge(const Measurement& final_model, const Engine& engine, std::span<const EffectRecord* const> known,
+           const SwingError& given_in_phase, const SwingError& final, double floor, Diagnosis& d) {
+  const MomentumAudit& balance = d.momentum;
+  Findings findings;
+  findings.features = {std::nan(""), std::nan(""), "an empty box has no ensembles"};
+  findings.balance = balance.test_of(balance.final_fit);
+  findings.unlisted = balance.unlisted;
+  findings.anything_missing = !d.missing.empty();
+  findings.refitted = !(balance.as_given.p_value > rules::holds);
+  findings.camera_stands_out = !standing_out(d.camera).empty();
+  findings.explained = std::min(d.explained, share_explained(given_in_phase, final));
+  if (final.why_not.empty()) d.validation = validation_of(final_model, engine, known, d);
+  findings.left = {{"box", final.error, floor, given_in_phase.error, final.amplitude, final.looks_like}};
+  for (Difference& row : differences_of(d.validation)) findings.left.push_back(std::move(row));
+  d.left = findings.left;
+  d.judgement = judgement_of(findings.features, findings.balance, findings.left);
+  d.verdict = verdict_of(findings);
+  if (d.verdict == Verdict::adequate) d.parameters.clear();
+  if (d.verdict == Verdict::unknown) {
+    if (!balance.unlisted) d.missing.clear();
+    set_formula(d);
+  }
+  settle_hypotheses(d, findings);
+}
+
+}  // namespace
 
 void conclude_empty_box(const Setup& user, const Measurement& measurement, const Engine& engine,
                         std::span<const EffectRecord* const> known, Diagnosis& d) {
@@ -125,37 +180,20 @@ void conclude_empty_box(const Setup& user, const Measurement& measurement, const
     return;
   }
   for (const WeighedSet& set : balance.sets) d.hypotheses.push_back({set.effects, 0, set.probability});
-  Findings findings;
-  findings.unlisted = balance.unlisted, findings.balance = balance.test_of(balance.final_fit);
-  settle_hypotheses(d, findings);
   d.camera = balance.nuisances;
   amend(user, known, d);
-  SwingError noise;
-  for (const Measurement::Run& run : measurement.runs)
-    noise.error = std::max(noise.error, run.audit.box.standard_deviation);
-  noise.error = std::hypot(noise.error, balance.wander.deviation);
+  const double floor = balance.noise();
+  const Measurement final_model = with_setup(measurement, d.amended, known);
   const SwingError given = swing_error(measurement, engine, true),
-                   final = swing_error(with_setup(measurement, d.amended, known), engine, false);
-  d.explained = given.chi2 > 0 ? 1 - final.chi2 / given.chi2 * given.frames / std::max(1.0, final.frames) : 0;
+                   final = swing_error(final_model, engine, false);
+  d.explained = share_explained(given, final);
   std::string step = "refitted";
   for (const std::string& effect : d.missing) step += " + " + effect;
   if (balance.unlisted) step += " + the force of the formula";
-  d.ladder.push_back(step_of("as given", given, noise, balance.as_given));
-  d.ladder.push_back(step_of(step, final, noise, balance.final_fit));
-  const ModelTest no_features{std::nan(""), std::nan(""), "an empty box has no ensembles"};
-  d.validation = validation_of(with_setup(measurement, d.amended, known), engine, known, d);
-  d.judgement = judgement_of(no_features, balance.test_of(balance.final_fit));
-  // What takes nearly all of the misfit away is found, though small remains may have no name.
-  constexpr double nearly_all = 0.9;
-  const bool named = !d.missing.empty() && (!balance.unexplained || d.explained > nearly_all);
-  const bool holds = balance.as_given.p_value > rules::holds && d.missing.empty();
-  d.verdict = balance.unlisted || (balance.unexplained && !named) ? Verdict::unknown
-              : named                                             ? Verdict::missing
-              : holds                                             ? Verdict::adequate
-              : standing_out(d.camera).empty()                    ? Verdict::refit
-                                                                  : Verdict::measurement;
-  if (d.verdict == Verdict::adequate) d.parameters.clear(), d.amended = user;
-  if (d.verdict == Verdict::unknown) d.missing.clear(), set_formula(d);
+  d.ladder.push_back(step_of("as given", given, floor, balance.as_given));
+  d.ladder.push_back(step_of(step, final, floor, balance.final_fit));
+  judge(final_model, engine, known, swing_error(measurement, engine, false), final, floor, d);
+  if (d.verdict == Verdict::adequate) d.amended = user;
   complete_ranking(d);
   d.sentence = sentence_of(d, known);
 }

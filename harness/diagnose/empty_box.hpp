@@ -8,14 +8,17 @@ namespace shakedown {
 
 /// How far the model of each run's setup lies from what was recorded.
 struct SwingError {
-  double error = 0;   ///< m, rms over the frames of all runs
-  double chi2 = 0;    ///< by the camera's noise
-  double frames = 0;  ///< compared
+  double error = 0;        ///< m, rms over the frames of all runs
+  double chi2 = 0;         ///< by the camera's noise
+  double frames = 0;       ///< compared
+  double amplitude = 0;    ///< m, largest of all runs
+  std::string looks_like;  ///< what the run with the largest remains leaves; empty: nothing that has a name
+  std::string why_not;     ///< why the model cannot be simulated; empty: it can, else the error is infinite
 };
 
-/// `as_stated`: released from the setup's displacement at the first frame. Otherwise each run may start
-/// anywhere in the motion: from its first turning point, whose time and place (and the origin, where that is
-/// unknown) are fitted, and what comes before is left out.
+/// `as_stated`: released from the setup's displacement at the first frame, whatever the recording says.
+/// Otherwise each run may start anywhere in the motion: from its first turning point, whose time and place
+/// (and the origin, where that is unknown) are fitted, and what comes before is left out.
 SwingError swing_error(const Measurement& measurement, const Engine& engine, bool as_stated);
 
 /// Fills in all of the diagnosis that follows from its momentum balance.

@@ -63,10 +63,12 @@ double probability_of_something_else(double p_value) {
   return odds / (1 + odds);
 }
 
-std::vector<Hypothesis> with_something_else(std::vector<Hypothesis> table, double probability) {
+std::vector<Hypothesis> with_something_else(std::vector<Hypothesis> table, double probability,
+                                            std::vector<std::string> beside) {
   for (Hypothesis& h : table) h.probability *= 1 - probability;
+  beside.emplace_back(unlisted_effect);
   table.push_back(
-      {{unlisted_effect}, std::log(probability / std::max(1 - probability, 1e-300)), probability});
+      {std::move(beside), std::log(probability / std::max(1 - probability, 1e-300)), probability});
   std::stable_sort(table.begin(), table.end(),
                    [](const Hypothesis& a, const Hypothesis& b) { return a.probability > b.probability; });
   return table;
@@ -156,6 +158,19 @@ std::vector<std::string> ties_of(const std::vector<Hypothesis>& set) {
     for (const std::string& effect : h.effects)
       if (!in(set.front().effects, effect) && !in(ties, effect)) ties.push_back(effect);
   return ties;
+}
+
+TieKind kind_of(const std::vector<std::string>& ties, const std::vector<std::string>& found,
+                const std::vector<Hypothesis>& set) {
+  TieKind kind;
+  for (const Hypothesis& h : set) {
+    const auto has = [&](const std::string& effect) {
+      return std::find(h.effects.begin(), h.effects.end(), effect) != h.effects.end();
+    };
+    if (std::none_of(ties.begin(), ties.end(), has)) continue;
+    (std::all_of(found.begin(), found.end(), has) ? kind.beside : kind.instead) = true;
+  }
+  return kind;
 }
 
 }  // namespace shakedown

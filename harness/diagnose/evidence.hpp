@@ -51,8 +51,10 @@ constexpr const char* unlisted_effect = "unknown";
 /// 2001, Am. Stat. 55: -e p ln p). A p-value that is no number leaves the prior.
 double probability_of_something_else(double p_value);
 
-/// The table with so much probability given to something in no list, the rest kept in proportion.
-std::vector<Hypothesis> with_something_else(std::vector<Hypothesis> table, double probability);
+/// The table with so much probability given to something in no list, the rest kept in proportion; `beside`:
+/// effects that stay missing together with it.
+std::vector<Hypothesis> with_something_else(std::vector<Hypothesis> table, double probability,
+                                            std::vector<std::string> beside = {});
 
 /// The first hypotheses that together hold rules::answer_set; `table` is weighed.
 std::vector<Hypothesis> answer_set(const std::vector<Hypothesis>& table);
@@ -69,7 +71,15 @@ std::vector<Hypothesis> taken_back(const std::vector<Hypothesis>& table, const s
 /// Probability that anything is missing; `table` is weighed.
 double probability_of_something(const std::vector<Hypothesis>& table);
 
-/// Effects that stand in some hypothesis of the set and not in the first: it may be they instead.
+/// Effects that stand in some hypothesis of the set and not in the first: it may be they besides or instead.
 std::vector<std::string> ties_of(const std::vector<Hypothesis>& set);
+
+/// In which ways the hypotheses with one of these effects have what is `found`.
+struct TieKind {
+  bool beside = false;   ///< all of it
+  bool instead = false;  ///< a part of it at most
+};
+TieKind kind_of(const std::vector<std::string>& ties, const std::vector<std::string>& found,
+                const std::vector<Hypothesis>& set);
 
 }  // namespace shakedown

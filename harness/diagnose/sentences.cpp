@@ -41,30 +41,29 @@ std::string list_of(const std::vector<std::string>& names) {
   return words;
 }
 
-/// The fall of the error, of the box or, where that shows more (a camera's bias), of the grains' centre.
+/// What becomes of the error, of the box or, where that shows more (a camera's bias), of the grains' centre.
 std::string what_it_brings(const Diagnosis& d) {
   if (d.ladder.size() < 2) return "";
   const LadderStep &given = d.ladder.front(), &last = d.ladder.back();
   const double box = last.error_box / given.error_box, centre = last.error_centre / given.error_centre;
   constexpr double hardly = 0.9;
   const bool of_centre = box > hardly && centre < box;
-  std::string words = fmt::format(
-      " The rms error of the {} falls from {:.2f} mm (as given) to {:.2f} mm; noise and run-to-run spread "
-      "make "
+  const double before = 1e3 * (of_centre ? given.error_centre : given.error_box),
+               after = 1e3 * (of_centre ? last.error_centre : last.error_box);
+  if (!std::isfinite(before) || !std::isfinite(after)) return "";
+  return fmt::format(
+      " The rms error of the {} {} from {:.2f} mm (as given) to {:.2f} mm; noise and run-to-run spread make "
       "{:.2f} mm.",
-      of_centre ? "grains' centre" : "box", 1e3 * (of_centre ? given.error_centre : given.error_box),
-      1e3 * (of_centre ? last.error_centre : last.error_box),
+      of_centre ? "grains' centre" : "box", after <= before ? "falls" : "rises", before, after,
       1e3 * (of_centre ? last.floor_centre : last.floor_box));
-  return words;
 }
 
+/// What a model that does not hold leaves.
 std::string what_remains(const Diagnosis& d) {
-  const LadderStep& last = d.ladder.back();
-  if (last.p_value > rules::holds || last.scatter < rules::codes_differ) return "";
+  if (d.judgement.standing != Standing::fails) return "";
   return fmt::format(
-      " What was found explains {} of the misfit as given; the data still reject the model (p = {:.2g}): "
-      "{:.2g} mm of no known form remain.",
-      percent(std::max(0.0, d.explained)), last.p_value, 1e3 * last.error_box);
+      " What was found explains {} of the misfit as given; with it the model still does not hold ({}).",
+      percent(std::clamp(d.explained, 0.0, 1.0)), d.judgement.reason);
 }
 
 std::string ties_in_words(const Diagnosis& d) {
@@ -88,14 +87,33 @@ std::string ties_in_words(const Diagnosis& d) {
               : i + 1 < ties.size() ? ", "
                                     : " or ") +
              (ties[i] == unlisted_effect ? "something in no list" : ties[i]);
-  return words + (d.missing.empty() ? "." : " beside or instead of it.");
+  if (d.missing.empty()) return words + ".";
+  const TieKind kind = kind_of(ties, d.missing, d.answers);
+  const std::string_view it = d.missing.size() > 1 ? "them" : "it";
+  return words +
+         (kind.beside && kind.instead ? " beside or instead of "
+          : kind.beside               ? " beside "
+                                      : " instead of ") +
+         std::string(it) + ".";
 }
 
-std::string of_the_unknown(const Diagnosis& d) {
+bool is_empty(const Diagnosis& d) { return d.amended.grains.count == 0; }
+
+/// Known effects that were found beside a force of no list.
+std::string beside_the_unknown(const Diagnosis& d, std::span<const EffectRecord* const> known) {
+  std::vector<std::string> names;
+  for (const std::string& effect : d.missing) names.push_back(named(effect, d, known));
+  return names.empty() ? "" : ", beside " + list_of(names);
+}
+
+std::string of_the_unknown(const Diagnosis& d, std::span<const EffectRecord* const> known) {
   const MomentumAudit& balance = d.momentum;
   if (balance.unlisted)
-    return "Something that is not in the library acts on the box: no known force brings the momentum balance "
-           "into order.";
+    return "Something that is not in the library acts on the box" + beside_the_unknown(d, known) +
+           ": no known force alone brings the momentum balance into order.";
+  const bool much = p_value_of_left(d.left) < 1;
+  if (much && is_empty(d))
+    return "None of the known effects explains the motion: " + d.judgement.reason + ".";
   if (!balance.possible)
     return "None of the known effects explains the measurements; there is no momentum balance to tell a "
            "force "
@@ -120,6 +138,17 @@ std::string of_the_measurement(const Diagnosis& d, std::span<const EffectRecord*
          list_of(names) + ".";
 }
 
+std::string of_the_wander(const MomentumAudit& balance) {
+  if (!balance.possible || !balance.wanders_much()) return "";
+  return fmt::format(
+      " The track itself wanders by {:.2g} mm over {:.2g} s, {:.2g} times the white noise of its frames: "
+      "look at "
+      "how it was tracked.",
+      balance.wander.deviation * 1e3, balance.wander.time, balance.wander.deviation / balance.white_noise);
+}
+
+std::string first_words(const Diagnosis& d, std::span<const EffectRecord* const> known);
+
 }  // namespace
 
 std::string words_of(const NuisanceFound& nuisance, std::span<const EffectRecord* const> known) {
@@ -131,6 +160,12 @@ std::string words_of(const NuisanceFound& nuisance, std::span<const EffectRecord
 }
 
 std::string sentence_of(const Diagnosis& d, std::span<const EffectRecord* const> known) {
+  return first_words(d, known) + of_the_wander(d.momentum);
+}
+
+namespace {
+
+std::string first_words(const Diagnosis& d, std::span<const EffectRecord* const> known) {
   switch (d.verdict) {
     case Verdict::adequate:
       return fmt::format(
@@ -147,9 +182,11 @@ std::string sentence_of(const Diagnosis& d, std::span<const EffectRecord* const>
       return "Missing in the model: " + list_of(names) + "." + what_it_brings(d) + ties_in_words(d) +
              what_remains(d);
     }
-    case Verdict::unknown: return of_the_unknown(d);
+    case Verdict::unknown: return of_the_unknown(d, known);
   }
   return "";
 }
+
+}  // namespace
 
 }  // namespace shakedown

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "swing.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "experiment_file.hpp"
 #include "quantity.hpp"
@@ -51,6 +54,35 @@ SwingFrames frames_of(const Measurement::Run& run) {
 double middle_of(const SwingFrames& frames) {
   const auto [low, high] = std::minmax_element(frames.x.begin(), frames.x.end());
   return (*low + *high) / 2;
+}
+
+double half_span_of(const SwingFrames& frames) {
+  const auto [low, high] = std::minmax_element(frames.x.begin(), frames.x.end());
+  return (*high - *low) / 2;
+}
+
+std::string words_of_swing(const std::vector<double>& time, const Eigen::VectorXd& left) {
+  const auto n = static_cast<Eigen::Index>(std::min(time.size(), static_cast<std::size_t>(left.size())));
+  if (n < 16 || !left.allFinite()) return "";
+  const double length = time[static_cast<std::size_t>(n) - 1] - time.front(),
+               fastest = static_cast<double>(n) / length / 4;
+  const Eigen::VectorXd centred = left.head(n).array() - left.head(n).mean();
+  double most = 0, frequency = 0;
+  constexpr int most_steps = 2000;
+  for (int step = 1; step <= most_steps && step * 0.5 / length < fastest; ++step) {
+    const double f = step * 0.5 / length;
+    double sine = 0, cosine = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double phase = 2 * std::numbers::pi * f * time[static_cast<std::size_t>(i)];
+      sine += std::sin(phase) * centred[i], cosine += std::cos(phase) * centred[i];
+    }
+    if (const double power = sine * sine + cosine * cosine; power > most) most = power, frequency = f;
+  }
+  // A sine of amplitude a makes (n a / 2)^2 of power and n a^2 / 2 of the squares.
+  const double share = 2 * most / static_cast<double>(n) / std::max(centred.squaredNorm(), 1e-300);
+  if (!(share > 0.5)) return "";
+  return fmt::format("mostly a swing of {:.3g} Hz ({:.2g} mm)", frequency,
+                     1e3 * 2 * std::sqrt(most) / static_cast<double>(n));
 }
 
 /// The farthest place within the first period.
@@ -109,7 +141,7 @@ SwingFit fit_of(const SwingFrames& frames, FirstTurn turn, const Setup& setup, c
     if (!(here.squaredNorm() < best.squaredNorm() * (1 - 1e-6))) break;
     turn = next, best = here, best_origin = origin;
   }
-  return {turn, best_origin, best};
+  return {turn, best_origin, std::move(after.time), best};
 }
 
 SwingFit fit_of(const Measurement::Run& run, const Engine& engine) {

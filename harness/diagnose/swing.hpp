@@ -27,6 +27,12 @@ SwingFrames frames_of(const Measurement::Run& run);
 /// m, of all frames: half way between the farthest places.
 double middle_of(const SwingFrames& frames);
 
+/// m, half the way between the farthest places.
+double half_span_of(const SwingFrames& frames);
+
+/// "mostly a swing of 0.27 Hz (1.4 mm)" where one frequency makes half of what is left or more; else empty.
+std::string words_of_swing(const std::vector<double>& time, const Eigen::VectorXd& left);
+
 /// The farthest place within the first period, s.
 FirstTurn first_turn(const SwingFrames& frames, double middle, double period);
 
@@ -37,6 +43,7 @@ Eigen::VectorXd residual_of(const SwingFrames& frames, const FirstTurn& turn, Se
 struct SwingFit {
   FirstTurn turn;
   double origin = 0;         ///< m, of the recorded positions; 0 where it is known
+  std::vector<double> time;  ///< s, of the frames of `residual`
   Eigen::VectorXd residual;  ///< m, of the frames after the first guess of the turn
 };
 

@@ -4,14 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "distributions.hpp"
 #include "rules.hpp"
 
 namespace shakedown {
 
 Verdict verdict_of(const Findings& findings) {
-  const ModelJudgement judgement = judgement_of(findings.features, findings.balance);
+  const ModelJudgement judgement = judgement_of(findings.features, findings.balance, findings.left);
   if (findings.unlisted) return Verdict::unknown;
-  if (findings.anything_missing) return Verdict::missing;
+  // What takes nearly all of the misfit away is found, though the rest may have no name.
+  constexpr double nearly_all = 0.9;
+  if (findings.anything_missing && (judgement.standing != Standing::fails || findings.explained > nearly_all))
+    return Verdict::missing;
   if (judgement.standing == Standing::fails || !judgement.complete) return Verdict::unknown;
   if (findings.camera_stands_out) return Verdict::measurement;
   return findings.refitted ? Verdict::refit : Verdict::adequate;
@@ -21,7 +25,18 @@ double worst_p_value(const Findings& findings) {
   const double of_features = findings.features.misfit < rules::codes_differ
                                  ? std::max<double>(findings.features.p_value, rules::holds)
                                  : findings.far_p_value;
-  return findings.balance.why_not.empty() ? std::min(of_features, findings.balance.p_value) : of_features;
+  const double of_tests =
+      findings.balance.why_not.empty() ? std::min(of_features, findings.balance.p_value) : of_features;
+  return std::min(of_tests, p_value_of_left(findings.left));
+}
+
+double p_value_of_left(const std::vector<Difference>& left) {
+  double worst = 1;
+  for (const Difference& one : left)
+    if (times_floor(one) > most_left)
+      worst = std::min(
+          worst, chi_squared_tail(least_independent * std::pow(times_floor(one), 2), least_independent));
+  return worst;
 }
 
 bool explains(double p_value, double scatter, double scatter_before, double error, double floor) {

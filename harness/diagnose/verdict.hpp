@@ -8,18 +8,28 @@ namespace shakedown {
 
 /// What the verdict rests on.
 struct Findings {
-  bool unlisted = false;                            ///< a force of no list acts on the box
-  bool anything_missing = false;                    ///< effects were found
-  bool refitted = false;                            ///< parameters had to move
-  bool camera_stands_out = false;                   ///< something of the camera explains the recording
+  bool unlisted = false;           ///< a force of no list acts on the box
+  bool anything_missing = false;   ///< effects were found
+  bool refitted = false;           ///< parameters had to move
+  double explained = 1;            ///< share of the misfit as given that the effects found take away
+  bool camera_stands_out = false;  ///< something of the camera explains the recording
   ModelTest features{1, 1, ""}, balance{1, 1, ""};  ///< of the final model
+  std::vector<Difference> left{};                   ///< by the final model
   double far_p_value = 1;  ///< of the features, below what pseudo-experiments can count too
 };
 Verdict verdict_of(const Findings& findings);
 
-/// The p-value that weighs something in no list against the final model: the worse of features and balance.
-/// Misfits that two codes of the same physics have count no more than rules::holds.
+/// The p-value that weighs something in no list against the final model: the worst of features, balance and
+/// what is left. Misfits that two codes of the same physics have count no more than rules::holds.
 double worst_p_value(const Findings& findings);
+
+/// Independent numbers that a difference beyond judgement's most_left is made of at least: a run of fewer
+/// frames than eight is not compared at all.
+constexpr double least_independent = 8;
+
+/// The p-value of the worst difference beyond most_left by chi2 of least_independent degrees; 1 where there
+/// is none: what is nearer is weighed by the other tests.
+double p_value_of_left(const std::vector<Difference>& left);
 
 /// An effect that leaves a rejected model with most of the misfit, or with errors far above noise and chaos,
 /// is no explanation. `before`: without it.

@@ -10,8 +10,11 @@
 
 #include "diagnosis.hpp"
 #include "effects.hpp"
+#include "empty_box.hpp"
 #include "engines.hpp"
+#include "known_effects.hpp"
 #include "random.hpp"
+#include "setup_file.hpp"
 #include "swing.hpp"
 
 using namespace shakedown;
@@ -143,4 +146,56 @@ TEST(Swing, IsCountedFromItsFirstTurnAboutItsOwnOrigin) {
     squares += std::pow(
         run.recorded.x_box[i] - run.setup.release.displacement * std::cos(omega * run.recorded.time[i]), 2);
   EXPECT_NEAR(std::sqrt(squares / static_cast<double>(run.recorded.time.size())), 1e-4, 1e-5);
+}
+
+/// A wheel with a coarse encoder and a clock that jitters: steps of 7 to 23 ms about 10 ms, angles (as
+/// millimetres) in steps of 10.9.
+Experiment coarse_wheel(double frequency, double amplitude, double decay, double duration,
+                        std::uint64_t seed) {
+  constexpr double step = 10.9e-3;
+  Random random(seed, 0, Stream::camera);
+  Experiment experiment;
+  MeasuredRun& run = experiment.runs.emplace_back();
+  run.name = "wheel";
+  run.box_length = empty_box().box.length;
+  run.frame_rate = 100;
+  for (double t = 0; t < duration;
+       t += random.uniform() < 0.9 ? 7e-3 + 3e-3 * random.uniform() : 23e-3 * random.uniform() + 7e-3) {
+    const double x = amplitude * std::exp(-decay * t) * std::cos(2 * std::numbers::pi * frequency * t + 0.7);
+    run.time.push_back(t);
+    run.x_box.push_back(step * std::round(x / step));
+  }
+  return experiment;
+}
+
+TEST(EmptyBox, ACoarseEncoderWithAJitteringClockIsAnsweredInWords) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  DiagnoseOptions options;
+  options.known = all_effects();
+  for (const double amplitude : {0.02, 0.1, 0.5})
+    for (const double duration : {3.0, 12.0}) {
+      shakedown::Setup given = empty_box();
+      given.spring.frequency = 0.9;
+      given.release.displacement = amplitude;
+      const Diagnosis d = diagnose(
+          given, measurement_of({given}, coarse_wheel(0.9, amplitude, 0.05, duration, 5)), *engine, options);
+      EXPECT_FALSE(d.sentence.empty());
+      for (const DiagnosedParameter& p : d.parameters) EXPECT_TRUE(std::isfinite(p.value)) << p.name;
+    }
+}
+
+// A softening cubic that fits the balance of a large swing runs away where it is simulated from further out.
+TEST(EmptyBox, ASpringThatRunsAwayIsAnsweredInWords) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  shakedown::Setup given = empty_box();
+  const double a = given.release.displacement;
+  Measurement measurement = measurement_of({given}, recorded({.viscous = 0.03}, 3));
+  for (Measurement::Run& run : measurement.runs) {
+    run.setup.effects.push_back(with_defaults(*find_record(all_effects(), "spring_cubic")));
+    set_number(run.setup, "spring_cubic.coefficient", -0.5, all_effects());
+    set_number(run.setup, "spring_cubic.reference", a / 3, all_effects());
+  }
+  const SwingError error = swing_error(measurement, *engine, false);
+  EXPECT_TRUE(std::isinf(error.error));
+  EXPECT_FALSE(error.why_not.empty());
 }

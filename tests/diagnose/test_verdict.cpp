@@ -29,6 +29,31 @@ TEST(Verdict, OfEveryCombination) {
   }
 }
 
+TEST(Verdict, WhatTakesNearlyAllAwayIsNamedThoughTheModelDoesNotHold) {
+  Findings f;
+  f.anything_missing = true;
+  f.left = {{"box", 10e-3, 1e-3}};
+  f.explained = 0.95;
+  EXPECT_EQ(verdict_of(f), Verdict::missing);
+  f.explained = 0.5;
+  EXPECT_EQ(verdict_of(f), Verdict::unknown);
+  f.left.front().error = 2e-3;
+  EXPECT_EQ(verdict_of(f), Verdict::missing);
+  f.anything_missing = false;
+  EXPECT_EQ(verdict_of(f), Verdict::adequate);
+  f.left.front().error = 10e-3;
+  EXPECT_EQ(verdict_of(f), Verdict::unknown);
+}
+
+TEST(Verdict, WhatIsLeftWeighsSomethingInNoList) {
+  EXPECT_EQ(p_value_of_left({}), 1);
+  EXPECT_EQ(p_value_of_left({{"box", 2.4e-3, 1e-3}}), 1);  // within what right answers leave
+  EXPECT_LT(p_value_of_left({{"box", 2.6e-3, 1e-3}}), 1e-6);
+  Findings f;
+  f.left = {{"box", 3e-3, 1e-3}};
+  EXPECT_LT(worst_p_value(f), 1e-6);
+}
+
 TEST(Verdict, AtTheEdges) {
   EXPECT_EQ(verdict_of({}), Verdict::adequate);
   Findings f;
