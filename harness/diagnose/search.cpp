@@ -24,6 +24,7 @@ struct Rival {
   bool fitted = false;
   DiagnosisState state{};  ///< where it was fitted
   bool weighed = false;    ///< log_odds is more than its prior
+  bool attempted = false;  ///< its fit had its turn
 };
 
 bool is_joint(const Knob& knob) { return joined_keys(knob.key).size() > 1; }
@@ -204,6 +205,7 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   double lowest = state.fit.judged_chi2;
   int tried = 0;
   const auto attempt = [&](Rival& rival) {
+    rival.attempted = true;
     if (tried >= static_cast<int>(rules::most_tried)) return;
     ++tried;
     const auto could_not = [&](const std::exception& error) {
@@ -221,10 +223,19 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
       could_not(error);
     }
   };
-  // Fits confirm the most probable, and what has more than a tenth of its probability.
-  const double worth_a_fit = std::max(0.0, order.front()->log_odds - std::log(10));
-  for (Rival* rival : order)
-    if (rival->weighed && rival->log_odds > worth_a_fit) attempt(*rival);
+  // Fits confirm the most probable, and what has more than a tenth of its probability; where a fit takes back
+  // what a signature promised, the next has its turn.
+  for (bool more = true; more;) {
+    more = false;
+    std::stable_sort(order.begin(), order.end(), by_odds);
+    const double worth_a_fit = std::max(0.0, order.front()->log_odds - std::log(10));
+    for (Rival* rival : order) {
+      if (rival->attempted || !rival->weighed || !(rival->log_odds > worth_a_fit)) continue;
+      attempt(*rival);
+      more = true;
+      break;
+    }
+  }
   for (Rival* rival : order) {
     if (rival->weighed) round.ranking.push_back(ranked_as(*rival));
     if (std::isfinite(rival->log_odds))

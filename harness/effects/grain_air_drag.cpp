@@ -44,7 +44,7 @@ extern const EffectRecord grain_air_drag{
                 {"soft",
                  {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
     // Air of 1 bar drags a grain some hundred times less (see limits) than such data can show: exp(-5).
-    .search = {.strengths = {{.parameters = "linear", .strongest = 0.02}},
+    .search = {.strengths = {{.parameters = "linear", .levels = {1e-3, 2e-3, 4e-3}, .strongest = 0.02}},
                .cost = Search::Cost::slow,
                .odds = 0.0067},
     .apply = &apply};

@@ -12,7 +12,18 @@ namespace shakedown {
 
 namespace {
 
+/// Of a polynomial through so many levels.
 Eigen::Index order_of(std::size_t levels) { return levels > 3 ? 3 : levels > 1 ? 2 : 1; }
+
+/// Ascending; empty where a polynomial will do.
+std::vector<double> corners_of(const std::vector<SignatureLevel>& levels) {
+  constexpr double most_of_a_polynomial = 16;  // strongest over weakest
+  std::vector<double> corners;
+  for (const SignatureLevel& level : levels) corners.push_back(level.strength);
+  std::sort(corners.begin(), corners.end());
+  if (corners.front() <= 0 || corners.back() < most_of_a_polynomial * corners.front()) return {};
+  return corners;
+}
 
 }  // namespace
 
@@ -20,16 +31,17 @@ Signature::Signature(const std::vector<SignatureLevel>& levels, const SignatureR
                      bool exact) {
   EXPECT(!levels.empty());
   const auto count = std::ssize(levels);
-  const Eigen::Index order = order_of(levels.size()), features = without.residual.size();
+  corners_ = corners_of(levels);
+  order_ = corners_.empty() ? order_of(levels.size()) : count;
+  const Eigen::Index order = order_, features = without.residual.size();
   unit_ = 0;
   for (const SignatureLevel& level : levels) unit_ = std::max(unit_, std::abs(level.strength));
   EXPECT(unit_ > 0);
   Eigen::MatrixXd design(count, order), changes(features, count);
   Eigen::VectorXd noise(count), weight(count);
-  shapes_.resize(features, order);
   for (Eigen::Index k = 0; k < count; ++k) {
     const SignatureLevel& level = levels[static_cast<std::size_t>(k)];
-    design.row(k) = powers(level.strength).transpose();
+    design.row(k) = weights(level.strength).transpose();
     changes.col(k) = level.change;
     noise[k] = level.noise;
     weight[k] = level.noise > 0 ? 1 / level.noise : 1;
@@ -46,18 +58,26 @@ Signature::Signature(const std::vector<SignatureLevel>& levels, const SignatureR
       without.residual.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, features));
 }
 
-Eigen::VectorXd Signature::powers(double strength) const {
-  Eigen::VectorXd powers(shapes_.cols());
-  const double x = strength / unit_;
-  double power = 1;
-  for (double& one : powers) one = power *= x;
-  return powers;
+Eigen::VectorXd Signature::weights(double strength) const {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(order_);
+  if (corners_.empty()) {
+    double power = 1;
+    for (double& one : weights) one = power *= strength / unit_;
+    return weights;
+  }
+  const auto above = std::min<Eigen::Index>(
+      std::lower_bound(corners_.begin(), corners_.end(), strength) - corners_.begin(), order_ - 1);
+  const double low = above > 0 ? corners_[static_cast<std::size_t>(above - 1)] : 0,
+               high = corners_[static_cast<std::size_t>(above)], along = (strength - low) / (high - low);
+  weights[above] = along;
+  if (above > 0) weights[above - 1] = 1 - along;
+  return weights;
 }
 
-Eigen::VectorXd Signature::change(double strength) const { return shapes_ * powers(strength); }
+Eigen::VectorXd Signature::change(double strength) const { return shapes_ * weights(strength); }
 
 double Signature::log_likelihood(double strength) const {
-  const Eigen::VectorXd v = powers(strength);
+  const Eigen::VectorXd v = weights(strength);
   const double noise = v.dot(noise_ * v), square = std::max(0.0, v.dot(square_ * v) - noise);
   if (!(square > 0)) return 0;
   return square * (overlap_.dot(v) - square / 2) / (square + noise * std::max(1.0, chi2_per_feature_));

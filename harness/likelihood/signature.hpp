@@ -21,8 +21,9 @@ struct SignatureResidual {
   double noise = 0;          ///< expected square of the error of that mean, which every change has too
 };
 
-/// A polynomial through nothing at strength zero: straight with one level, a parabola with two or three, a
-/// cubic with more.
+/// Nothing at strength zero. Levels within a decade: a polynomial, straight with one level, a parabola with
+/// two or three, a cubic with more. Levels over more than a decade, all of one sign: straight from one to the
+/// next and on beyond the last, for no polynomial follows what changes at its own scale in each decade.
 class Signature {
  public:
   /// `exact`: the changes are arithmetic and share no error with the residual.
@@ -38,8 +39,11 @@ class Signature {
   Eigen::VectorXd change(double strength) const;
 
  private:
-  Eigen::VectorXd powers(double strength) const;
+  /// Weights of the shapes at this strength.
+  Eigen::VectorXd weights(double strength) const;
 
+  std::vector<double> corners_{};   ///< strengths of the levels, ascending, where it is straight between them
+  Eigen::Index order_ = 1;          ///< number of shapes
   double unit_ = 1;                 ///< strength of which powers are taken
   Eigen::MatrixXd shapes_;          ///< features x order
   Eigen::MatrixXd square_, noise_;  ///< order x order: of the shapes, and of their errors

@@ -68,6 +68,20 @@ TEST(Signature, IsAParabolaThroughItsLevels) {
     EXPECT_LT((signature.change(s) - change(s)).cwiseAbs().maxCoeff(), 1e-12);  // seen: 3e-14
 }
 
+TEST(Signature, GoesStraightFromLevelToLevelOverDecades) {
+  const auto change = [](double s) -> Eigen::VectorXd {
+    return 10 * s / (1 + s) * shape(2) + (s > 1 ? s - 1 : 0) * shape(5);  // saturates, then something else
+  };
+  std::vector<SignatureLevel> levels;
+  for (const double s : {8.0, 0.1, 1.0}) levels.push_back({s, change(s), 0});
+  const Signature signature(levels, {noise(1), 0}, true);
+  for (const double s : {0.1, 1.0, 8.0})
+    EXPECT_LT((signature.change(s) - change(s)).cwiseAbs().maxCoeff(), 1e-14) << s;  // seen: 4e-16
+  EXPECT_LT((signature.change(0.05) - change(0.1) / 2).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT((signature.change(4.5) - (change(1) + change(8)) / 2).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT((signature.change(15) - (2 * change(8) - change(1))).cwiseAbs().maxCoeff(), 1e-14);
+}
+
 // An effect whose change has its square alone, far beyond any line about nothing, is seen at its strength.
 TEST(Signature, FindsAStrengthThatNoLineAboutNothingShows) {
   const auto change = [](double s) -> Eigen::VectorXd { return 15 * s * s * shape(4); };
