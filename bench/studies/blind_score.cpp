@@ -7,14 +7,13 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
 
 #include "blind_suite.hpp"
+#include "calibration.hpp"
 #include "effects.hpp"
 #include "force_likeness.hpp"
 #include "json_file.hpp"
-#include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "ledger.hpp"
 #include "opened_case.hpp"
@@ -49,20 +48,12 @@ auto singles_at(double low, double high) {
   };
 }
 
-/// The angle nearest to `centre` that is the same but for whole turns.
-double same_angle(double angle, double centre) {
-  constexpr double turn = 2 * std::numbers::pi;
-  return angle + turn * std::round((centre - angle) / turn);
-}
-
 /// Of what was fitted: whether the intervals hold the truth.
 void count_covered(const OpenedCase& one, const std::map<std::string, double>& truth, Count& covered) {
   for (const auto& [key, value] : truth)
     if (const auto found = one.found.find(key); found != one.found.end()) {
-      const auto [low, high] = found->second;
-      const double here =
-          unit_of_key(key, all_effects()) == "rad" ? same_angle(value, 0.5 * (low + high)) : value;
-      covered.add(low <= here && here <= high);
+      const double here = truth_beside(key, value, found->second);
+      covered.add(found->second.low <= here && here <= found->second.high);
     }
 }
 
@@ -122,6 +113,8 @@ void singles(const std::vector<OpenedCase>& cases, Table& table) {
   table.beside(
       "hidden one among the answers that hold 95 %, signal to noise 12 and more",
       count(cases, singles_at(9, 1e9), [](const OpenedCase& one) { return one.among_the_answers(); }));
+  table.beside("exact name, or one of at most three that are told to be tied, signal to noise 12 and more",
+               count(cases, singles_at(9, 1e9), [](const OpenedCase& one) { return one.right_or_tied(); }));
   table.beside("exact name, signal to noise 6", count(cases, singles_at(4.5, 9), exact));
   table.beside("first suspect's class, signal to noise 3", count(cases, singles_at(0, 4.5), family));
 }
@@ -147,7 +140,7 @@ void inventions(const std::vector<OpenedCase>& cases, Table& table) {
                 count(cases, of_kind(BlindKind::camera),
                       [](const OpenedCase& one) { return one.lost || one.names_physics(); }),
                 0.05);
-  table.beside("camera artefacts named exactly",
+  table.beside("camera artefacts named exactly, as missing or as errors of the measurement",
                count(cases, of_kind(BlindKind::camera), [](const OpenedCase& one) { return one.exact(); }));
   table.at_most("effects invented (named, not hidden)",
                 count(
@@ -360,6 +353,9 @@ BlindScore score_blind_suite(const fs::path& folder, const TrialTools& tools, co
   films(cases, table);
   unlisted(cases, tools, table);
   twins(cases, table);
+  log_scores(cases, table);
+  reliability(cases, table);
+  coverage_by_quantile(cases, table);
   baselines(cases, table);
   seconds(cases, table);
   score.figures = table.rows;

@@ -63,6 +63,16 @@ std::set<std::string> with_look_alikes(const Json& diagnosis, const Names& missi
   return names;
 }
 
+/// Sorted, without what is no part of an answer (a packing).
+Names physics_and_camera(Names effects) {
+  std::erase_if(effects, [](const std::string& effect) {
+    const EffectRecord* record = find_effect(effect);
+    return record != nullptr && record->nuisance;
+  });
+  std::sort(effects.begin(), effects.end());
+  return effects;
+}
+
 /// In `films` every run has camera errors, which no answer needs to name: only physics is scored.
 TrialJudgement judgement_of_physics(const std::string& verdict, const Names& missing, const Names& hidden) {
   Names truth = hidden;
@@ -76,11 +86,47 @@ TrialJudgement judgement_of_physics(const std::string& verdict, const Names& mis
   return judgement;
 }
 
+/// Effects of the camera whose numbers stand out; of answers of older programs, which have no such list,
+/// none.
+Names camera_standing_out(const Json& diagnosis) {
+  std::vector<NuisanceFound> camera;
+  for (const Json& number : diagnosis.value("camera", Json::array()))
+    camera.push_back({number.at("name"), "", number_at(number, "known_to").value_or(0),
+                      number_at(number, "value").value_or(0), number_at(number, "error").value_or(0)});
+  return effects_standing_out(camera);
+}
+
 TrialJudgement judgement_of(const Json& diagnosis, const OpenedCase& one) {
   if (one.kind == BlindKind::films)
     return judgement_of_physics(diagnosis.at("verdict"), diagnosis.at("missing").get<Names>(), one.hidden);
   return judge(one.hidden, !one.laboratory.empty(), verdict_of(diagnosis.at("verdict")),
-               diagnosis.at("missing").get<Names>());
+               diagnosis.at("missing").get<Names>(), camera_standing_out(diagnosis));
+}
+
+/// Sorted, without what is no part of an answer: a packing, and errors of the camera where none was hidden.
+Names part_of_an_answer(Names effects, BlindKind kind) {
+  if (std::find(effects.begin(), effects.end(), "unknown") != effects.end()) return {"unknown"};
+  return kind == BlindKind::camera || kind == BlindKind::twins ? physics_and_camera(std::move(effects))
+                                                               : physics_among(effects, all_effects());
+}
+
+/// Sets that differ only in what is no part of an answer are one.
+std::vector<WeighedAnswer> hypotheses_of(const Json& diagnosis, BlindKind kind) {
+  std::vector<WeighedAnswer> all;
+  for (const Json& hypothesis : diagnosis.value("hypotheses", Json::array())) {
+    const Names effects = part_of_an_answer(hypothesis.at("effects").get<Names>(), kind);
+    const double probability = number_at(hypothesis, "probability").value_or(0);
+    const auto same = std::find_if(all.begin(), all.end(),
+                                   [&](const WeighedAnswer& one) { return one.effects == effects; });
+    if (same == all.end())
+      all.push_back({effects, probability});
+    else
+      same->probability += probability;
+  }
+  std::stable_sort(all.begin(), all.end(), [](const WeighedAnswer& a, const WeighedAnswer& b) {
+    return a.probability > b.probability;
+  });
+  return all;
 }
 
 void read_diagnosis(const Json& diagnosis, OpenedCase& one) {
@@ -94,6 +140,7 @@ void read_diagnosis(const Json& diagnosis, OpenedCase& one) {
     const auto low = number_at(parameter, "low"), high = number_at(parameter, "high");
     if (low && high) one.found[key] = {*low, *high};
   }
+  one.hypotheses = hypotheses_of(diagnosis, one.kind);
   one.p_of_balance = number_at(diagnosis.at("momentum"), "p_value");
   if (const Json& ladder = diagnosis.at("ladder"); !ladder.empty()) {
     one.p_as_given = number_at(ladder.front(), "p_value");
@@ -135,16 +182,6 @@ void open_answer(const fs::path& file, OpenedCase& one, void (*read)(const Json&
   });
 }
 
-/// Sorted, without what is no part of an answer (a packing).
-Names physics_and_camera(Names effects) {
-  std::erase_if(effects, [](const std::string& effect) {
-    const EffectRecord* record = find_effect(effect);
-    return record != nullptr && record->nuisance;
-  });
-  std::sort(effects.begin(), effects.end());
-  return effects;
-}
-
 }  // namespace
 
 bool OpenedCase::first_suspects_family_is_right() const {
@@ -162,6 +199,22 @@ bool OpenedCase::among_the_answers() const {
   const Names truth = physics_and_camera(hidden);
   return std::any_of(answers.begin(), answers.end(),
                      [&](const Names& answer) { return physics_and_camera(answer) == truth; });
+}
+
+bool OpenedCase::right_or_tied() const {
+  constexpr std::size_t most = 3;  // answers: a longer list tells nobody what to do
+  return exact() || (answers.size() <= most && among_the_answers());
+}
+
+double OpenedCase::probability_of_truth() const {
+  const Names truth = part_of_an_answer(hidden, kind);
+  for (const WeighedAnswer& one : hypotheses)
+    if (one.effects == truth) return one.probability;
+  return 0;
+}
+
+bool OpenedCase::most_probable_is_right() const {
+  return !hypotheses.empty() && hypotheses.front().effects == part_of_an_answer(hidden, kind);
 }
 
 bool OpenedCase::names_physics() const { return !physics_among(missing, all_effects()).empty(); }

@@ -19,6 +19,12 @@ struct FoundInterval {
   double low = 0, high = 0;
 };
 
+/// What may be missing, and how probable it is said to be.
+struct WeighedAnswer {
+  std::vector<std::string> effects;  ///< sorted, without what is no part of an answer; "unknown": of no list
+  double probability = 0;
+};
+
 struct OfferedForce {
   std::map<std::string, double> constants;
   std::vector<std::string> forms;  ///< the formula and its look-alikes
@@ -43,6 +49,7 @@ struct OpenedCase {
   std::string verdict = "no answer";
   std::vector<std::string> missing;
   std::vector<std::vector<std::string>> answers;  ///< hypotheses that hold 95 %, the named one among them
+  std::vector<WeighedAnswer> hypotheses;          ///< each once, the most probable first
   std::set<std::string> look_alikes;  ///< of what is missing, as it says itself, with what is missing
   std::map<std::string, FoundInterval> found;  ///< fitted parameters with an interval
   std::optional<double> p_as_given, p_of_balance;
@@ -61,6 +68,12 @@ struct OpenedCase {
   bool first_suspects_family_is_right() const;
   /// One of the answers is what is hidden: a tie that is told counts as right here.
   bool among_the_answers() const;
+  /// The answer is what is hidden, or says of it and at most two others that they cannot be told apart.
+  bool right_or_tied() const;
+  /// The probability that the answer gives to what is hidden; 0 where it has none for it.
+  double probability_of_truth() const;
+  /// The most probable answer is what is hidden. False where there is none.
+  bool most_probable_is_right() const;
   /// Something that is not the camera's is called missing.
   bool names_physics() const;
 };

@@ -6,6 +6,7 @@
 
 #include "effects.hpp"
 #include "known_effects.hpp"
+#include "verdict.hpp"
 
 namespace shakedown {
 
@@ -31,8 +32,19 @@ Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools) {
                   options);
 }
 
+std::vector<std::string> effects_standing_out(const std::vector<NuisanceFound>& camera) {
+  std::vector<std::string> effects;
+  for (const NuisanceFound& found : standing_out(camera)) {
+    const std::string effect = found.name.substr(0, found.name.find('.'));
+    if (const EffectRecord* record = find_effect(effect);
+        record != nullptr && record->acts_on == ActsOn::camera)
+      effects.push_back(effect);
+  }
+  return effects;
+}
+
 TrialJudgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict,
-                     const std::vector<std::string>& missing) {
+                     const std::vector<std::string>& missing, const std::vector<std::string>& measured) {
   std::set<std::string> found(missing.begin(), missing.end());
   for (const EffectRecord* record : all_effects())
     if (record->nuisance) found.erase(std::string(record->name));
@@ -46,6 +58,11 @@ TrialJudgement judge(const std::vector<std::string>& hidden, bool other_paramete
         found.empty() && (verdict == Verdict::refit || (verdict == Verdict::adequate && !other_parameters));
   else if (truth.contains("unknown"))
     judgement.named = verdict == Verdict::unknown;
+  else if (verdict == Verdict::measurement)
+    judgement.named =
+        found.empty() && std::all_of(truth.begin(), truth.end(), [&](const std::string& effect) {
+          return std::find(measured.begin(), measured.end(), effect) != measured.end();
+        });
   else
     judgement.named = verdict == Verdict::missing && found == truth;
   return judgement;
@@ -70,8 +87,8 @@ Power power_of(Trial trial, int repeats, const TrialTools& tools,
   int detected = 0, named = 0;
   for (int i = 0; i < repeats; ++i, ++trial.seed) {
     const Diagnosis diagnosis = diagnose_trial(trial, tools);
-    const TrialJudgement judgement =
-        judge(hidden, has_other_parameters(trial.hidden), diagnosis.verdict, diagnosis.missing);
+    const TrialJudgement judgement = judge(hidden, has_other_parameters(trial.hidden), diagnosis.verdict,
+                                           diagnosis.missing, effects_standing_out(diagnosis.camera));
     detected += judgement.detected;
     named += judgement.named;
     std::string answer(name_of(diagnosis.verdict));

@@ -45,9 +45,14 @@ struct TrialJudgement {
       false;  ///< verdict and missing effects are exactly the hidden ones (of a hidden formula: "unknown")
   bool invented = false;  ///< an effect among the missing ones that is not hidden
 };
-/// With nothing hidden "adequate" and "refit" are right, with other parameters "refit" alone.
+/// With nothing hidden "adequate" and "refit" are right, with other parameters "refit" alone. An error of the
+/// camera may be named as missing or, by the verdict `measurement`, be among the numbers of the camera that
+/// stand out (`measured`: their effects).
 TrialJudgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict,
-                     const std::vector<std::string>& missing);
+                     const std::vector<std::string>& missing, const std::vector<std::string>& measured = {});
+
+/// Effects of the camera whose numbers stand out.
+std::vector<std::string> effects_standing_out(const std::vector<NuisanceFound>& camera);
 
 /// Those that act on box and grains: without errors of camera, clock and origin and without nuisances. What
 /// is no effect of the list counts as physics. Sorted.

@@ -57,11 +57,29 @@ TEST(Shares, UniformValuesHaveUniformPValuesAndOthersHaveNone) {
   EXPECT_NEAR(uniformity_p_value(shifted), 0.05, 0.004);
 }
 
+TEST(TrialJudgements, AnErrorOfTheCameraIsNamedByTheVerdictMeasurementToo) {
+  const auto named = [](const std::vector<std::string>& hidden, const std::vector<std::string>& missing,
+                        const std::vector<std::string>& measured) {
+    return judge(hidden, true, Verdict::measurement, missing, measured).named;
+  };
+  EXPECT_TRUE(named({"camera_scale"}, {}, {"camera_scale"}));
+  EXPECT_TRUE(named({"camera_scale"}, {}, {"camera_lens", "camera_scale"}));
+  EXPECT_FALSE(named({"camera_scale"}, {}, {"camera_lens"}));
+  EXPECT_FALSE(named({"camera_scale"}, {"spring_cubic"}, {"camera_scale"}));
+  EXPECT_FALSE(named({"grain_friction"}, {}, {"camera_scale"}));
+  EXPECT_FALSE(named({}, {}, {"camera_scale"}));
+  EXPECT_EQ(effects_standing_out({{"camera_scale.scale", "", 0.01, 0.1, 0.001},
+                                  {"camera_lens.distortion", "", 0.01, 0.001, 0.001},
+                                  {"box.mass", "kg", 0.002, 0.01, 0.001}}),
+            std::vector<std::string>{"camera_scale"});
+}
+
 TEST(TrialJudgement, IsThatOfSomebodyWhoKnowsTheAnswer) {
   EXPECT_TRUE(judge({}, false, Verdict::adequate, {}).named);
   EXPECT_TRUE(judge({}, false, Verdict::refit, {}).named);
   EXPECT_FALSE(judge({}, true, Verdict::adequate, {}).named);
   EXPECT_TRUE(judge({"grain_friction"}, true, Verdict::missing, {"grain_friction"}).named);
+  EXPECT_TRUE(judge({"camera_scale"}, true, Verdict::missing, {"camera_scale"}).named);
   EXPECT_FALSE(judge({"grain_friction"}, false, Verdict::missing, {"grain_friction", "camera_scale"}).named);
   EXPECT_TRUE(
       judge({"grain_friction"}, false, Verdict::missing, {"grain_friction", "camera_scale"}).invented);
