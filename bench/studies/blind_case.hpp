@@ -17,6 +17,9 @@ constexpr std::array<std::string_view, 8> blind_kind_names{"nulls", "parameters"
 /// How many of each kind.
 using BlindCounts = std::array<int, 8>;
 constexpr BlindCounts full_counts{60, 60, 120, 30, 30, 24, 20, 60}, small_counts{2, 1, 3, 1, 1, 1, 0, 0};
+/// As long as a lunch: at half a minute of two cores a case, and some ten for the strengths, about 45
+/// minutes.
+constexpr BlindCounts lunch_counts{8, 8, 22, 6, 6, 6, 0, 14};
 
 /// "nulls=10,singles=20": those kinds alone. Throws InputError.
 BlindCounts parse_counts(std::string_view text, const std::string& origin = "--cases");

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "fnv.hpp"
 #include "json_file.hpp"
@@ -57,19 +59,21 @@ class Suite {
   }
 
   void run() {
+    wait_for_the_draw();
     const Seals sealed_before = open();
     const std::vector<BlindCase> cases =
         draw_cases(believed_, options_.counts, design_, laws(), options_.seed, tools_.known);
     seal(cases, sealed_before);
-    int done = 0;
+    std::size_t done = 0;
     for (const BlindCase& one : cases) {
+      if (!options_.share.has(done++)) continue;
       answer(one, one.name, one.trial);
       if (!one.more.empty()) {
         Trial more = one.trial;
         more.runs = one.more;
         answer(one, one.name + "_more", more);
       }
-      tell(std::to_string(++done) + " of " + std::to_string(cases.size()) + " cases done");
+      tell(std::to_string(done) + " of " + std::to_string(cases.size()) + " cases done");
     }
   }
 
@@ -94,11 +98,22 @@ class Suite {
             {"fault", options_.fault}};
   }
 
+  /// Only the first of several processes measures strengths and seals.
+  void wait_for_the_draw() const {
+    using namespace std::chrono_literals;
+    if (options_.share.index == 0) return;
+    for (bool told = false; !fs::exists(folder_ / "plan.json"); told = true) {
+      if (!told) tell("waiting for the process that draws the cases");
+      if (tools_.stop != nullptr && tools_.stop->load()) throw Interrupted("the cases were not drawn yet");
+      std::this_thread::sleep_for(200ms);
+    }
+  }
+
   /// A folder holds one suite. Its seals, or none of a suite that is to begin.
   Seals open() const {
     const fs::path file = folder_ / "plan.json";
     if (!fs::exists(file)) return {};
-    if (!options_.resume)
+    if (!options_.resume && options_.share.of == 1)
       throw InputError({{{file.string(), 0, 0},
                          "",
                          "a suite stands there already",
@@ -275,6 +290,12 @@ class Suite {
 };
 
 }  // namespace
+
+bool all_answered(const fs::path& folder) {
+  for (const fs::directory_entry& sealed : fs::directory_iterator(folder / "sealed"))
+    if (!fs::exists(folder / "answers" / sealed.path().filename())) return false;
+  return true;
+}
 
 void run_blind_suite(const fs::path& folder, const Setup& believed, const TrialTools& tools,
                      const BlindSuiteOptions& options) {

@@ -16,12 +16,14 @@
 #include <vector>
 
 #include "blind_case.hpp"
+#include "share.hpp"
 
 namespace shakedown {
 
 struct BlindSuiteOptions {
   BlindCounts counts = full_counts;
-  bool small = false;           ///< two short runs a case, strong signals
+  JobShare share{};    ///< which cases this process answers; the first of several draws, the others wait
+  bool small = false;  ///< two short runs a case, strong signals
   std::vector<double> signals;  ///< signal to noise of what is hidden; empty: as designed
   std::string variant;          ///< a worse experiment, one of variant_names; empty: as designed
   std::uint64_t seed = 1;
@@ -33,9 +35,10 @@ struct BlindSuiteOptions {
   std::function<void(const std::string& line)> told;  ///< of each thing done; may be empty
 };
 
-/// Draws, seals and diagnoses what has no answer yet. Throws InputError for a folder that holds another suite
-/// (or one without `resume`, or one whose cases are no longer drawn as they were sealed), FileError,
-/// Interrupted (what is done is kept).
+/// Draws, seals and diagnoses what has no answer yet. Several processes that share the folder each answer
+/// their share; to them the folder's suite is what they go on with. Throws InputError for a folder that holds
+/// another suite (or one without `resume`, or one whose cases are no longer drawn as they were sealed),
+/// FileError, Interrupted (what is done is kept).
 void run_blind_suite(const std::filesystem::path& folder, const Setup& believed, const TrialTools& tools,
                      const BlindSuiteOptions& options);
 
@@ -50,9 +53,9 @@ struct BlindFigure {
 struct BlindScore {
   std::vector<BlindFigure> figures;
   std::vector<std::string> cases;  ///< a line a case: what was hidden, what was answered, right or wrong
-  int answered = 0, planned = 0;
-  bool seen = false;  ///< somebody had opened this seed before it was answered here (ledger.hpp)
-  int lost = 0;       ///< of the answered ones: no diagnosis, wrong in every figure
+  int answered = 0, planned = 0;   ///< of several processes the last one has them all
+  bool seen = false;               ///< somebody had opened this seed before it was answered here (ledger.hpp)
+  int lost = 0;                    ///< of the answered ones: no diagnosis, wrong in every figure
   std::map<std::string, int> programs;  ///< that answered, and how many cases each
 };
 
@@ -60,6 +63,9 @@ struct BlindScore {
 /// it was when the suite began, or a file of the suite is damaged.
 BlindScore score_blind_suite(const std::filesystem::path& folder, const TrialTools& tools,
                              const std::filesystem::path& ledger = {});
+
+/// Every case that is sealed there has an answer.
+bool all_answered(const std::filesystem::path& folder);
 
 std::string blind_score_text(const BlindScore& score);
 std::string blind_score_json(const BlindScore& score);

@@ -23,7 +23,8 @@ namespace {
 
 struct BlindSuiteArguments {
   std::string setup, out, cases, strengths, variant, mutation = "none", engine = "soft";
-  bool small = false, baselines = false, resume = false, score_only = false;
+  std::string shard;
+  bool small = false, full = false, baselines = false, resume = false, score_only = false;
   std::vector<double> signals;
   std::uint64_t seed = 1;
   std::int64_t budget = 40000;
@@ -41,8 +42,16 @@ void expect_suite(const std::filesystem::path& folder) {
                        "name the --out folder of a suite, or leave --score out to begin one"}});
 }
 
+/// A launcher starts one process a core.
+int threads_of(const BlindSuiteArguments& arguments, const JobShare& share) {
+  if (arguments.threads > 0) return arguments.threads;
+  return share.of > 1 && share.source != "--shard" ? 1 : 0;
+}
+
 int blind_suite(const BlindSuiteArguments& arguments) {
   if (arguments.score_only) expect_suite(arguments.out);
+  const JobShare share =
+      arguments.shard.empty() ? share_from_launcher(process_environment()) : parse_share(arguments.shard);
   const Setup believed = arguments.setup.empty() ? Setup{} : read_setup(arguments.setup, all_effects());
   const OutputFolder folder(arguments.out);
   arguments.json.check();
@@ -52,7 +61,7 @@ int blind_suite(const BlindSuiteArguments& arguments) {
                    .model = model.get(),
                    .known = all_effects(),
                    .budget = arguments.budget,
-                   .threads = arguments.threads,
+                   .threads = threads_of(arguments, share),
                    .stop = catch_interruption(),
                    .strength_uncertainty = &strength_uncertainty,
                    .ensembles = &ensembles};
@@ -60,7 +69,9 @@ int blind_suite(const BlindSuiteArguments& arguments) {
   BlindSuiteOptions options;
   options.counts = !arguments.cases.empty() ? parse_counts(arguments.cases)
                    : arguments.small        ? small_counts
-                                            : full_counts;
+                   : arguments.full         ? full_counts
+                                            : lunch_counts;
+  options.share = share;
   options.small = arguments.small;
   options.fault = arguments.mutation;
   options.signals = arguments.signals;
@@ -80,6 +91,11 @@ int blind_suite(const BlindSuiteArguments& arguments) {
       fmt::print(stderr, "interrupted; go on with --resume\n");
       if (!std::filesystem::exists(folder.path() / "plan.json")) return exit_interrupted;
     }
+  }
+  if (share.of > 1 && !interrupted && !all_answered(folder.path())) {
+    fmt::print(stderr, "share {} of {} (from {}) is answered; the last process scores, or --score\n",
+               share.index + 1, share.of, share.source);
+    return exit_done;
   }
   const BlindScore score = score_blind_suite(folder.path(), tools, arguments.ledger);
   std::string lines;
@@ -106,7 +122,7 @@ Command add_blind_suite_command(CLI::App& program) {
   command
       .add_option("--cases", a->cases,
                   "how many of each kind: "
-                  "nulls=60,parameters=60,singles=120,camera=30,pairs=30,unlisted=24,twins=20,films=60")
+                  "nulls=8,parameters=8,singles=22,camera=6,pairs=6,unlisted=6,films=14")
       ->type_name("KIND=N,...");
   command
       .add_option("--signals", a->signals,
@@ -114,6 +130,9 @@ Command add_blind_suite_command(CLI::App& program) {
       ->delimiter(',')
       ->check(CLI::Range(0.1, 1000.0))
       ->type_name("RATIO,...");
+  command.add_flag("--full", a->full,
+                   "all 404: nulls=60,parameters=60,singles=120,camera=30,pairs=30,unlisted=24,twins=20,"
+                   "films=60; over three hours of two cores");
   command.add_flag("--small", a->small, "a few cases, two short runs each, strong signals");
   command
       .add_option(
@@ -129,6 +148,12 @@ Command add_blind_suite_command(CLI::App& program) {
                   "wrong-sign, smoothed")
       ->check(CLI::IsMember(std::vector<std::string>(fault_names.begin(), fault_names.end())))
       ->type_name("NAME");
+  command
+      .add_option(
+          "--shard", a->shard,
+          "answer the i-th of n shares only; without it the launcher's environment says (mpirun, srun, "
+          "job arrays). Processes share the folder")
+      ->type_name("i/n");
   command.add_flag("--resume", a->resume, "go on where an interrupted suite stopped");
   command.add_flag("--score", a->score_only, "only open and score what is there");
   command

@@ -321,3 +321,54 @@ TEST(SlowNaiveAnswers, NameAStrongForceAndAccuseWhereNothingIsHidden) {
   // chaos from run to run is no white noise
   EXPECT_NE(answers().white_noise, "");
 }
+
+TEST(BlindSuites, SeveralProcessesAnswerEachItsShare) {
+  const ScratchFolder folder;
+  answered(folder.path(), {3, 0, 3, 0, 0, 0, 0},
+           [](const nlohmann::json&) { return answer_of("adequate", {}); });
+  for (const char* gone : {"case_0002.json", "case_0006.json"}) fs::remove(folder / "answers" / gone);
+  EXPECT_FALSE(all_answered(folder.path()));
+  BlindSuiteOptions options;
+  options.counts = {3, 0, 3, 0, 0, 0, 0};
+  options.small = true;
+  options.share = {0, 2, "a test"};  // cases 1, 3 and 5, which have their answers
+  run_suite(folder.path(), options);
+  EXPECT_FALSE(all_answered(folder.path()));
+  options.share = {1, 2, "a test"};
+  std::atomic<bool> stop = true;
+  const auto hard = engine_named("hard");
+  EXPECT_THROW(
+      run_blind_suite(folder.path(), {}, {hard.get(), hard.get(), all_effects(), 100, 1, &stop}, options),
+      Interrupted);
+  answered(folder / "another", {1, 0, 0, 0, 0, 0, 0},
+           [](const nlohmann::json&) { return answer_of("adequate", {}); });
+  EXPECT_TRUE(all_answered(folder / "another"));
+}
+
+TEST(BlindSuites, AProcessThatDoesNotDrawWaitsForTheDraw) {
+  const ScratchFolder folder;
+  BlindSuiteOptions options;
+  options.share = {1, 2, "a test"};
+  std::atomic<bool> stop = true;  // else it would wait without end
+  const auto hard = engine_named("hard");
+  EXPECT_THROW(
+      run_blind_suite(folder.path(), {}, {hard.get(), hard.get(), all_effects(), 100, 1, &stop}, options),
+      Interrupted);
+  EXPECT_FALSE(fs::exists(folder / "plan.json"));
+}
+
+TEST(BlindScores, ProbabilitiesAreReadAndWhatDiffersInThePackingAloneIsOneAnswer) {
+  const ScratchFolder folder;
+  answered(folder.path(), {0, 0, 4, 0, 0, 0, 0}, [](const nlohmann::json& truth) {
+    auto answer = nlohmann::json::parse(answer_of("missing", truth["hidden"]));
+    auto with_packing = truth["hidden"].get<std::vector<std::string>>();
+    with_packing.push_back("initial_packing");
+    answer["diagnosis"]["hypotheses"] = {{{"effects", truth["hidden"]}, {"probability", 0.5}},
+                                         {{"effects", with_packing}, {"probability", 0.3}},
+                                         {{"effects", nlohmann::json::array()}, {"probability", 0.2}}};
+    return answer.dump();
+  });
+  const BlindScore score = scored(folder.path());
+  EXPECT_EQ(figure(score, "mean log score, 0").found, "0.22 (4 cases)");  // -ln 0.8
+  EXPECT_EQ(figure(score, "reliability: first answers with probability 0.80").found.substr(0, 6), "4 of 4");
+}
