@@ -7,5 +7,6 @@ namespace shakedown {
 Command add_paper_command(CLI::App& program);
 Command add_blind_suite_command(CLI::App& program);
 Command add_ring_down_command(CLI::App& program);
+Command add_signal_command(CLI::App& program);
 
 }  // namespace shakedown

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "ideal_signal.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hideable.hpp"
+#include "in_order.hpp"
+#include "setup_file.hpp"
+
+namespace shakedown {
+
+namespace {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+constexpr double bin = 0.1;  // s: shorter than a tenth of a period of any damper that is filmed
+constexpr int samples_a_bin = 10;
+
+/// Means over bins of the box, then of the grains' centre.
+Vector features_of(const Trajectory& motion, bool grains) {
+  const auto bins = static_cast<Eigen::Index>((motion.time.size() - 1) / samples_a_bin);
+  Vector features = Vector::Zero(grains ? 2 * bins : bins);
+  for (Eigen::Index b = 0; b < bins; ++b)
+    for (int i = 0; i < samples_a_bin; ++i) {
+      const auto sample = static_cast<std::size_t>(b * samples_a_bin + i);
+      features(b) += motion.x_box[sample] / samples_a_bin;
+      if (grains) features(bins + b) += motion.x_com[sample] / samples_a_bin;
+    }
+  return features;
+}
+
+/// Simulations of one planned run: a column each.
+struct Runs {
+  Matrix all;
+  Vector mean() const { return all.rowwise().mean(); }
+  Matrix residuals() const { return all.colwise() - mean(); }
+};
+
+class Simulations {
+ public:
+  Simulations(const IdealSettings& settings, const TrialTools& tools) : settings_(settings), tools_(tools) {}
+
+  Runs simulated(const Setup& setup, int first, int count) const {
+    std::vector<Vector> columns;
+    work_in_parallel_deliver_in_order(
+        count, threads_or_all(tools_.threads), [&](int i) -> std::function<void()> {
+          RunOptions options;
+          options.run = first + i;
+          options.stop = tools_.stop;
+          const Trajectory motion = tools_.model->run(setup, options);
+          if (motion.interrupted) throw Interrupted("no signal was measured");
+          return [&columns, features = features_of(motion, setup.grains.count > 0)] {
+            columns.push_back(features);
+          };
+        });
+    Runs runs{Matrix(columns.front().size(), count)};
+    for (int i = 0; i < count; ++i) runs.all.col(i) = columns[static_cast<std::size_t>(i)];
+    return runs;
+  }
+
+  std::span<const EffectRecord* const> known() const { return tools_.known; }
+
+  Setup planned(const Setup& setup, const PlannedRun& run) const {
+    Setup planned = changed(setup, run.overrides, tools_.known);
+    planned.run.seed = settings_.seed;
+    planned.run.sample_rate = samples_a_bin / bin;
+    return planned;
+  }
+
+ private:
+  const IdealSettings& settings_;
+  const TrialTools& tools_;
+};
+
+/// Variance of the camera's noise in each bin.
+Vector noise_of(const RecordingSettings& camera, Eigen::Index features, bool grains) {
+  const double frames = std::max(1.0, camera.frame_rate * bin * (1 - camera.missing));
+  Vector noise = Vector::Constant(features, camera.box_noise * camera.box_noise / frames);
+  if (grains) noise.tail(features / 2).setConstant(camera.centre_noise * camera.centre_noise / frames);
+  return noise;
+}
+
+/// Of data with this sample covariance, for each of them.
+double log_likelihood(const Matrix& covariance, const Matrix& sample) {
+  const Eigen::LLT<Matrix> root(covariance);
+  return -0.5 * root.solve(sample).trace() - root.matrixLLT().diagonal().array().log().sum();
+}
+
+Matrix sample_covariance(const Matrix& residuals, Eigen::Index means) {
+  return residuals * residuals.transpose() / static_cast<double>(residuals.cols() - means);
+}
+
+/// This half's spread, drawn towards its diagonal as far as the other half finds most likely.
+Matrix likely_covariance(const Matrix& sample, const Matrix& other, const Vector& noise) {
+  constexpr std::array<double, 6> towards_diagonal{0.05, 0.1, 0.2, 0.4, 0.6, 0.9};
+  Matrix best, noisy = other;
+  noisy.diagonal() += noise;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const double share : towards_diagonal) {
+    Matrix covariance = (1 - share) * sample;
+    covariance.diagonal() += share * sample.diagonal() + noise;
+    const double likelihood = log_likelihood(covariance, noisy);
+    if (likelihood > most) most = likelihood, best = std::move(covariance);
+  }
+  return best;
+}
+
+/// One planned run, in two halves.
+struct Block {
+  std::array<Vector, 2> signature;
+  std::array<Matrix, 2> covariance;        ///< to find the direction with
+  std::array<Matrix, 2> plain_covariance;  ///< to weigh it with
+  Matrix unknown_to_all, unknown_of_run;   ///< columns, each times its standard deviation
+};
+
+Matrix columns_of_run(const Vector& mean, bool grains, const IdealIgnorance& ignorance) {
+  const Eigen::Index bins = grains ? mean.size() / 2 : mean.size();
+  Matrix columns(mean.size(), 2);
+  for (Eigen::Index i = 0; i < mean.size(); ++i) {
+    const Eigen::Index first = i < bins ? 0 : bins, low = std::max(first, i - 1),
+                       high = std::min(first + bins - 1, i + 1);
+    columns(i, 0) = ignorance.clock * (mean(high) - mean(low)) / (bin * static_cast<double>(high - low));
+    columns(i, 1) = ignorance.origin;
+  }
+  return columns;
+}
+
+Block block_of(const Setup& without, const Setup& with, const IdealSettings& settings,
+               const Simulations& simulations) {
+  const int n = settings.count;
+  const bool grains = without.grains.count > 0;
+  Block block;
+  std::array<Matrix, 2> spread;
+  Vector mean;
+  for (const int half : {0, 1}) {
+    const Runs plain = simulations.simulated(without, half * n, n),
+               altered = simulations.simulated(with, (2 + half) * n, n);
+    block.signature[static_cast<std::size_t>(half)] = altered.mean() - plain.mean();
+    Matrix both(plain.all.rows(), 2 * n);
+    both << plain.residuals(), altered.residuals();
+    spread[static_cast<std::size_t>(half)] = sample_covariance(both, 2);
+    mean = plain.mean();
+  }
+  const Vector noise = noise_of(settings.recording, mean.size(), grains);
+  for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
+    block.covariance[half] = likely_covariance(spread[half], spread[1 - half], noise);
+    block.plain_covariance[half] = spread[half];
+    block.plain_covariance[half].diagonal() += noise;
+  }
+  block.unknown_of_run = columns_of_run(mean, grains, settings.ignorance);
+  const auto slope = [&](const char* key, double step) -> Vector {
+    Setup less = without, more = without;
+    set_number(less, key, get_number(without, key) - step, simulations.known());
+    set_number(more, key, get_number(without, key) + step, simulations.known());
+    const Vector difference =
+        simulations.simulated(more, 4 * n, n).mean() - simulations.simulated(less, 4 * n, n).mean();
+    return difference / (2 * step);
+  };
+  const IdealIgnorance& unknown = settings.ignorance;
+  const double frequency = without.spring.frequency;
+  block.unknown_to_all.resize(mean.size(), 4);
+  block.unknown_to_all << unknown.scale * mean,
+      unknown.frequency * frequency * slope("spring.frequency", 1e-3 * frequency),
+      unknown.restitution * slope("restitution.grain_grain", 0.05),
+      unknown.restitution * slope("restitution.grain_wall", 0.05);
+  return block;
+}
+
+bool same_run(const PlannedRun& a, const PlannedRun& b) {
+  return std::equal(
+      a.overrides.begin(), a.overrides.end(), b.overrides.begin(), b.overrides.end(),
+      [](const Override& x, const Override& y) { return x.key == y.key && x.value == y.value; });
+}
+
+/// Square of the distance: signature of one half times C^-1 times that of the other, whose noises are
+/// independent, so that noise adds nothing. C is of one half; the other half's spread along the direction
+/// sets its scale.
+double seen(const std::vector<Block>& blocks, std::size_t finds, std::size_t sees) {
+  Eigen::Index size = 0;
+  for (const Block& block : blocks) size += block.signature[0].size();
+  Matrix covariance = Matrix::Zero(size, size), weighing = covariance, shared(size, 4);
+  Vector found(size), other(size);
+  Eigen::Index at = 0;
+  for (const Block& block : blocks) {
+    const Eigen::Index here = block.signature[0].size();
+    const Matrix own = block.unknown_of_run * block.unknown_of_run.transpose();
+    covariance.block(at, at, here, here) = block.covariance[finds] + own;
+    weighing.block(at, at, here, here) = block.plain_covariance[sees] + own;
+    shared.middleRows(at, here) = block.unknown_to_all;
+    found.segment(at, here) = block.signature[finds];
+    other.segment(at, here) = block.signature[sees];
+    at += here;
+  }
+  covariance += shared * shared.transpose();
+  weighing += shared * shared.transpose();
+  const Vector direction = covariance.llt().solve(found);
+  const double variance = direction.dot(weighing * direction);
+  return variance > 0 ? direction.dot(other) * direction.dot(covariance * direction) / variance : 0;
+}
+
+}  // namespace
+
+double ideal_signal(const Setup& without, const Setup& with, const IdealSettings& settings,
+                    const TrialTools& tools) {
+  const Simulations simulations(settings, tools);
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < settings.runs.size(); ++i) {
+    // Repeats of a run have the same signature and spread.
+    std::size_t same = 0;
+    while (same < i && !same_run(settings.runs[same], settings.runs[i])) ++same;
+    blocks.push_back(same < i ? blocks[same]
+                              : block_of(simulations.planned(without, settings.runs[i]),
+                                         simulations.planned(with, settings.runs[i]), settings, simulations));
+  }
+  const double squared = 0.5 * (seen(blocks, 0, 1) + seen(blocks, 1, 0));
+  return std::copysign(std::sqrt(std::abs(squared)), squared);
+}
+
+}  // namespace shakedown
