@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "comma_list.hpp"
 #include "embedded_table.hpp"
@@ -45,9 +46,10 @@ class Draw {
     return std::min(count - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(count)));
   }
   void nuisances(Random& random, std::vector<Override>& truth, RecordingSettings& recording) const;
-  void parameters(Random& random, std::vector<Override>& truth) const;
+  void parameters(Random& random, const Setup& believed, std::vector<Override>& truth) const;
   void hide(Random& random, const Hideable& hideable, double signal, std::vector<Override>& truth,
             BlindCase& drawn) const;
+  void another_damper(Random& random, int number, std::vector<Override>& truth, BlindCase& drawn) const;
   void film(Random& random, std::vector<Override>& truth, BlindCase& drawn) const;
   void hide_pair(Random& random, std::vector<Override>& truth, BlindCase& drawn) const;
   void hide_what_the_kind_says(Random& random, int index, std::vector<Override>& truth,
@@ -59,6 +61,19 @@ class Draw {
   std::uint64_t seed_;
   std::span<const EffectRecord* const> known_;
 };
+
+/// How a strength of this unit grows from the believed damper to another one, so that it does as much there.
+/// What happens inside contacts stays.
+double growth(std::string_view unit, const Setup& from, const Setup& to) {
+  const double mass = to.box.mass / from.box.mass, rate = to.spring.frequency / from.spring.frequency,
+               reach = to.release.displacement / from.release.displacement;
+  if (unit == "N") return mass * rate * rate * reach;
+  if (unit == "N s/m") return mass * rate;
+  if (unit == "N s^2/m^2") return mass / reach;
+  if (unit == "m/s^2") return rate * rate * reach;
+  if (unit == "m/s") return rate * reach;
+  return unit == "kg" ? mass : 1;
+}
 
 void Draw::nuisances(Random& random, std::vector<Override>& truth, RecordingSettings& recording) const {
   const auto add = [&](const char* key, const std::string& value) {
@@ -74,15 +89,15 @@ void Draw::nuisances(Random& random, std::vector<Override>& truth, RecordingSett
   recording.centre_noise = between(random, 0.3e-3, 0.8e-3);
 }
 
-void Draw::parameters(Random& random, std::vector<Override>& truth) const {
+void Draw::parameters(Random& random, const Setup& believed, std::vector<Override>& truth) const {
   const auto add = [&](const char* key, double value, std::string_view unit) {
     truth.push_back({key, toml_of(value, unit), "blind suite"});
   };
   add("restitution.grain_grain",
-      std::clamp(believed_.restitution.grain_grain + between(random, -0.1, 0.1), 0.3, 0.98), "");
+      std::clamp(believed.restitution.grain_grain + between(random, -0.1, 0.1), 0.3, 0.98), "");
   add("restitution.grain_wall",
-      std::clamp(believed_.restitution.grain_wall + between(random, -0.1, 0.1), 0.3, 0.98), "");
-  add("spring.frequency", believed_.spring.frequency * (1 + between(random, -0.004, 0.004)), "Hz");
+      std::clamp(believed.restitution.grain_wall + between(random, -0.1, 0.1), 0.3, 0.98), "");
+  add("spring.frequency", believed.spring.frequency * (1 + between(random, -0.004, 0.004)), "Hz");
 }
 
 void Draw::hide(Random& random, const Hideable& hideable, double signal, std::vector<Override>& truth,
@@ -91,16 +106,23 @@ void Draw::hide(Random& random, const Hideable& hideable, double signal, std::ve
   const auto found = laws_.find(name);
   const SignalLaw law =
       found == laws_.end() || found->second.signal <= 0 ? SignalLaw{1, signal} : found->second;
-  const double noise = relative_noise(drawn.trial.recording, believed_);
-  const double strength = std::min(law.strength_for(signal, noise), hideable.strongest);
+  const Setup& believed = drawn.trial.hidden.believed;
+  const double noise = relative_noise(drawn.trial.recording, believed);
+  const bool outside = hideable.effect->acts_on == ActsOn::box || hideable.effect->acts_on == ActsOn::all;
+  const double grown =
+      outside && hideable.formula.empty()
+          ? growth(parameter_of(*hideable.effect, hideable.strength).unit, believed_, believed)
+          : 1;
+  const double strength = grown * std::min(law.strength_for(signal, noise), hideable.strongest);
   // Not faster: the balance's windows would see much less of it than of the one that the law was measured
   // with.
-  const double frequency = between(random, 0.5, 3), phase = between(random, 0, 6);
-  for (Override& override : at_strength(hideable, strength, believed_, {frequency, phase}))
+  Tone tone{between(random, 0.5, 3), between(random, 0, 6)};
+  for (double& height : tone.table) height = between(random, -1, 1);
+  for (Override& override : at_strength(hideable, strength, drawn.trial.hidden.believed, tone))
     truth.push_back(std::move(override));
   drawn.ids.emplace_back(hideable.id);
   drawn.strengths.push_back(name);
-  const double reached = law.signal_at(strength, noise);
+  const double reached = law.signal_at(strength / grown, noise);
   drawn.signal_to_noise = drawn.signal_to_noise > 0 ? std::min(drawn.signal_to_noise, reached) : reached;
 }
 
@@ -133,6 +155,47 @@ void Draw::film(Random& random, std::vector<Override>& truth, BlindCase& drawn) 
       truth.push_back({known.key, toml_of(known.value + known.error * random.normal(), "kg"), "blind suite"});
 }
 
+/// Its lengths leave the layer of grains free ways of a fifth to four fifths of the release.
+void Draw::another_damper(Random& random, int number, std::vector<Override>& truth, BlindCase& drawn) const {
+  const auto log_between = [&](double low, double high) {
+    return low * std::pow(high / low, random.uniform());
+  };
+  const double diameter = between(random, 8e-3, 12e-3), release = between(random, 0.05, 0.14),
+               frequency = log_between(0.7, 2.5), width = 0.05;
+  const int count = static_cast<int>(between(random, 12, 81));
+  const auto key = [&](std::vector<Override>& to, const char* path, const std::string& value) {
+    to.push_back({path, value, "blind suite"});
+  };
+  std::vector<Override> damper;
+  key(damper, "box.mass", toml_of(log_between(0.15, 1.2), "kg"));
+  key(damper, "spring.frequency", toml_of(frequency, "Hz"));
+  key(damper, "grains.count", std::to_string(count));
+  key(damper, "grains.diameter", toml_of(diameter, "m"));
+  key(damper, "grains.mass",
+      toml_of(believed_.grains.mass * std::pow(diameter / believed_.grains.diameter, 3), "kg"));
+  key(damper, "release.displacement", toml_of(release, "m"));
+  // Densest layers: every other place of a grid of 1/sqrt(2) diameters.
+  const double grid = diameter / std::numbers::sqrt2, row = std::floor((width - diameter) / grid) + 1;
+  const double layer = diameter + grid * (std::ceil(count / std::floor(row * row / 2)) - 1);
+  const auto length = [&](double way) { return layer + way * release + 2e-3; };
+  std::vector<double> lengths{length(0.2), length(0.2), length(0.42), length(0.6), length(0.78)};
+  if (number % 3 == 1) lengths = {lengths[2], lengths[2]};
+  drawn.trial.runs = runs_of_lengths(lengths);
+  for (PlannedRun& run : drawn.trial.runs) run = lasting(std::move(run), 12);
+  key(damper, "box.length", toml_of(lengths.front(), "m"));
+  if (number % 3 == 2) {  // driven near its frequency, by a tenth of the spring's pull at the release
+    const auto shaken =
+        std::find_if(hideable_effects().begin(), hideable_effects().end(),
+                     [](const Hideable& one) { return one.effect->search.harmonic.has_value(); });
+    const double pull = std::pow(2 * std::numbers::pi * frequency, 2) * release;
+    for (Override& override : at_strength(*shaken, 0.1 * pull / shaken->strength.typical, believed_,
+                                          {frequency * between(random, 0.7, 1.3), between(random, 0, 6)}))
+      damper.push_back(std::move(override));
+  }
+  drawn.trial.hidden.believed = changed(believed_, damper, known_);
+  truth.insert(truth.begin(), damper.begin(), damper.end());
+}
+
 /// One from inside the contacts, and one that acts on the box, on everything or in the camera.
 void Draw::hide_pair(Random& random, std::vector<Override>& truth, BlindCase& drawn) const {
   std::vector<const Hideable*> inside, outside;
@@ -156,8 +219,10 @@ void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Overri
     for (const Hideable& hideable : all)
       if (accepts(hideable)) list.push_back(&hideable);
     const std::size_t place = number % list.size(), turn = number / list.size();
-    hide(random, *list[place],
-         std::max(least_signal, design_.signals[(place + turn) % design_.signals.size()]), truth, drawn);
+    const double any = weakest_signal * std::pow(strongest_signal / weakest_signal, random.uniform());
+    const double signal =
+        design_.signals.empty() ? any : design_.signals[(place + turn) % design_.signals.size()];
+    hide(random, *list[place], std::max(least_signal, signal), truth, drawn);
   };
   switch (drawn.kind) {
     case BlindKind::null: return;
@@ -173,6 +238,12 @@ void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Overri
       if (number % 4 == 0) return;  // a quarter hides nothing
       return hide_next(hideable_effects(), 0,
                        [](const Hideable& h) { return h.effect->acts_on != ActsOn::camera; });
+    case BlindKind::dampers:
+      if (number % 4 == 0) return;  // a quarter hides nothing
+      return hide_next(hideable_effects(), 0, [&](const Hideable& h) {
+        // What drives it is known; nobody asks for it a second time.
+        return h.effect->acts_on != ActsOn::camera && (!h.effect->search.harmonic || number % 3 != 2);
+      });
     case BlindKind::pair: return hide_pair(random, truth, drawn);
     case BlindKind::unlisted: return hide_next(hideable_forces(), 12, [](const Hideable&) { return true; });
     case BlindKind::twins: {
@@ -209,9 +280,13 @@ BlindCase Draw::one(BlindKind kind, int index) const {
   drawn.trial.recording = design_.recording;
   std::vector<Override> truth;
   nuisances(random, truth, drawn.trial.recording);
-  if (kind != BlindKind::null) parameters(random, truth);
+  drawn.trial.hidden.believed = believed_;
+  if (kind == BlindKind::dampers) another_damper(random, index, truth, drawn);
+  const bool as_believed =
+      kind == BlindKind::null || (kind != BlindKind::parameters && random.uniform() < 0.25);
+  if (!as_believed) parameters(random, drawn.trial.hidden.believed, truth);
   hide_what_the_kind_says(random, index, truth, drawn);
-  drawn.trial.hidden = {believed_, changed(believed_, truth, known_)};
+  drawn.trial.hidden.truth = changed(believed_, truth, known_);
   drawn.trial.seed = random.bits() >> 16;
   return drawn;
 }
@@ -253,8 +328,7 @@ std::string strength_name(std::string_view id, BlindKind kind) {
 }
 
 BlindDesign full_design() {
-  return {
-      lasting(runs_of_lengths({0.04, 0.04, 0.065, 0.085, 0.104}), {20, 20, 12, 10, 8}), {3, 6, 12, 25}, {}};
+  return {lasting(runs_of_lengths({0.04, 0.04, 0.065, 0.085, 0.104}), {20, 20, 12, 10, 8}), {}, {}};
 }
 
 BlindDesign small_design() { return {lasting(runs_of_lengths({0.04, 0.065}), {5, 4}), {25}, {}}; }

@@ -10,16 +10,18 @@ namespace shakedown {
 
 /// `films`: physics or none through a camera as it is (lens, shutter, depth, wander, trigger, release), in
 /// a laboratory that weighs to half a per cent and says so in [known].
-enum class BlindKind { null, parameters, single, camera, pair, unlisted, twins, films };
-constexpr std::array<std::string_view, 8> blind_kind_names{"nulls", "parameters", "singles", "camera",
-                                                           "pairs", "unlisted",   "twins",   "films"};
+/// `dampers`: physics or none in another damper (masses, number and diameter of grains, frequency, release,
+/// lengths), two of three with one length alone or driven all the time.
+enum class BlindKind { null, parameters, single, camera, pair, unlisted, twins, films, dampers };
+constexpr std::array<std::string_view, 9> blind_kind_names{
+    "nulls", "parameters", "singles", "camera", "pairs", "unlisted", "twins", "films", "dampers"};
 
 /// How many of each kind.
-using BlindCounts = std::array<int, 8>;
-constexpr BlindCounts full_counts{60, 60, 120, 30, 30, 24, 20, 60}, small_counts{2, 1, 3, 1, 1, 1, 0, 0};
+using BlindCounts = std::array<int, 9>;
+constexpr BlindCounts full_counts{60, 60, 120, 30, 30, 24, 20, 60, 60}, small_counts{2, 1, 3, 1, 1, 1, 0, 0};
 /// As long as a lunch: at half a minute of two cores a case, and some ten for the strengths, about 45
 /// minutes.
-constexpr BlindCounts lunch_counts{8, 8, 22, 6, 6, 6, 0, 14};
+constexpr BlindCounts lunch_counts{8, 8, 20, 6, 6, 6, 0, 12, 12};
 
 /// "nulls=10,singles=20": those kinds alone. Throws InputError.
 BlindCounts parse_counts(std::string_view text, const std::string& origin = "--cases");
@@ -36,10 +38,13 @@ struct BlindCase {
                                  ///< half the release
 };
 
+/// From what nobody can see to what nobody can miss.
+constexpr double weakest_signal = 2, strongest_signal = 40;
+
 struct BlindDesign {
-  std::vector<PlannedRun> runs;  ///< the experiment of every case but the twins'
-  std::vector<double> signals{3, 6, 12, 25};
-  RecordingSettings recording;  ///< but for its noise, which is drawn
+  std::vector<PlannedRun> runs;   ///< the experiment of every case but the twins'
+  std::vector<double> signals{};  ///< in turn; empty: log-uniform from weakest_signal to strongest_signal
+  RecordingSettings recording;    ///< but for its noise, which is drawn
 };
 /// Five runs as the open cases have them, the longer boxes for as long as they swing.
 BlindDesign full_design();
@@ -71,8 +76,9 @@ using SignalLaws = std::map<std::string, SignalLaw, std::less<>>;
 /// In the twins' small experiment a strength is worth less than in the full one.
 std::string strength_name(std::string_view id, BlindKind kind);
 
-/// Laboratory and diagnosis differ in parameters drawn at random (of nulls the believed ones), in contact
-/// time, packing (three in five are as believed), camera noise and seed. Same arguments, same cases.
+/// Laboratory and diagnosis differ in parameters drawn at random (of nulls and of a quarter of all others but
+/// `parameters` the believed ones), in contact time, packing (three in five are as believed), camera noise
+/// and seed. Same arguments, same cases.
 std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design,
                                   const SignalLaws& laws, std::uint64_t seed,
                                   std::span<const EffectRecord* const> known);

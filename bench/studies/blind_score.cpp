@@ -12,13 +12,13 @@
 #include "blind_suite.hpp"
 #include "calibration.hpp"
 #include "effects.hpp"
-#include "force_likeness.hpp"
 #include "json_file.hpp"
 #include "known_effects.hpp"
 #include "ledger.hpp"
 #include "opened_case.hpp"
 #include "random.hpp"
 #include "score_table.hpp"
+#include "unlisted_score.hpp"
 
 namespace shakedown {
 
@@ -177,53 +177,18 @@ void films(const std::vector<OpenedCase>& cases, Table& table) {
                    [](const OpenedCase& one) { return one.exact(); }));
 }
 
-// ---- forces in no list ----
-
-const EffectChoice& formula_of(const Setup& setup) {
-  const auto found = std::find_if(setup.effects.begin(), setup.effects.end(),
-                                  [](const EffectChoice& choice) { return choice.record->takes_formula(); });
-  EXPECT(found != setup.effects.end());
-  return *found;
-}
-
-template <class T>
-const T& value_of_kind(const EffectChoice& choice, ParameterKind kind) {
-  const auto& parameters = choice.record->parameters;
-  const auto found = std::find_if(parameters.begin(), parameters.end(),
-                                  [&](const Parameter& parameter) { return parameter.kind == kind; });
-  EXPECT(found != parameters.end());
-  return std::get<T>(choice.values.find(found->name)->second);
-}
-
-/// One of the formulas offered is the hidden force to within its strength.
-bool form_is_offered(const OpenedCase& one, const TrialTools& tools) {
-  if (one.lost || one.forces.empty()) return false;
-  Setup truth = parse_setup(one.setup, one.name, tools.known);
-  truth.run.duration = 8;
-  const Trajectory motion = tools.model->run(truth);
-  const EffectChoice& hidden = formula_of(truth);  // beside what is believed
-  const std::vector<double> force =
-      force_along(value_of_kind<std::string>(hidden, ParameterKind::text),
-                  value_of_kind<std::map<std::string, double>>(hidden, ParameterKind::constants), motion);
-  for (const OfferedForce& offered : one.forces)
-    for (const std::string& form : offered.forms) {
-      try {
-        if (force_likeness(force, force_along(form, offered.constants, motion), motion.x_box) > 0.95)
-          return true;
-      } catch (const FormulaProblem&) {  // a look-alike with constants of its own
-      }
-    }
-  return false;
-}
-
-void unlisted(const std::vector<OpenedCase>& cases, const TrialTools& tools, Table& table) {
-  table.at_least(
-      "a force in no list: \"none of the known effects\"",
-      count(cases, of_kind(BlindKind::unlisted), [](const OpenedCase& one) { return one.exact(); }), 0.85);
-  table.at_least("its form among those offered (cosine above 0.95)",
-                 count(cases, of_kind(BlindKind::unlisted),
-                       [&](const OpenedCase& one) { return form_is_offered(one, tools); }),
-                 0.80);
+void dampers(const std::vector<OpenedCase>& cases, Table& table) {
+  const auto exact = [](const OpenedCase& one) { return one.exact(); };
+  table.beside(
+      "other dampers: named exactly, signal to noise 12 and more",
+      count(
+          cases, [](const OpenedCase& one) { return one.kind == BlindKind::dampers && one.signal >= 9; },
+          exact));
+  table.beside(
+      "other dampers: nothing hidden, nothing named",
+      count(
+          cases, [](const OpenedCase& one) { return one.kind == BlindKind::dampers && one.hidden.empty(); },
+          exact));
 }
 
 void twins(const std::vector<OpenedCase>& cases, Table& table) {
@@ -351,7 +316,8 @@ BlindScore score_blind_suite(const fs::path& folder, const TrialTools& tools, co
   widths(cases, table);
   inventions(cases, table);
   films(cases, table);
-  unlisted(cases, tools, table);
+  dampers(cases, table);
+  unlisted_forces(cases, tools, table);
   twins(cases, table);
   log_scores(cases, table);
   reliability(cases, table);

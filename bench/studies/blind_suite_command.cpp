@@ -122,17 +122,18 @@ Command add_blind_suite_command(CLI::App& program) {
   command
       .add_option("--cases", a->cases,
                   "how many of each kind: "
-                  "nulls=8,parameters=8,singles=22,camera=6,pairs=6,unlisted=6,films=14")
+                  "nulls=8,parameters=8,singles=20,camera=6,pairs=6,unlisted=6,films=12,dampers=12")
       ->type_name("KIND=N,...");
   command
-      .add_option("--signals", a->signals,
-                  "signal to noise of what is hidden, in turn; default: 3,6,12,25 (--small: 25)")
+      .add_option(
+          "--signals", a->signals,
+          "signal to noise of what is hidden, in turn; default: log-uniform from 2 to 40 (--small: 25)")
       ->delimiter(',')
       ->check(CLI::Range(0.1, 1000.0))
       ->type_name("RATIO,...");
   command.add_flag("--full", a->full,
-                   "all 404: nulls=60,parameters=60,singles=120,camera=30,pairs=30,unlisted=24,twins=20,"
-                   "films=60; over three hours of two cores");
+                   "all 464: nulls=60,parameters=60,singles=120,camera=30,pairs=30,unlisted=24,twins=20,"
+                   "films=60,dampers=60; some four hours of two cores");
   command.add_flag("--small", a->small, "a few cases, two short runs each, strong signals");
   command
       .add_option(

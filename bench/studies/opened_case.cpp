@@ -39,6 +39,7 @@ void read_truth(const Json& truth, OpenedCase& one) {
   one.kind = kind_of(truth.at("kind"));
   one.signal = truth.at("signal_to_noise");
   one.hidden = truth.at("hidden").get<Names>();
+  one.ids = truth.value("ids", Names{});
   one.twin = truth.at("twin");
   one.setup = truth.at("setup");
   one.laboratory = truth.at("laboratory").get<std::map<std::string, double>>();

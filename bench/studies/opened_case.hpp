@@ -36,6 +36,7 @@ struct OpenedCase {
   double signal = 0;  ///< to noise, of what is hidden
 
   // what is hidden
+  std::vector<std::string> ids;  ///< Hideable's
   std::vector<std::string> hidden;
   std::string twin;   ///< the other one of a pair of twins
   std::string setup;  ///< the truth, as a setup file

@@ -43,17 +43,34 @@ struct Force {
   const char *id, *formula, *constants;
   double typical;
   const char* unit;
+  bool of_the_dictionary = false, takes_table = false;
 };
+
+/// Straight between its heights, which stand 30 mm apart from -90 to 90 mm.
+constexpr const char* table_of_seven =
+    "c*(a0*max(0,1-abs(x/w+3))+a1*max(0,1-abs(x/w+2))+a2*max(0,1-abs(x/w+1))+a3*max(0,1-abs(x/w))"
+    "+a4*max(0,1-abs(x/w-1))+a5*max(0,1-abs(x/w-2))+a6*max(0,1-abs(x/w-3)))";
 
 std::vector<Hideable> forces_of_no_list() {
   static constexpr double strongest = 50;
   static constexpr Force forces[] = {
-      {"force:eddy brake", "-c*v*exp(-((x-x0)/w)^2)", "x0 = \"45 mm\", w = \"12 mm\"", 0.2, "N s/m"},
-      {"force:thickening", "-c*v*x^2", "", 10, "N s/m^3"},
-      {"force:cubic drag", "-c*v^3", "", 0.1, "N s^3/m^3"},
-      {"force:lopsided spring", "-c*x^2", "", 5, "N/m^2"},
-      {"force:soft stop", "-c*max(x-x0,0)", "x0 = \"60 mm\"", 5, "N/m"},
-      {"force:fading push", "c*exp(-t/tau)", "tau = \"2 s\"", 0.1, "N"},
+      // Forms that a diagnosis offers.
+      {"force:eddy brake", "-c*v*exp(-((x-x0)/w)^2)", "x0 = \"45 mm\", w = \"12 mm\"", 0.2, "N s/m", true},
+      {"force:thickening", "-c*v*x^2", "", 10, "N s/m^3", true},
+      {"force:cubic drag", "-c*v^3", "", 0.1, "N s^3/m^3", true},
+      {"force:lopsided spring", "-c*x^2", "", 5, "N/m^2", true},
+      {"force:soft stop", "-c*max(x-x0,0)", "x0 = \"60 mm\"", 5, "N/m", true},
+      {"force:fading push", "c*exp(-t/tau)", "tau = \"2 s\"", 0.1, "N", true},
+      // Forms of no dictionary: a spot that rubs, a brake between two places, a stop that loses energy,
+      // a saw tooth, knocks, a spring with hysteresis (Reid's element), a table drawn at random.
+      {"force:rubbing spot", "-c*v/sqrt(v^2+v0^2)/(1+((x-x0)/w)^4)",
+       "x0 = \"45 mm\", w = \"12 mm\", v0 = \"10 mm/s\"", 0.05, "N"},
+      {"force:brake between", "-c*v*(x>x0)*(x<x1)", "x0 = \"20 mm\", x1 = \"50 mm\"", 0.2, "N s/m"},
+      {"force:lossy stop", "-c*max(x-x0,0)*(1+v/v0)", "x0 = \"60 mm\", v0 = \"200 mm/s\"", 5, "N/m"},
+      {"force:saw tooth", "c*(t/T-rint(t/T))", "T = \"1.7 s\"", 0.1, "N"},
+      {"force:knocks", "c*exp(-((t-T*rint(t/T))/w)^2)", "T = \"1.3 s\", w = \"30 ms\"", 0.2, "N"},
+      {"force:hysteresis", "-c*abs(x)*v/sqrt(v^2+v0^2)", "v0 = \"10 mm/s\"", 1, "N/m"},
+      {"force:table", table_of_seven, "w = \"30 mm\"", 0.05, "N", false, true},
   };
   std::vector<Hideable> list;
   for (const Force& force : forces)
@@ -63,7 +80,9 @@ std::vector<Hideable> forces_of_no_list() {
                     .formula = force.formula,
                     .constants = force.constants,
                     .typical_constant = force.typical,
-                    .unit = force.unit});
+                    .unit = force.unit,
+                    .of_the_dictionary = force.of_the_dictionary,
+                    .takes_table = force.takes_table});
   return list;
 }
 
@@ -74,8 +93,10 @@ std::string key_of_kind(const EffectRecord& record, ParameterKind kind) {
   return "";
 }
 
-std::vector<Override> force_at(const Hideable& force, double strength) {
-  const std::string more = force.constants.empty() ? "" : ", " + std::string(force.constants);
+std::vector<Override> force_at(const Hideable& force, double strength, const Tone& tone) {
+  std::string more = force.constants.empty() ? "" : ", " + std::string(force.constants);
+  for (std::size_t i = 0; force.takes_table && i < tone.table.size(); ++i)
+    more += ", a" + std::to_string(i) + " = " + toml_of(tone.table[i], "");
   const std::string value = toml_of(force.typical_constant * strength, force.unit);
   return {{key_of_kind(*force.effect, ParameterKind::text), toml_string(force.formula), origin},
           {key_of_kind(*force.effect, ParameterKind::constants), "{c = " + value + more + "}", origin}};
@@ -102,7 +123,7 @@ const Hideable* find_hideable(std::string_view id) {
 
 std::vector<Override> at_strength(const Hideable& hideable, double strength, const Setup& setup,
                                   const Tone& tone) {
-  if (!hideable.formula.empty()) return force_at(hideable, strength);
+  if (!hideable.formula.empty()) return force_at(hideable, strength, tone);
   const double typical = hideable.strength.typical;
   const double level = hideable.strength.inverse ? typical / strength : typical * strength;
   std::vector<Override> overrides = overrides_of_strength(*hideable.effect, hideable.strength, level, setup);

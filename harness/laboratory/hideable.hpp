@@ -2,6 +2,7 @@
 // What a blind suite hides, each with one number that says how strong it is: every effect of the list, by its
 // record's search, and forces that no list has.
 #pragma once
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,23 +18,28 @@ struct Hideable {
   std::string
       id;  ///< the effect's name, of several ways with the way ("constant_acceleration.z"); "force:..."
   const EffectRecord* effect = nullptr;
-  SearchedStrength strength{};   ///< within the bounds of the parameter; of a force unused
-  double strongest = 0;          ///< in typical ones: where it stops making sense
-  std::string_view formula{};    ///< of a force in no list; its constant c is the strength
-  std::string_view constants{};  ///< its other constants, as TOML
-  double typical_constant = 0;   ///< c at strength 1, SI
-  std::string_view unit{};       ///< of c
+  SearchedStrength strength{};     ///< within the bounds of the parameter; of a force unused
+  double strongest = 0;            ///< in typical ones: where it stops making sense
+  std::string_view formula{};      ///< of a force in no list; its constant c is the strength
+  std::string_view constants{};    ///< its other constants, as TOML
+  double typical_constant = 0;     ///< c at strength 1, SI
+  std::string_view unit{};         ///< of c
+  bool of_the_dictionary = false;  ///< the form of a force is one that a diagnosis offers
+  bool takes_table = false;        ///< its constants a0, a1 ... are a table drawn at random
 };
 
 /// Every effect that a diagnosis looks for, in the order of the list, each strength of its own.
 const std::vector<Hideable>& hideable_effects();
-/// Forces that no list has.
+/// Forces that no list has: some of a form that a diagnosis offers (its dictionary of formulas), some of
+/// none.
 const std::vector<Hideable>& hideable_forces();
 const Hideable* find_hideable(std::string_view id);
 
-/// Frequency and phase of what oscillates.
+/// What is drawn beside a strength: frequency and phase of what oscillates, heights of a force that is a
+/// table.
 struct Tone {
   double frequency = 2.3, phase = 0.7;
+  std::array<double, 7> table{0.6, -0.8, 0.3, 0.9, -0.5, 0.7, -0.4};  ///< in units of its strength
 };
 
 /// Overrides that put it into this setup.

@@ -15,9 +15,9 @@ struct IdealIgnorance {
 };
 
 struct IdealSettings {
-  std::vector<PlannedRun> runs;
-  RecordingSettings recording;  ///< its noise and frame rate; other errors of the camera are in `ignorance`
-  IdealIgnorance ignorance;
+  std::vector<PlannedRun> runs{};
+  RecordingSettings recording{};  ///< its noise and frame rate; other errors of the camera are in `ignorance`
+  IdealIgnorance ignorance{};
   int count = 24;  ///< simulations of each different run and half
   std::uint64_t seed = 1;
 };

@@ -7,6 +7,7 @@
 
 #include "camera_features.hpp"
 #include "candidates.hpp"
+#include "ideal_signal.hpp"
 #include "momentum.hpp"
 #include "parameter_knobs.hpp"
 #include "refit.hpp"
@@ -108,7 +109,20 @@ SignalLaw signal_law(const Hideable& hideable, const Setup& believed, std::uint6
                      const SignalSettings& settings, const TrialTools& tools) {
   constexpr double too_little = 12, wanted = 20, too_much = 40;
   constexpr int most_rounds = 3;
-  const auto signal_at = [&](double strength, int round, double enough) {
+  const bool of_the_camera = hideable.effect->acts_on == ActsOn::camera;
+  const auto signal_at = [&](double strength, int round, double enough) -> Signal {
+    if (hideable.formula.empty() && !of_the_camera) {
+      const IdealSettings ideal{.runs = settings.runs,
+                                .count = std::max(8, settings.count / 4),
+                                .seed = seed + static_cast<std::uint64_t>(round)};
+      const double seen = std::max(
+          0.0,
+          ideal_signal(believed, changed(believed, at_strength(hideable, strength, believed), tools.known),
+                       ideal, tools));
+      // Forces on the box are seen against the camera's noise, what happens in contacts against chaos.
+      const bool forced = hideable.effect->acts_on == ActsOn::box || hideable.effect->acts_on == ActsOn::all;
+      return forced ? Signal{seen, 0} : Signal{0, seen};
+    }
     SignalSettings here = settings;
     here.enough = enough;
     return signal_to_noise(

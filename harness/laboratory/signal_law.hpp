@@ -50,7 +50,9 @@ struct SignalLaw {
   double strength_for(double signal_wanted, double noise) const;
 };
 
-/// Measured near a signal of 20, where it is well above its own error (about 6 %), and at half that strength.
+/// Measured near a signal of 20, where it is well above its own error, and at half that strength. Of an
+/// effect on box or grains it is ideal_signal(): of a judge who knows the form and owes nothing to any
+/// diagnosis. Of an error of the camera and of a force in no list it is signal_to_noise().
 SignalLaw signal_law(const Hideable& hideable, const Setup& believed, std::uint64_t seed,
                      const SignalSettings& settings, const TrialTools& tools);
 

@@ -9,7 +9,9 @@
 
 #include "blind_suite.hpp"
 #include "effects.hpp"
+#include "engines.hpp"
 #include "force_likeness.hpp"
+#include "force_shapes.hpp"
 #include "signal_law.hpp"
 
 using namespace shakedown;
@@ -22,11 +24,58 @@ std::size_t singles_of_the_list() {
                     [](const Hideable& one) { return one.effect->acts_on != ActsOn::camera; }));
 }
 
-std::vector<BlindCase> drawn(std::uint64_t seed = 1, const BlindCounts& counts = full_counts) {
+std::vector<BlindCase> drawn(std::uint64_t seed = 1, const BlindCounts& counts = full_counts,
+                             const std::vector<double>& signals = {}) {
   SignalLaws unit;
+  BlindDesign design = full_design();
+  design.signals = signals;
   for (const std::vector<Hideable>* list : {&hideable_effects(), &hideable_forces()})
     for (const Hideable& hideable : *list) unit[hideable.id] = {1, 20};
-  return draw_cases(shakedown::Setup{}, counts, full_design(), unit, seed, all_effects());
+  return draw_cases(shakedown::Setup{}, counts, design, unit, seed, all_effects());
+}
+
+/// The best that a grid over the family's constants comes to.
+double likeness_to_family(const Hideable& force, const ForceShape& shape, const Trajectory& motion) {
+  const shakedown::Setup setup = changed({}, at_strength(force, 1), all_effects());
+  const EffectChoice& choice = setup.effects.at(0);
+  std::vector<double> hidden = force_along(choice.text("force"), choice.constants("constants"), motion);
+  const auto largest = [](const std::vector<double>& values) {
+    return std::abs(*std::max_element(values.begin(), values.end(),
+                                      [](double a, double b) { return std::abs(a) < std::abs(b); }));
+  };
+  const auto scale = [&](const ShapeParameter& parameter) {
+    if (parameter.unit.empty()) return 1.0;
+    return parameter.scale_of == ShapeOf::position   ? largest(motion.x_box)
+           : parameter.scale_of == ShapeOf::velocity ? largest(motion.v_box)
+                                                     : motion.time.back();
+  };
+  const auto values = [&](std::size_t k) {
+    std::vector<double> grid{0};
+    if (k < shape.parameters.size()) {
+      grid.clear();
+      for (const double start : shape.parameters[k].start) grid.push_back(start * scale(shape.parameters[k]));
+    }
+    return grid;
+  };
+  double best = 0;
+  std::vector<double> offered(motion.time.size());
+  for (const double first : values(0))
+    for (const double second : values(1)) {
+      for (std::size_t i = 0; i < offered.size(); ++i) {
+        const double x = motion.x_box[i], v = motion.v_box[i], t = motion.time[i];
+        const auto g = [&](double argument) { return shape.value(argument, {first, second}); };
+        switch (shape.of) {
+          case ShapeOf::position: offered[i] = g(x); break;
+          case ShapeOf::damping_at_x: offered[i] = -v * g(x); break;
+          case ShapeOf::velocity: offered[i] = g(v); break;
+          case ShapeOf::damping_at_t: offered[i] = -v * g(t); break;
+          case ShapeOf::stiffness_at_t: offered[i] = -x * g(t); break;
+          case ShapeOf::time: offered[i] = g(t); break;
+        }
+      }
+      best = std::max(best, force_likeness(hidden, offered, motion.x_box));
+    }
+  return best;
 }
 
 }  // namespace
@@ -83,7 +132,7 @@ TEST(BlindCases, AreAsManyOfEachKindAsAskedForUnderNamesThatTellNothing) {
     names.insert(cases[i].name);
     nulls_first += i < 60 && cases[i].kind == BlindKind::null;
   }
-  EXPECT_EQ(names.size(), 404u);
+  EXPECT_EQ(names.size(), 464u);
   EXPECT_EQ(count[BlindKind::single], 120);
   EXPECT_EQ(count[BlindKind::twins], 20);
   EXPECT_LT(nulls_first, 25);  // 10.5 +- 2.7 expected of a shuffle
@@ -102,9 +151,15 @@ TEST(BlindCases, AreTheSameForTheSameSeedAndDifferentForAnother) {
 
 TEST(BlindCases, HideWhatTheirKindSays) {
   std::set<std::string> singles;
+  int as_believed = 0, with_any = 0;
   for (const BlindCase& one : drawn()) {
     const std::vector<std::string> hidden = hidden_effects(one.trial.hidden);
-    EXPECT_EQ(has_other_parameters(one.trial.hidden), one.kind != BlindKind::null) << one.name;
+    const bool others = has_other_parameters(one.trial.hidden);
+    if (one.kind == BlindKind::null || one.kind == BlindKind::parameters) {
+      EXPECT_EQ(others, one.kind == BlindKind::parameters) << one.name;
+    } else if (one.kind != BlindKind::films) {  // where masses are off
+      ++with_any, as_believed += !others;
+    }
     EXPECT_EQ(hidden.size(), one.ids.size()) << one.name;
     if (one.kind == BlindKind::single) singles.insert(one.ids.at(0));
     const bool fits = one.kind == BlindKind::pair       ? hidden.size() == 2
@@ -115,13 +170,56 @@ TEST(BlindCases, HideWhatTheirKindSays) {
     EXPECT_EQ(one.twin.empty(), one.kind != BlindKind::twins);
   }
   EXPECT_EQ(singles.size(), singles_of_the_list());
+  EXPECT_NEAR(as_believed / double(with_any), 0.25, 4 * std::sqrt(0.25 * 0.75 / with_any));
+}
+
+TEST(BlindCases, DampersAreEachAnotherOneThatTheModelRuns) {
+  const auto hard = engine_named("hard");
+  std::set<int> counts;
+  int one_length = 0, driven = 0, nothing = 0;
+  for (const BlindCase& one : drawn(3, {0, 0, 0, 0, 0, 0, 0, 0, 24})) {
+    const HiddenCase& hidden = one.trial.hidden;
+    counts.insert(hidden.believed.grains.count);
+    EXPECT_EQ(hidden.believed.grains.count, hidden.truth.grains.count);
+    EXPECT_EQ(hidden.believed.release.displacement, hidden.truth.release.displacement);
+    driven += !hidden.believed.effects.empty();
+    one_length += one.trial.runs.size() == 2;
+    nothing += one.ids.empty();
+    EXPECT_EQ(hidden_effects(hidden).size(), one.ids.size()) << one.name;
+    for (const PlannedRun& run : one.trial.runs) {
+      shakedown::Setup setup = changed(hidden.believed, run.overrides, all_effects());
+      setup.run.duration = 0.02;
+      EXPECT_NO_THROW(hard->run(setup)) << one.name << " " << run.name;
+    }
+  }
+  EXPECT_GT(counts.size(), 12u);
+  EXPECT_EQ(one_length, 8);
+  EXPECT_EQ(driven, 8);
+  EXPECT_EQ(nothing, 6);
+}
+
+/// Along the plain damper's motion, by grids of constants as the search begins with.
+TEST(Hideable, SevenForcesInNoListAreOfNoDictionaryEither) {
+  const auto hard = engine_named("hard");
+  shakedown::Setup setup;
+  setup.run.duration = 8;
+  const Trajectory motion = hard->run(setup);
+  int of_none = 0;
+  for (const Hideable& force : hideable_forces()) {
+    of_none += !force.of_the_dictionary;
+    const bool offered =
+        std::any_of(force_shapes().begin(), force_shapes().end(),
+                    [&](const ForceShape& shape) { return likeness_to_family(force, shape, motion) > 0.95; });
+    EXPECT_TRUE(force.of_the_dictionary || !offered) << force.id;
+  }
+  EXPECT_EQ(of_none, 7);
 }
 
 TEST(BlindCases, OneRoundMeetsEveryEffectAndFourMeetEachAtEverySignal) {
   const auto met = [](int singles) {
     std::set<std::string> effects;
     std::set<std::pair<std::string, double>> at_signals;
-    for (const BlindCase& one : drawn(1, {0, 0, singles, 0, 0, 0, 0})) {
+    for (const BlindCase& one : drawn(1, {0, 0, singles, 0, 0, 0, 0}, {3, 6, 12, 25})) {
       effects.insert(one.ids.at(0));
       at_signals.insert({one.ids.at(0), one.signal_to_noise});
     }
@@ -130,6 +228,16 @@ TEST(BlindCases, OneRoundMeetsEveryEffectAndFourMeetEachAtEverySignal) {
   const std::size_t all = singles_of_the_list();
   EXPECT_EQ(met(static_cast<int>(all)).first, all);
   EXPECT_EQ(met(4 * static_cast<int>(all)).second, 4 * all);
+}
+
+TEST(BlindCases, SignalsAreLogUniformWhereTheDesignNamesNone) {
+  std::vector<double> logarithms;
+  for (const BlindCase& one : drawn(2, {0, 0, 200, 0, 0, 0, 0}))
+    if (one.signal_to_noise > 0)  // within the strongest sensible strength
+      logarithms.push_back(std::log(one.signal_to_noise / weakest_signal) /
+                           std::log(strongest_signal / weakest_signal));
+  EXPECT_EQ(logarithms.size(), 200u);
+  EXPECT_GT(uniformity_p_value(logarithms), 1e-3);
 }
 
 TEST(BlindCases, AreAtTheSignalsOfTheDesign) {

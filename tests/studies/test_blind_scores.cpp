@@ -218,7 +218,7 @@ TEST(BlindScores, AForceInNoListIsFoundBesideWhatIsBelieved) {
         return answer.dump();
       },
       believed);
-  EXPECT_EQ(figure(scored(folder.path()), "its form among those offered").found.substr(0, 6), "1 of 1");
+  EXPECT_EQ(figure(scored(folder.path()), "its form, where there is one").found.substr(0, 6), "1 of 1");
 }
 
 TEST(BlindScores, ACaseLostIsWrongInEveryFigure) {
