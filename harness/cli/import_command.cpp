@@ -21,6 +21,7 @@ struct ImportArguments {
   std::vector<std::string> files;
   std::string out = "experiment.toml";
   bool replace = false;
+  ImportOptions known;
   JsonOutput json;
 };
 
@@ -48,12 +49,14 @@ int import_files(const ImportArguments& arguments) {
                        "name another file, or add --replace"}});
   arguments.json.check();
   const ImportedTables imported =
-      import_tables({arguments.files.begin(), arguments.files.end()}, out.parent_path());
+      import_tables({arguments.files.begin(), arguments.files.end()}, out.parent_path(), arguments.known);
   write_file(out, imported.experiment);
   fmt::print(arguments.json.for_people(), "{}\nwrote {}\n", imported.preview, out.string());
   if (!imported.open_questions.empty()) fmt::print(arguments.json.for_people(), "Please fill in:\n");
   for (const std::string& question : imported.open_questions)
     fmt::print(arguments.json.for_people(), "  {}\n", question);
+  if (imported.open_questions.empty())
+    fmt::print(arguments.json.for_people(), "Then: shakedown diagnose setup.toml --data {}\n", out.string());
   arguments.json.write(as_json(imported, out.string()));
   return exit_done;
 }
@@ -69,6 +72,20 @@ Command add_import_command(CLI::App& program) {
                   "tables of one layout: CSV, tabs, Tracker, TrackMate, trackpy, ImageJ, spreadsheets")
       ->required();
   command.add_option("--out", arguments->out, "the experiment file to write")->capture_default_str();
+  command.add_option("--frame-rate", arguments->known.frame_rate, "frames a second, \"240 Hz\"")
+      ->type_name("RATE");
+  command.add_option("--pixel", arguments->known.pixel_size, "length that one pixel shows, \"0.25 mm\"")
+      ->type_name("LENGTH");
+  command
+      .add_option("--origin", arguments->known.origin,
+                  "what positions read where the spring is relaxed, \"640 px\"")
+      ->type_name("POSITION");
+  command
+      .add_option("--length", arguments->known.lengths,
+                  "inner length of the box, \"40 mm\": one for all tables, or again for each")
+      ->type_name("LENGTH")
+      ->expected(1)
+      ->take_all();
   command.add_flag("--replace", arguments->replace, "overwrite it");
   add_json_option(command, arguments->json);
   return {&command, [arguments] { return import_files(*arguments); }};

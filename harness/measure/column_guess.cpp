@@ -217,6 +217,21 @@ GuessedColumn guess_centre(const Table& table, std::set<std::string>& taken) {
                         taken);
 }
 
+GuessedColumn guess_other_track(const Table& table, const std::string& box, std::set<std::string>& taken) {
+  GuessedColumn none{"grain_centre", "", "", "", "no column looks like it", false};
+  const std::size_t dot = box.rfind('.');
+  if (dot == std::string::npos || dot == 0) return none;
+  for (const TableColumn* column : possible_positions(table)) {
+    if (taken.contains(column->name) || !column->name.ends_with(box.substr(dot))) continue;
+    GuessedColumn guess{"grain_centre", column->name, "", "", "another track of the table"};
+    guess_unit(table, *column, false, guess);
+    guess.certain = false;
+    taken.insert(column->name);
+    return guess;
+  }
+  return none;
+}
+
 void guess_tracks(const Table& table, std::vector<GuessedColumn>& columns) {
   const TableColumn* tracks = find_track_column(table);
   if (!tracks) return;

@@ -17,6 +17,10 @@ GuessedColumn guess_box(const Table& table, std::set<std::string>& taken);
 /// The grains' centre, likewise.
 GuessedColumn guess_centre(const Table& table, std::set<std::string>& taken);
 
+/// Of tables with a track's name before each of its columns ("box.x", "balls.x"): the same coordinate of the
+/// next track, where no name tells the grains.
+GuessedColumn guess_other_track(const Table& table, const std::string& box, std::set<std::string>& taken);
+
 /// Tables with one row a track and frame: the first track is the box, the second the grains, until the user
 /// says otherwise. `columns` are time, box and centre.
 void guess_tracks(const Table& table, std::vector<GuessedColumn>& columns);

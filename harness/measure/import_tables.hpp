@@ -27,10 +27,16 @@ struct ImportedTables {
   std::vector<std::string> open_questions;  ///< what the user must fill in before the file can be used
 };
 
+/// What no table says, as it stands in an experiment file ("240 Hz"); empty: asked for where it is needed.
+struct ImportOptions {
+  std::string frame_rate, pixel_size, origin;
+  std::vector<std::string> lengths{};  ///< of the box in each table, or one for all
+};
+
 /// Guesses one layout for all tables (of one camera and one tracker). `relative_to`: folder in which the
 /// experiment file will stand. Throws InputError when a table cannot be read or lacks a column of the first
-/// one's layout, FileError.
+/// one's layout or an option is no such quantity, FileError.
 ImportedTables import_tables(const std::vector<std::filesystem::path>& files,
-                             const std::filesystem::path& relative_to);
+                             const std::filesystem::path& relative_to, const ImportOptions& options = {});
 
 }  // namespace shakedown

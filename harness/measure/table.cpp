@@ -262,7 +262,10 @@ Table parse_table(std::string_view text, const std::string& name) {
   if (header.empty() && last_comment.size() == width) header.push_back(last_comment);
   table.header_lines = lines[first].number - 1;
   table.columns = columns_of(header, width);
-  for (std::size_t i = first; i < lines.size(); ++i)
+  // Spreadsheets write lines of nothing but delimiters below the last row.
+  std::size_t end = lines.size();
+  while (end > first + 1 && filled(split_cells(trimmed(lines[end - 1].text), table.delimiter)) == 0) --end;
+  for (std::size_t i = first; i < end; ++i)
     if (!is_comment(trimmed(lines[i].text)))
       append_row(table, split_cells(lines[i].text, table.delimiter), lines[i].number);
   drop_shadow_columns(table);

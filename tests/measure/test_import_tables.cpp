@@ -53,6 +53,39 @@ class ImportedText : public ::testing::Test {
   const ScratchFolder folder_;
 };
 
+TEST_F(ImportedText, WhatIsToldOnTheCommandLineNeedsNoEditor) {
+  std::ofstream(folder_ / "a.csv") << "frame,x_px\n" + rows({"t", "x"});
+  std::ofstream(folder_ / "b.csv") << "frame,x_px\n" + rows({"t", "x"});
+  const ImportedTables asked = import_tables({folder_ / "a.csv", folder_ / "b.csv"}, folder_.path());
+  EXPECT_EQ(asked.open_questions.size(), 2u);  // pixel size and frame rate, once each
+  ImportOptions options{"240 Hz", "0.25 mm", "640 px", {"40 mm", "65 mm"}};
+  const ImportedTables told = import_tables({folder_ / "a.csv", folder_ / "b.csv"}, folder_.path(), options);
+  EXPECT_TRUE(told.open_questions.empty()) << told.open_questions.front();
+  const Experiment experiment = parse_experiment(told.experiment, "experiment.toml", folder_.path());
+  EXPECT_EQ(experiment.title, "a, b");
+  ASSERT_EQ(experiment.runs.size(), 2u);
+  EXPECT_NEAR(experiment.runs[1].box_length, 0.065, 1e-12);
+  EXPECT_NEAR(experiment.runs[0].x_box[0], (100 - 640) * 0.25e-3, 1e-12);
+  EXPECT_NEAR(experiment.runs[0].time[1], 1.0 / 240, 1e-12);
+  options.frame_rate = "240";
+  EXPECT_THROW(import_tables({folder_ / "a.csv"}, folder_.path(), options), InputError);
+}
+
+TEST_F(ImportedText, TheSecondTrackIsTheGrains) {
+  const ImportedTables tables = imported_as("a.csv", "t,box.x,balls.x\n" + rows({"t", "x", "x"}));
+  EXPECT_EQ(tables.columns[1].from, "box.x");
+  EXPECT_EQ(tables.columns[2].from, "balls.x");
+  EXPECT_FALSE(tables.columns[2].certain);
+}
+
+TEST_F(ImportedText, LinesOfDelimitersBelowTheTableAreNothing) {
+  std::string text = "t_s;x_mm;c_mm\n";
+  for (int i = 0; i < 12; ++i) text += std::to_string(i) + ",5;" + std::to_string(100 - 9 * i) + ",25;1,5\n";
+  const Table table = parse_table(text + ";;\r\n;;\r\n", "a.csv");
+  EXPECT_EQ(table.rows(), 12u);
+  EXPECT_TRUE(table.violations.empty());
+}
+
 TEST_F(ImportedText, SizesVelocitiesAndCountersAreNoPositions) {
   EXPECT_EQ(summary(imported_as("a.csv", "t_s,box_width_px,box_x_px\n" + rows({"t", "400", "x"}))),
             "t_s|s; box_x_px|px; |; ");
@@ -87,12 +120,12 @@ TEST_F(ImportedText, LengthInTheNameOfTheFile) {
   EXPECT_EQ(length("65 mm.csv"), "\"65 mm\"  # from the file's name");
   EXPECT_EQ(length("L40.25mm.csv"), "\"40.25 mm\"  # from the file's name");
   EXPECT_EQ(length("d10mm_L065.csv"), "\"65 mm\"  # one of the lengths in the file's name; PLEASE CHECK");
-  EXPECT_EQ(length("run7.csv"), "\"? mm\"");
+  EXPECT_EQ(length("run7.csv"), "\"40 mm\"  # left out: the setup's");
 }
 
 TEST(ImportTables, AsksForWhatNobodyCanGuess) {
   const ImportedTables tables = imported("trackpy.csv");
-  ASSERT_EQ(tables.open_questions.size(), 4u);  // pixel size (twice), frame rate, box length
+  ASSERT_EQ(tables.open_questions.size(), 3u);  // pixel size, frame rate, box length
   EXPECT_NE(tables.experiment.find("PLEASE CHECK"), std::string::npos);
   EXPECT_THROW(parse_experiment(tables.experiment, "experiment.toml", std::string(TEST_DATA) + "/tables"),
                InputError);
