@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "camera.hpp"
 #include "effect_strength.hpp"
 #include "nuisance.hpp"
 #include "setup_file.hpp"
@@ -33,6 +34,20 @@ double within_bounds(double value, const std::string& key, std::span<const Effec
 
 }  // namespace
 
+bool scales_all_lengths(const std::string& key) {
+  const CameraParameter* parameter = find_camera_parameter(key);
+  if (parameter == nullptr || parameter->inverse_square) return false;
+  const Recording sample{{0, 1, 2, 3, 4, 5}, {1, -3, 2, -1, 4, -2}, {2, -2, 3, 1, -1, -3}};
+  const Recording change = derivative(sample, *parameter);
+  const double share = change.x_box[0] / sample.x_box[0];
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i < sample.time.size(); ++i)
+    if (!(std::abs(change.x_box[i] - share * sample.x_box[i]) < rounding &&
+          std::abs(change.x_com[i] - share * sample.x_com[i]) < rounding))
+      return false;
+  return share != 0;
+}
+
 Measurement read_with(const Measurement& measurement, const NuisanceValues& values,
                       std::span<const EffectRecord* const> known) {
   Measurement read = measurement;
@@ -47,7 +62,7 @@ Measurement read_with(const Measurement& measurement, const NuisanceValues& valu
 }
 
 BalanceProblem::BalanceProblem(const Measurement& measurement, std::span<const EffectRecord* const> known,
-                               NuisanceValues already)
+                               NuisanceValues already, const std::vector<std::string>& only)
     : measurement_(measurement), known_(known), already_(std::move(already)) {
   for (const Measurement::Run& run : measurement.runs) {
     motion_.push_back(before_the_camera(run));
@@ -56,9 +71,18 @@ BalanceProblem::BalanceProblem(const Measurement& measurement, std::span<const E
   if (measurement.runs.empty()) return;
   const Setup& first = measurement.runs.front().setup;
   frequency_ = first.spring.frequency;
-  terms_ = momentum_terms(first, known);
+  seen_ = momentum_terms(first, known);
+  const std::vector<std::string> exact = exactly_known(measurement, known);
+  const auto possible = [&](const std::string& effect) {
+    return std::find(exact.begin(), exact.end(), effect) == exact.end() &&
+           (only.empty() || std::find(only.begin(), only.end(), effect) != only.end());
+  };
+  for (const MomentumTerm& term : seen_)
+    if (term.kind == TermKind::refit || (possible(term.effect) && !scales_all_lengths(term.key())))
+      terms_.push_back(term);
   for (const EffectRecord* record : known)
-    if (const Search search = search_of(*record); search.harmonic && !find_choice(first, record->name))
+    if (const Search search = search_of(*record);
+        search.harmonic && possible(std::string(record->name)) && !find_choice(first, record->name))
       typical_sine_ = search.strengths.front().typical;
 }
 
@@ -94,31 +118,36 @@ std::vector<ForceSamples> BalanceProblem::samples_of(const MomentumTerm& term, d
 /// What is said of one camera, or of each run's own.
 void BalanceProblem::add_camera(std::vector<BalanceNuisance>& list) const {
   for (const CameraNuisance& camera : camera_nuisances(measurement_, known_)) {
-    const auto term = std::find_if(terms_.begin(), terms_.end(),
+    // A scale of all lengths scales the whole balance, and would take up whatever is there.
+    if (scales_all_lengths(camera.key)) continue;
+    const auto term = std::find_if(seen_.begin(), seen_.end(),
                                    [&](const MomentumTerm& t) { return t.key() == camera.key; });
-    if (term == terms_.end()) continue;
+    if (term == seen_.end()) continue;
     const std::vector<ForceSamples> samples = samples_of(*term, term->typical);
     if (!camera.each_run) {
-      list.push_back({camera.key, camera.unit, camera.deviation, samples});
+      list.push_back({camera.key, camera.unit, camera.deviation(), samples});
       continue;
     }
     for (std::size_t r = 0; r < runs_.size(); ++r) {
+      if (!(camera.deviation_of[r] > 0)) continue;
       std::vector<ForceSamples> of_run(runs_.size());
       of_run[r] = samples[r];
-      list.push_back({camera.key + " of " + runs_[r].name, camera.unit, camera.deviation, std::move(of_run)});
+      list.push_back(
+          {camera.key + " of " + runs_[r].name, camera.unit, camera.deviation_of[r], std::move(of_run)});
     }
   }
 }
 
 void BalanceProblem::add_weights(std::vector<BalanceNuisance>& list) const {
   for (const WeighedNuisance& weight : weighed_nuisances(measurement_)) {
-    BalanceNuisance nuisance{weight.key, weight.unit, weight.deviation, {}};
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
+    BalanceNuisance nuisance{
+        weight.of_one_run ? weight.key + " of " + runs_[weight.runs.front()].name : weight.key, weight.unit,
+        weight.deviation, std::vector<ForceSamples>(runs_.size())};
+    for (const std::size_t r : weight.runs) {
       const Measurement::Run& run = measurement_.runs[r];
       Setup changed = run.setup;
       set_number(changed, weight.key, get_number(run.setup, weight.key, known_) + weight.deviation, known_);
-      nuisance.samples.push_back(
-          samples_of_change(runs_[r], run_with(r, std::move(changed)), weight.deviation));
+      nuisance.samples[r] = samples_of_change(runs_[r], run_with(r, std::move(changed)), weight.deviation);
     }
     list.push_back(std::move(nuisance));
   }
@@ -148,21 +177,13 @@ SelectionProblem BalanceProblem::windows_of(double length, double hop) const {
     p.terms.push_back({term.effect, term.never_negative, samples_of(term, term.typical), nullptr, {}});
   p.derive = [this](const MomentumTerm& term, double strength) { return samples_of(term, strength); };
   p.problem.set_plateau(measurement_.plateau, runs_.empty() ? 1 : runs_.front().plateau_gain);
-  std::vector<BalanceNuisance> list = nuisances();
-  p.problem.set_nuisances(list);
-  // What only scales the impulses (a camera's scale) would take up whatever is there.
-  Eigen::VectorXd impulse = p.problem.impulse();
-  impulse.tail(std::ssize(list)).setZero();
-  std::vector<char> scales;
-  for (Eigen::Index k = 0; k < std::ssize(list); ++k) {
-    Eigen::VectorXd column = p.problem.nuisance_columns().col(k);
-    column.tail(std::ssize(list)).setZero();
-    const double along = column.dot(impulse) / std::max(impulse.squaredNorm(), 1e-300);
-    scales.push_back((column - along * impulse).squaredNorm() <= 1e-6 * column.squaredNorm());
+  p.problem.set_nuisances(nuisances());
+  if (const auto frequency = known_frequency(measurement_)) {
+    // The spring's column is the relative change of its stiffness, as f^2.
+    constexpr double exact = 1e-7;
+    p.problem.set_spring(std::pow(frequency->value / frequency_, 2) - 1,
+                         std::max(2 * frequency->error / frequency->value, exact));
   }
-  std::size_t k = 0;
-  std::erase_if(list, [&](const BalanceNuisance&) { return scales[k++] != 0; });
-  p.problem.set_nuisances(std::move(list));
   return p;
 }
 

@@ -20,13 +20,17 @@ using NuisanceValues = std::map<std::string, double, std::less<>>;
 Measurement read_with(const Measurement& measurement, const NuisanceValues& values,
                       std::span<const EffectRecord* const> known);
 
+/// Whether this parameter of a camera multiplies every position by the same: a balance cannot tell it, for it
+/// multiplies all of that too.
+bool scales_all_lengths(const std::string& key);
+
 /// Owns what the regression refers to.
 class BalanceProblem {
  public:
   /// `already`: values of nuisances that `measurement` was read with; what is known of them holds for the
-  /// whole.
+  /// whole. `only`: of these effects alone is a strength in question; empty: of all.
   BalanceProblem(const Measurement& measurement, std::span<const EffectRecord* const> known,
-                 NuisanceValues already = {});
+                 NuisanceValues already = {}, const std::vector<std::string>& only = {});
   BalanceProblem(const BalanceProblem&) = delete;
   BalanceProblem& operator=(const BalanceProblem&) = delete;
 
@@ -51,7 +55,8 @@ class BalanceProblem {
   NuisanceValues already_;
   std::vector<Recording> motion_;  ///< of each run, before the camera
   std::vector<MomentumRun> runs_;
-  std::vector<MomentumTerm> terms_;
+  std::vector<MomentumTerm> seen_;   ///< every strength
+  std::vector<MomentumTerm> terms_;  ///< those in question
   double frequency_ = 1, typical_sine_ = 0;
 };
 

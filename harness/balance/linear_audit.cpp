@@ -304,7 +304,7 @@ void by_what_they_explain(std::vector<FoundTerm>& terms) {
 MomentumAudit linear_audit(const Measurement& measurement, std::span<const EffectRecord* const> known,
                            const MomentumOptions& options, const NuisanceValues& already) {
   MomentumAudit audit;
-  const BalanceProblem balance(measurement, known, already);
+  const BalanceProblem balance(measurement, known, already, options.effects);
   const double window = options.window_periods / balance.frequency();
   SelectionProblem p = balance.windows_of(window, window * options.hop);
   constexpr Eigen::Index least_windows = 20;
@@ -372,7 +372,7 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
   const bool in_doubt = selection.chosen.size() > 1 ||
                         !(balance_of(selection.fit).p_value >= options.accept_p) ||
                         p.problem.wander().deviation > usual;
-  if (options.formulas && in_doubt) {
+  if (options.formulas && in_doubt && !(options.out_of_time && options.out_of_time())) {
     // A track that wanders more than tracks do takes up any force: formulas are tried beside the usual one.
     SelectionProblem q = p;
     q.problem.set_wander({std::min(usual, p.problem.wander().deviation), p.problem.wander().time});

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "linear_audit.hpp"
+#include "nuisance.hpp"
+#include "scale_errors.hpp"
 
 namespace shakedown {
 
@@ -47,6 +49,9 @@ MomentumAudit audit_momentum(const Measurement& measurement, std::span<const Eff
   constexpr int most_rounds = 3;
   MomentumOptions on_the_way = options;
   on_the_way.formulas = false;
+  if (const auto wander = known_wander(measurement); wander && !on_the_way.wander)
+    on_the_way.wander = Wander{wander->deviation, wander->time};
+  const bool wander_known = on_the_way.wander.has_value();
   const MomentumAudit first = linear_audit(measurement, known, on_the_way, {});
   if (!first.possible) return first;
   on_the_way.wander = first.wander;
@@ -59,7 +64,7 @@ MomentumAudit audit_momentum(const Measurement& measurement, std::span<const Eff
   }
   // What is not linear in the camera looks like a wander: it is chosen again where the camera has moved.
   MomentumOptions last = options;
-  if (already.empty()) last.wander = first.wander;
+  if (already.empty() || wander_known) last.wander = first.wander;
   if (!already.empty() || options.formulas)
     audit = linear_audit(read_with(measurement, already, known), known, last, already);
   // What the setup says as it is, is seen with the camera as it is.
@@ -71,6 +76,7 @@ MomentumAudit audit_momentum(const Measurement& measurement, std::span<const Eff
     audit.runs[run] = first.runs[run];
     audit.runs[run].final_fit = final_fit;
   }
+  allow_for_scales(read_with(measurement, already, known), known, already, options, audit);
   return audit;
 }
 

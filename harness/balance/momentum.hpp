@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -134,6 +135,8 @@ struct MomentumOptions {
   double accept_p = 0.01;       ///< below: formulas are looked for
   int most_sines = 2;
   bool formulas = true;                                   ///< false: known terms alone
+  std::function<bool()> out_of_time{};                    ///< asked before formulas; may be empty
+  std::vector<std::string> effects{};                     ///< only these may be missing; empty: all
   std::optional<Wander> wander{};                         ///< of the track; none: the most probable one
   double lowest_frequency = 0.1, highest_frequency = 10;  ///< Hz, scan for forcing
 };

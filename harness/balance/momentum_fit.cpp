@@ -103,6 +103,11 @@ void MomentumProblem::set_plateau(const PlateauSlope& plateau, double gain) {
   restack();
 }
 
+void MomentumProblem::set_spring(double change, double error) {
+  spring_ = change, spring_error_ = error;
+  restack();
+}
+
 void MomentumProblem::set_nuisances(std::vector<BalanceNuisance> nuisances) {
   nuisances_ = std::move(nuisances);
   restack();
@@ -112,17 +117,19 @@ void MomentumProblem::restack() {
   begin_.clear();
   for (Eigen::Index total = 0; const WeakForm& form : forms_)
     begin_.push_back(total), total += form.windows();
-  const Eigen::Index rows_of_runs = windows(), rows_known = 1 + std::ssize(nuisances_);
+  const Eigen::Index rows_of_runs = windows(), of_spring = spring_error_ > 0 ? 1 : 0,
+                     rows_known = 1 + of_spring + std::ssize(nuisances_);
   impulse_ = Eigen::VectorXd::Zero(rows_of_runs + rows_known);
   for (std::size_t run = 0; run < forms_.size(); ++run)
     impulse_.segment(begin_[run], rows(run)) = whiten(run, forms_[run].impulse());
   if (plateau_error_ > 0) impulse_[rows_of_runs] = plateau_ / plateau_error_;
+  if (of_spring > 0) impulse_[rows_of_runs + 1] = spring_ / spring_error_;
   nuisance_columns_ = Eigen::MatrixXd(impulse_.size(), std::ssize(nuisances_));
   for (Eigen::Index k = 0; k < nuisance_columns_.cols(); ++k) {
     const BalanceNuisance& nuisance = nuisances_[static_cast<std::size_t>(k)];
     nuisance_columns_.col(k) = nuisance.deviation * column(nuisance.samples);
-    nuisance_columns_(rows_of_runs + 1 + k, k) = 1;
-    impulse_[rows_of_runs + 1 + k] = -nuisance.already / nuisance.deviation;
+    nuisance_columns_(rows_of_runs + 1 + of_spring + k, k) = 1;
+    impulse_[rows_of_runs + 1 + of_spring + k] = -nuisance.already / nuisance.deviation;
   }
 }
 
@@ -132,6 +139,7 @@ Eigen::VectorXd MomentumProblem::column(const std::vector<ForceSamples>& samples
     const ForceSamples& of_run = samples[source_[run]];
     out.segment(begin_[run], rows(run)) = whiten(run, forms_[run].column(of_run));
     if (plateau_error_ > 0 && of_run.plateau != 0) out[windows()] = of_run.plateau / plateau_error_;
+    if (spring_error_ > 0 && of_run.stiffness != 0) out[windows() + 1] = of_run.stiffness / spring_error_;
   }
   return out;
 }

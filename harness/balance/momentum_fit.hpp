@@ -52,6 +52,8 @@ class MomentumProblem {
   MomentumProblem(const std::vector<MomentumRun>& runs, double window, double hop);
 
   void set_plateau(const PlateauSlope& plateau, double gain);
+  /// What is known beforehand of the spring's stiffness, relative to the runs'.
+  void set_spring(double change, double error);
   void set_nuisances(std::vector<BalanceNuisance> nuisances);
   const std::vector<BalanceNuisance>& nuisances() const { return nuisances_; }
   /// One column a nuisance, by its standard deviation.
@@ -104,6 +106,7 @@ class MomentumProblem {
   bool started_ = false;
   std::vector<BalanceNuisance> nuisances_;
   Eigen::MatrixXd nuisance_columns_;
+  double spring_ = 0, spring_error_ = 0;  ///< relative, of the stiffness; error 0: not known
   double plateau_ = 0,
          plateau_error_ = 0;  ///< what the layer shows beyond the setup, per m; error 0: nothing
 

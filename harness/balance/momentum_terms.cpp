@@ -149,6 +149,7 @@ ForceSamples samples_of_change(const MomentumRun& a, const MomentumRun& b, doubl
 ForceSamples spring_samples(const MomentumRun& run) {
   ForceSamples s;
   s.force = -run.stiffness * run.x_box;
+  s.stiffness = 1;
   s.force_dx = Eigen::ArrayXd::Constant(run.time.size(), -run.stiffness);
   return s;
 }

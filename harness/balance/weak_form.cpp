@@ -103,6 +103,7 @@ void add_samples(ForceSamples& samples, const ForceSamples& added, double streng
   add_part(samples.inertia_box, added.inertia_box, strength);
   add_part(samples.inertia_com, added.inertia_com, strength);
   samples.plateau += strength * added.plateau;
+  samples.stiffness += strength * added.stiffness;
 }
 
 WeakForm::WeakForm(const MomentumRun& run, double length, double hop) : run_(&run) {

@@ -22,6 +22,7 @@ struct ForceSamples {
   Eigen::ArrayXd inertia_box, inertia_com;   ///< kg, what noise of x_box and x_com enters `momentum` with
   double plateau =
       0;  ///< change of the slope of the packed layer's distance against the box length (PlateauSlope)
+  double stiffness = 0;  ///< relative change of the spring's
 };
 /// A track that wanders: an error of the recorded position with a memory, exp(-|t|/time) (Ornstein and
 /// Uhlenbeck), of box and grains apart.

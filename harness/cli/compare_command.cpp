@@ -80,6 +80,11 @@ std::string readable(const std::vector<DecayComparison>& decays) {
   return text;
 }
 
+/// "-" where the grains' centre was not tracked.
+std::string of_centre(const RunComparison& run, double metres) {
+  return run.floor_centre > 0 ? fmt::format("{:.3f}", metres * 1e3) : "-";
+}
+
 std::string readable(const Refit& fit, const MomentumAudit& momentum,
                      const std::vector<DecayComparison>& decays, const ModelJudgement& judgement) {
   std::string text =
@@ -91,9 +96,9 @@ std::string readable(const Refit& fit, const MomentumAudit& momentum,
   text +=
       fmt::format("  {:<16} {:>11} {:>9} {:>14} {:>9}\n", "run", "box, mm", "spread", "centre, mm", "spread");
   for (const RunComparison& run : fit.runs)
-    text += fmt::format("  {:<16} {:>11.3f} {:>9.3f} {:>14.3f} {:>9.3f}  {}\n", run.run, run.error_box * 1e3,
-                        run.floor_box * 1e3, run.error_centre * 1e3, run.floor_centre * 1e3,
-                        severity(run.error_box / run.floor_box));
+    text += fmt::format("  {:<16} {:>11.3f} {:>9.3f} {:>14} {:>9}  {}\n", run.run, run.error_box * 1e3,
+                        run.floor_box * 1e3, of_centre(run, run.error_centre),
+                        of_centre(run, run.floor_centre), severity(run.error_box / run.floor_box));
   text += fmt::format("  whole: p = {:.3f} ({:.2f} times the misfit of the model's own runs)\n", fit.p_value,
                       fit.scatter);
   text += "\n" + validation_text(fit.validation()) + "\n" + readable(fit.cells) + readable(decays);
@@ -143,14 +148,15 @@ nlohmann::ordered_json json_of(const std::vector<FailureCell>& cells) {
 }
 
 nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum,
-                               const std::vector<DecayComparison>& decays, const ModelJudgement& judgement) {
+                               const std::vector<DecayComparison>& decays, const ModelJudgement& judgement,
+                               const std::vector<std::string>& notes) {
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();
   for (const RunComparison& run : fit.runs)
     runs.push_back({{"run", run.run},
                     {"error_box_mm", run.error_box * 1e3},
                     {"floor_box_mm", run.floor_box * 1e3},
-                    {"error_com_mm", run.error_centre * 1e3},
-                    {"floor_com_mm", run.floor_centre * 1e3},
+                    {"error_com_mm", run.floor_centre > 0 ? run.error_centre * 1e3 : std::nan("")},
+                    {"floor_com_mm", run.floor_centre > 0 ? run.floor_centre * 1e3 : std::nan("")},
                     {"chi2", run.chi2}});
   nlohmann::ordered_json all{
       {"schema_version", 1},
@@ -160,8 +166,10 @@ nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum,
       {"p_value", fit.p_value},
       {"scatter", fit.scatter},
       {"error_box_mm", fit.error_box() * 1e3},
-      {"error_com_mm", fit.error_centre() * 1e3},
-      {"noise_floor", {{"box_mm", fit.floor_box() * 1e3}, {"com_mm", fit.floor_centre() * 1e3}}},
+      {"error_com_mm", fit.floor_centre() > 0 ? fit.error_centre() * 1e3 : std::nan("")},
+      {"noise_floor",
+       {{"box_mm", fit.floor_box() * 1e3},
+        {"com_mm", fit.floor_centre() > 0 ? fit.floor_centre() * 1e3 : std::nan("")}}},
       {"runs", runs},
       {"validation", validation_json(fit.validation())},
       {"where", json_of(fit.cells)},
@@ -169,9 +177,11 @@ nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum,
       {"momentum",
        {{"possible", momentum.possible},
         {"chi2_per_dof", momentum.as_given.chi2_per_degree()},
-        {"p_value", momentum.as_given.p_value}}}};
+        {"p_value", momentum.as_given.p_value}}},
+      {"notes", notes}};
   explain_missing_numbers(all, [&](const std::string& path) {
     const auto begins = [&](std::string_view with) { return path.rfind(with, 0) == 0; };
+    if (path.find("com_mm") != std::string::npos) return std::string("the grains' centre was not tracked");
     if (begins("/decay/")) return std::string("too few peaks or crossings in the run");
     return begins("/momentum/") ? momentum.why_not : std::string();
   });
@@ -179,7 +189,7 @@ nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum,
 }
 
 int compare(const CompareArguments& arguments) {
-  const Setup setup = arguments.setup.read(given_by_measurements);
+  Setup setup = arguments.setup.read(given_by_measurements);
   const Measurement recorded = measurement_of(setup, read_measured(arguments.data, setup), all_effects());
   arguments.json.check();
   arguments.report.check();
@@ -203,7 +213,7 @@ int compare(const CompareArguments& arguments) {
                             catch_interruption(),
                             [&](int n) { display.show(std::min(1.0, static_cast<double>(done += n) / all)); },
                             nullptr};
-    std::vector<Knob> knobs = as_given(setup);
+    std::vector<Knob> knobs = as_given(setup, measurement.known);
     for (Knob& knob : camera_knobs(setup, measurement, all_effects())) knobs.push_back(std::move(knob));
     fit = refit(features_with_camera(measurement, all_effects()), knobs, workshop, options);
     decays = compare_decay(measurement, workshop, std::min(32, arguments.runs), 1);
@@ -211,9 +221,12 @@ int compare(const CompareArguments& arguments) {
   const MomentumAudit momentum = audit_momentum(recorded, all_effects());
   const ModelJudgement judgement = judgement_of(fit.test(), momentum.test_of(momentum.as_given), fit.left());
   const PaperValues taken(setup, given_by_measurements);
-  const std::string document = taken.added_to(json_of(fit, momentum, decays, judgement).dump());
+  const std::string document =
+      taken.added_to(json_of(fit, momentum, decays, judgement, all_notes(recorded)).dump());
   taken.print(arguments.json.for_people());
   fmt::print(arguments.json.for_people(), "{}", readable(fit, momentum, decays, judgement));
+  for (const std::string& note : recorded.warnings)
+    fmt::print(arguments.json.for_people(), "  note: {}\n", note);
   if (folder) folder->write("compare.json", document);
   if (arguments.report.wanted(arguments.out)) {
     CurveOptions drawn;

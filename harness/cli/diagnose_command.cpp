@@ -99,7 +99,7 @@ std::string what_is_kept(const SimulationJournal* journal) {
 }
 
 int diagnose_data(const DiagnoseArguments& arguments) {
-  const Setup setup = arguments.setup.read(given_by_measurements);
+  Setup setup = arguments.setup.read(given_by_measurements);
   const Experiment experiment = read_measured(arguments.data, setup);
   const Measurement measurement = measurement_of(setup, experiment, all_effects());
   check_names(arguments);

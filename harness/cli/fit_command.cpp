@@ -39,7 +39,7 @@ struct FitArguments {
 };
 
 int fit(const FitArguments& arguments) {
-  const Setup setup = arguments.setup.read(given_by_measurements);
+  Setup setup = arguments.setup.read(given_by_measurements);
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const Measurement measurement =
       from_first_turns(measurement_of(setup, read_measured(arguments.data, setup), all_effects()), *engine);

@@ -13,6 +13,7 @@
 #include "experiment_file.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
+#include "known_setup.hpp"
 #include "ladder_report.hpp"
 #include "measured_data.hpp"
 #include "missing_numbers.hpp"
@@ -53,7 +54,8 @@ Rung climb(const std::string& file, const Setup& setup, const Measurement& measu
   RefitOptions options;
   options.count = arguments.runs;
   // Refitted, so that a rung with few effects does not lose because its parameters were chosen worse.
-  std::vector<Knob> knobs = arguments.refit ? free_parameters(setup) : as_given(setup);
+  std::vector<Knob> knobs = arguments.refit ? believed(free_parameters(setup), measurement.known)
+                                            : as_given(setup, measurement.known);
   const Measurement beside =
       from_first_turns(with_setup(measurement, setup, all_effects()), *workshop.engine);
   for (Knob& knob : camera_knobs(setup, beside, all_effects())) knobs.push_back(std::move(knob));
@@ -157,6 +159,7 @@ int ladder(const LadderArguments& arguments) {
   if (!wrong.empty()) throw InputError(std::move(wrong));
   const Measurement measurement =
       measurement_of(setups.front(), read_measured(arguments.data, setups.front()), all_effects());
+  for (Setup& setup : setups) setup = with_known(setup, measurement.known, all_effects());
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;

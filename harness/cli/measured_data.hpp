@@ -7,8 +7,9 @@
 
 namespace shakedown {
 
-/// Reads an experiment file and says on the error output what looks wrong with it beside the setup. Throws
-/// InputError where no comparison makes sense.
-Experiment read_measured(const std::string& file, const Setup& setup);
+/// Reads an experiment file, puts what it knows into the setup, and says on the error output and in the
+/// experiment's notes what was assumed and what looks wrong. Throws InputError where no comparison makes
+/// sense.
+Experiment read_measured(const std::string& file, Setup& setup);
 
 }  // namespace shakedown

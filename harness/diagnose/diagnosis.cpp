@@ -11,7 +11,9 @@
 #include "empty_box.hpp"
 #include "errors.hpp"
 #include "experiment_file.hpp"
+#include "from_balance.hpp"
 #include "known_effects.hpp"
+#include "known_setup.hpp"
 #include "packing_choice.hpp"
 #include "parameter_knobs.hpp"
 #include "quantity.hpp"
@@ -20,6 +22,7 @@
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
 #include "state.hpp"
+#include "swing.hpp"
 #include "unlisted_force.hpp"
 #include "verdict.hpp"
 
@@ -33,83 +36,6 @@ Setup quick(Setup setup) {
   setup.hard.pair_elastic_speed = std::max(setup.hard.pair_elastic_speed, elastic_speed);
   setup.hard.kick_interval = std::max(setup.hard.kick_interval, kick_interval);
   return setup;
-}
-
-bool allowed(const DiagnoseOptions& options, const std::string& effect) {
-  return options.effects.empty() ||
-         std::find(options.effects.begin(), options.effects.end(), effect) != options.effects.end();
-}
-
-/// A sine is known to its error in all three: over a run of length T a relative error of the amplitude goes
-/// with sqrt(6) / (pi T) as much in the frequency, and twice as much in the phase at the release (rad).
-void add_sine(const FoundTerm& term, const SearchedHarmonic& harmonic, double longest,
-              std::span<const EffectRecord* const> known, DiagnosisState& state) {
-  constexpr double root_six_over_pi = 0.78;
-  const double error = std::max((term.high - term.low) / 3.92, 0.01 * std::abs(term.value)),
-               relative = std::min(1.0, error / std::abs(term.value));
-  const auto knob = [&](std::string_view parameter, double value, double error_of_it) {
-    const std::string key = term.effect + "." + std::string(parameter);
-    set_number(state.setup, key, value, known);
-    const double width = 4 * error_of_it;
-    state.found.push_back(
-        {key, value, width, value - 10 * width, value + 10 * width, false, value, error_of_it});
-  };
-  knob(harmonic.amplitude, term.value, error);
-  knob(harmonic.frequency, term.frequency, relative * root_six_over_pi / std::max(longest, 1.0));
-  knob(harmonic.phase, term.phase, 2 * relative);
-}
-
-/// What the balance found goes in at the strength that it finds and stays near it: chaos does not touch the
-/// balance, and it knows strengths five times better than ensembles do.
-DiagnosisState with_balance(DiagnosisState state, const std::vector<FoundTerm>& terms,
-                            const Measurement& measurement, const Engine& engine,
-                            const DiagnoseOptions& options, std::vector<std::string>& notes) {
-  double longest = 0;
-  for (const Measurement::Run& run : measurement.runs)
-    if (!run.recorded.time.empty())
-      longest = std::max(longest, run.recorded.time.back() - run.recorded.time.front());
-  for (const FoundTerm& term : terms) {
-    if (!allowed(options, term.effect)) continue;
-    const EffectRecord* record = find_record(options.known, term.effect);
-    if (record == nullptr) continue;
-    if (!is_modelled(engine, *record)) {
-      notes.push_back("the momentum balance finds " + term.effect + ", which the " +
-                      std::string(engine.name()) + " engine does not model: ensembles are fitted without it");
-      state.missing.push_back(term.effect);
-      continue;
-    }
-    const bool had_already = find_choice(state.setup, term.effect) != nullptr;
-    if (had_already)
-      notes.push_back("the momentum balance asks for another " + term.key() + ": it is refitted");
-    else
-      state.missing.push_back(term.effect);
-    if (term.frequency > 0) {
-      add_sine(term, *search_of(*record).harmonic, longest, options.known, state);
-      continue;
-    }
-    for (const auto& [key, value] : term.besides) set_number(state.setup, key, value, options.known);
-    set_number(state.setup, term.key(), term.value, options.known);
-    const double error = (term.high - term.low) / 3.92;
-    const Parameter* parameter = find_parameter(options.known, term.key());
-    state.found.push_back({term.key(), term.value, std::max(4 * error, 0.05 * std::abs(term.value)),
-                           parameter->low, parameter->high, true, term.value, error});
-    std::erase_if(state.camera, [&](const Knob& knob) { return knob.key == term.key(); });
-  }
-  return state;
-}
-
-std::vector<std::string> effects_of(const MomentumAudit& balance) {
-  std::vector<std::string> effects;
-  for (const FoundTerm& term : balance.terms) effects.push_back(term.effect);
-  return effects;
-}
-
-std::vector<Hypothesis> hypotheses_of(const MomentumAudit& balance) {
-  std::vector<Hypothesis> table;
-  for (const WeighedSet& set : balance.sets)
-    table.push_back({set.effects, std::log(std::max(set.probability, 1e-300)), set.probability});
-  if (table.empty()) table.push_back({{}, 0, 1});
-  return table;
 }
 
 std::string step_name(const std::vector<std::string>& effects) {
@@ -129,20 +55,33 @@ Setup emptied(Setup setup) {
   return setup;
 }
 
+/// What the user wants fixed is known exactly, as the setup says it.
+Measurement with_fixed(Measurement measurement, const Setup& user, const DiagnoseOptions& options) {
+  for (const std::string& key : options.fixed) {
+    std::erase_if(measurement.known, [&](const KnownValue& one) { return one.key == key; });
+    measurement.known.push_back({key, get_number(user, key), 0, {}});
+  }
+  return measurement;
+}
+
 /// The course of a diagnosis: every step makes a new state from the one before.
 class Course {
  public:
-  Course(const Setup& user, const Measurement& measurement, const Engine& engine,
+  /// `recorded`: as the films show it; `measurement`: each run from where simulations of it begin.
+  Course(const Setup& user, const Measurement& recorded, const Measurement& measurement, const Engine& engine,
          const DiagnoseOptions& options)
-      : user_(user), tools_(measurement, engine, options) {}
+      : user_(user), recorded_(recorded), tools_(measurement, engine, options) {}
 
   Diagnosis run() {
-    result_.notes = tools_.measurement().warnings;
+    result_.notes = all_notes(tools_.measurement());
     tools_.begin("momentum balance");
-    result_.momentum = audit_momentum(tools_.measurement(), tools_.known());
+    MomentumOptions balance;
+    balance.effects = tools_.options().effects;
+    balance.formulas = allowed(tools_.options(), "user_force");
+    balance.out_of_time = [this] { return tools_.time_is_up(); };
+    result_.momentum = audit_momentum(recorded_, tools_.known(), balance);
     if (is_empty(user_, tools_.measurement()))
-      conclude_empty_box(emptied(user_), tools_.measurement(), *tools_.workshop().engine, tools_.known(),
-                         result_);
+      conclude_empty_box(emptied(user_), recorded_, *tools_.workshop().engine, tools_.known(), result_);
     else
       judge();
     result_.runs_simulated = tools_.runs();
@@ -154,9 +93,9 @@ class Course {
     DiagnosisState state = with_packing();
     state.camera = camera_knobs(state.setup, tools_.measurement(), tools_.known());
     DiagnosisState given = state;
-    given.theta = as_given(state.setup);
+    given.theta = as_given(state.setup, tools_.measurement().known);
     tools_.workshop().ensembles = tools_.options().ensembles;
-    given.fit = tools_.fit(given, "the model as given", given.knobs(), effort::look);
+    given.fit = fit_within(share::model_as_given, given, "the model as given", effort::look);
     tools_.workshop().ensembles = nullptr;
     tools_.limit_to(rules::for_the_search);
     result_.ladder.push_back(step_of("as given", given.fit));
@@ -217,14 +156,7 @@ class Course {
   DiagnosisState with_terms(DiagnosisState state, const std::vector<FoundTerm>& terms, double frequency) {
     const MomentumAudit& balance = result_.momentum;
     state.theta = free_parameters(state.setup, frequency, (balance.possible ? 0.004 : 0.01) * frequency);
-    for (Knob& knob : state.theta)
-      if (const KnownValue* known = find_known(tools_.measurement().known, knob.key);
-          known && known->error > 0)
-        knob.believed = known->value, knob.believed_error = known->error;
-    std::erase_if(state.theta, [&](const Knob& knob) {
-      const std::vector<std::string>& fixed = tools_.options().fixed;
-      return std::find(fixed.begin(), fixed.end(), knob.key) != fixed.end();
-    });
+    state.theta = believed(std::move(state.theta), tools_.measurement().known);
     state = with_balance(state, terms, tools_.measurement(), *tools_.workshop().engine, tools_.options(),
                          result_.notes);
     if (balance.unlisted && allowed(tools_.options(), "user_force"))
@@ -241,12 +173,7 @@ class Course {
     const std::string stage =
         nothing_found ? "refitting the parameters" : "refitting with what the momentum balance found";
     try {
-      state.fit = tools_.fit(state, stage, state.knobs(), effort::refit);
-    } catch (const BudgetSpent&) {
-      // An answer needs one fit at least.
-      tools_.without_limit();
-      state.fit = tools_.fit(state, stage, state.knobs(), effort::look);
-      tools_.limit_to(rules::for_the_search);
+      state.fit = fit_within(share::first_refit, state, stage, effort::refit);
     } catch (const PhysicsError& error) {
       if (state.found.empty()) throw;
       result_.notes.push_back(
@@ -256,9 +183,22 @@ class Course {
       const std::vector<std::string> found = state.missing;
       state = with_terms(before, {}, frequency);
       state.missing = found;
-      state.fit = tools_.fit(state, stage, state.knobs(), effort::look);
+      state.fit = fit_within(share::first_refit, state, stage, effort::look);
     }
+    tools_.limit_to(rules::for_the_search);
     return settled_by_ensembles(before, state).settled(tools_.known());
+  }
+
+  /// A fit that an answer cannot do without, in this share of simulations and time: with less effort where
+  /// they do not suffice.
+  Refit fit_within(double share, const DiagnosisState& state, const std::string& stage, Effort effort) {
+    tools_.limit_to(share);
+    try {
+      return tools_.fit(state, stage, state.knobs(), effort);
+    } catch (const BudgetSpent&) {
+      tools_.without_limit();
+      return tools_.fit(state, stage, state.knobs(), effort::least);
+    }
   }
 
   /// What `step` makes of a state, or the state as it is where simulations or time do not suffice.
@@ -369,6 +309,7 @@ class Course {
   }
 
   const Setup& user_;
+  const Measurement& recorded_;
   DiagnosisTools tools_;
   Diagnosis result_;
   RunnerUp runner_up_;
@@ -384,22 +325,22 @@ void note_failures(const Refit& fit, Diagnosis& diagnosis) {
       diagnosis.where.push_back(cell);
 }
 
-std::string_view name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::adequate: return "adequate";
-    case Verdict::refit: return "refit";
-    case Verdict::measurement: return "measurement";
-    case Verdict::missing: return "missing";
-    case Verdict::unknown: return "unknown";
-  }
-  return "";
-}
-
 Diagnosis diagnose(const Setup& setup, const Measurement& measurement, const Engine& engine,
                    const DiagnoseOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  const Measurement released = with_measured_release(measurement, setup, options.known);
-  Diagnosis result = Course(setup, released, engine, options).run();
+  if (const std::int64_t least = least_budget(measurement);
+      options.budget > 0 && options.budget < least && !is_empty(setup, measurement))
+    throw InputError({{{"--budget", 0, 0},
+                       "",
+                       "allows fewer simulations than one fit of the model as given and one with free "
+                       "parameters need",
+                       "allow " + std::to_string(least) + " or more"}});
+  const Setup user = with_known(setup, measurement.known, options.known);
+  const Measurement released = with_measured_release(with_fixed(measurement, user, options), options.known);
+  constexpr double periods = 1.5;  // the first swing and its way back
+  const Measurement started =
+      is_empty(user, released) ? released : from_first_turns(released, engine, periods);
+  Diagnosis result = Course(user, released, started, engine, options).run();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -101,6 +101,9 @@ struct DiagnoseOptions {
 /// runs, for four at least.
 std::int64_t usual_budget(const Measurement& measurement);
 
+/// Fewer do not make an answer.
+std::int64_t least_budget(const Measurement& measurement);
+
 /// Throws InputError when the setup does not fit the experiment, Interrupted when stopped.
 Diagnosis diagnose(const Setup& setup, const Measurement& measurement, const Engine& engine,
                    const DiagnoseOptions& options);

@@ -40,6 +40,9 @@ std::string camera_text(const Diagnosis& d) {
   return text.empty() ? "" : "\n  camera and weights, as the data show them\n" + text;
 }
 
+/// "-" where nothing was measured.
+std::string in_mm(double metres) { return std::isfinite(metres) ? fmt::format("{:.3f}", metres * 1e3) : "-"; }
+
 }  // namespace
 
 std::string diagnosis_text(const Diagnosis& d) {
@@ -47,11 +50,13 @@ std::string diagnosis_text(const Diagnosis& d) {
   text +=
       fmt::format("  {:<58} {:>10} {:>10} {:>12} {:>8}\n", "error, mm", "box", "centre", "box held out", "p");
   for (const LadderStep& s : d.ladder)
-    text += fmt::format("  {:<58} {:>10.3f} {:>10.3f} {:>12.3f} {:>8.3f}\n", s.step, s.error_box * 1e3,
-                        s.error_centre * 1e3, s.held_out_error_box * 1e3, s.p_value);
+    text += fmt::format("  {:<58} {:>10} {:>10} {:>12} {:>8}\n", s.step, in_mm(s.error_box),
+                        s.floor_centre > 0 ? in_mm(s.error_centre) : "-", in_mm(s.held_out_error_box),
+                        std::isfinite(s.p_value) ? fmt::format("{:.3f}", s.p_value) : "-");
   if (!d.ladder.empty())
-    text += fmt::format("  {:<58} {:>10.3f} {:>10.3f}\n", "noise and run-to-run spread",
-                        d.ladder.back().floor_box * 1e3, d.ladder.back().floor_centre * 1e3);
+    text += fmt::format("  {:<58} {:>10} {:>10}\n", "noise and run-to-run spread",
+                        in_mm(d.ladder.back().floor_box),
+                        d.ladder.back().floor_centre > 0 ? in_mm(d.ladder.back().floor_centre) : "-");
   text += "  final model " + d.judgement.reason + "\n\n" + validation_text(d.validation);
   if (!d.parameters.empty()) {
     text += "\n  values (95 % interval)\n";

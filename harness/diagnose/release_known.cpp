@@ -20,16 +20,15 @@ constexpr std::string_view key = "release.displacement";
 double error_of_scale(const Measurement& measurement, std::span<const EffectRecord* const> known,
                       double displacement) {
   for (const CameraNuisance& nuisance : camera_nuisances(measurement, known))
-    if (nuisance.known_as == "camera.scale") return nuisance.deviation * std::abs(displacement);
+    if (nuisance.known_as == "camera.scale") return nuisance.deviation() * std::abs(displacement);
   return 0;
 }
 
 }  // namespace
 
-Measurement with_measured_release(Measurement measurement, const Setup& setup,
-                                  std::span<const EffectRecord* const> known) {
-  if (setup.grains.count == 0) return measurement;
+Measurement with_measured_release(Measurement measurement, std::span<const EffectRecord* const> known) {
   for (Measurement::Run& run : measurement.runs) {
+    if (run.setup.grains.count == 0) continue;
     const ReleaseFound& seen = run.audit.release;
     const double given = run.setup.release.displacement;
     if (!std::isfinite(seen.displacement) || !std::isfinite(seen.displacement_error)) continue;

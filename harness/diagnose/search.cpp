@@ -7,6 +7,7 @@
 #include "errors.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
+#include "nuisance.hpp"
 #include "rules.hpp"
 #include "setup_keys.hpp"
 #include "state.hpp"
@@ -141,6 +142,10 @@ std::vector<Candidate> open_candidates(const DiagnosisState& state, DiagnosisToo
   for (const Knob& knob : state.theta) set_knob(at_fit, knob, tools.known());
   std::vector<Candidate> candidates =
       candidates_for(at_fit, tools.options().effects, tools.known(), *tools.workshop().engine);
+  const std::vector<std::string> exact = exactly_known(tools.measurement(), tools.known());
+  std::erase_if(candidates, [&](const Candidate& candidate) {
+    return std::find(exact.begin(), exact.end(), candidate.effect) != exact.end();
+  });
   std::erase_if(candidates, [&](const Candidate& candidate) {
     const auto judged = [&](const std::string& key) {
       return std::find(seen_by_balance.begin(), seen_by_balance.end(), key) != seen_by_balance.end();

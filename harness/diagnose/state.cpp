@@ -120,6 +120,7 @@ Refit DiagnosisTools::fit(const DiagnosisState& state, const std::string& stage,
     effort.confirming = std::min(effort.confirming, effort::most_when_dear);
   RefitOptions options;
   options.rounds = effort.rounds;
+  if (effort.once) options.most_rounds = effort.rounds;
   options.count = effort.count;
   options.judged_by = judged_by;
   options.confirming = effort.confirming;
@@ -129,15 +130,28 @@ Refit DiagnosisTools::fit(const DiagnosisState& state, const std::string& stage,
   return refit(features(state.setup), knobs, workshop_, options);
 }
 
-std::int64_t usual_budget(const Measurement& measurement) {
-  constexpr std::int64_t for_each_setup = 10000, at_least = 4;
+namespace {
+
+std::int64_t different_setups(const Measurement& measurement) {
   std::set<std::string> different;
   for (const Measurement::Run& run : measurement.runs) {
     Setup of_run = run.setup;
     of_run.run.duration = 1;  // repeats that end at different times share simulations
     different.insert(digest(of_run));
   }
-  return for_each_setup * std::max<std::int64_t>(at_least, std::ssize(different));
+  return std::ssize(different);
+}
+
+}  // namespace
+
+std::int64_t usual_budget(const Measurement& measurement) {
+  constexpr std::int64_t for_each_setup = 10000, at_least = 4;
+  return for_each_setup * std::max(at_least, different_setups(measurement));
+}
+
+std::int64_t least_budget(const Measurement& measurement) {
+  constexpr std::int64_t fits = 2;
+  return fits * effort::least.count * different_setups(measurement);
 }
 
 }  // namespace shakedown

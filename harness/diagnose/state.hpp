@@ -32,13 +32,21 @@ struct DiagnosisState {
 struct Effort {
   int rounds, count, confirming;
   bool beside = false;  ///< a poor one looks on both sides along what is known least
+  bool once = false;    ///< does not follow a solution that leaves the box
 };
 namespace effort {
 constexpr Effort look{1, 128, 0}, refit{2, 160, 128, true}, attempt{2, 128, 96}, attempt_when_dear{1, 72, 48},
-    conclude{1, 192, 160}, apart{2, 160, 128};
+    conclude{1, 192, 160}, apart{2, 160, 128}, least{1, 64, 0, false, true};
 constexpr int most_when_dear = 80;
 constexpr ScreenEffort rank{}, rank_when_dear{32, 48, 12, 12, 12};
 }  // namespace effort
+
+/// Of simulations and time, up to the end of a step: the search for effects is to have its part though the
+/// model without them is dear (its restitutions take up what is missing, and low ones cost several times a
+/// plain run). What decides that nothing is left for it is rules::for_the_search.
+namespace share {
+constexpr double model_as_given = 0.2, first_refit = 0.45;
+}
 
 /// What all steps share. Counts simulations and numbers the batches of random microstates.
 class DiagnosisTools {
@@ -57,6 +65,7 @@ class DiagnosisTools {
   /// From now on BudgetSpent is thrown where this share of the simulations or of the time would be passed.
   void limit_to(double share);
   void without_limit();
+  bool time_is_up() const { return share_of_time() > 1; }
   int next_batch() { return 100000 * ++batch_; }
   void begin(const std::string& stage) {
     stage_ = stage;

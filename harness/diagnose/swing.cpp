@@ -151,16 +151,32 @@ SwingFit fit_of(const Measurement::Run& run, const Engine& engine) {
                 run.setup, engine, anywhere);
 }
 
-Measurement from_first_turns(const Measurement& measurement, const Engine& engine) {
+namespace {
+
+/// The turn as these periods from it show it.
+SwingFit fit_within(const Measurement::Run& run, const Engine& engine, double periods) {
+  SwingFrames frames = frames_of(run);
+  const double period = 1 / run.setup.spring.frequency;
+  const FirstTurn turn = first_turn(frames, middle_of(frames), period);
+  std::size_t end = 0;
+  while (end < frames.time.size() && frames.time[end] < turn.time + periods * period) ++end;
+  frames.time.resize(end), frames.x.resize(end);
+  return fit_of(frames, turn, run.setup, engine, true);
+}
+
+}  // namespace
+
+Measurement from_first_turns(const Measurement& measurement, const Engine& engine, double periods) {
   if (std::none_of(measurement.runs.begin(), measurement.runs.end(), is_swing)) return measurement;
-  Experiment experiment{measurement.title, measurement.file, {}, measurement.known, measurement.notes};
+  Experiment experiment{measurement.title, measurement.file,  {},
+                        measurement.known, measurement.notes, measurement.sensor};
   std::vector<Setup> setups;
   for (const Measurement::Run& run : measurement.runs) {
     experiment.runs.push_back(run.recorded);
     setups.push_back(run.setup);
     constexpr std::size_t least = 8;  // frames
     if (is_swing(run) && frames_of(run).time.size() >= least)
-      start_at(fit_of(run, engine), experiment.runs.back(), setups.back());
+      start_at(fit_within(run, engine, periods), experiment.runs.back(), setups.back());
   }
   return measurement_of(setups, std::move(experiment));
 }

@@ -3,6 +3,7 @@
 // is the model.
 #pragma once
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "engine.hpp"
@@ -55,7 +56,9 @@ SwingFit fit_of(const Measurement::Run& run, const Engine& engine);
 
 /// The measurement with each run without grains that starts anywhere counted from its first turn, as a
 /// release from rest about x = 0: what simulations of the setup can be compared with. Others stay as they
-/// are.
-Measurement from_first_turns(const Measurement& measurement, const Engine& engine);
+/// are. The turn is fitted to so many periods from it: all of them beside a model that is judged as it is,
+/// few where something that damps may still be missing.
+Measurement from_first_turns(const Measurement& measurement, const Engine& engine,
+                             double periods = std::numeric_limits<double>::infinity());
 
 }  // namespace shakedown

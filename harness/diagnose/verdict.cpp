@@ -56,4 +56,15 @@ std::vector<NuisanceFound> standing_out(const std::vector<NuisanceFound>& nuisan
   return found;
 }
 
+std::string_view name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::adequate: return "adequate";
+    case Verdict::refit: return "refit";
+    case Verdict::measurement: return "measurement";
+    case Verdict::missing: return "missing";
+    case Verdict::unknown: return "unknown";
+  }
+  return "";
+}
+
 }  // namespace shakedown

@@ -27,9 +27,9 @@ std::vector<MeasuredFeatures> features_with_camera(const Measurement& measuremen
           features_on_frames(list[r].plan, recording.time, change.x_box, change.x_com);
     }
     for (const CameraNuisance& nuisance : nuisances) {
-      if (!nuisance.each_run) continue;
+      if (!nuisance.each_run || !(nuisance.deviation_of[r] > 0)) continue;
       list[r].own.conservativeResize(list[r].values.size(), list[r].own.cols() + 1);
-      list[r].own.rightCols(1) = nuisance.deviation * list[r].by_camera.at(nuisance.key);
+      list[r].own.rightCols(1) = nuisance.deviation_of[r] * list[r].by_camera.at(nuisance.key);
     }
   }
   return list;
@@ -44,8 +44,8 @@ std::vector<Knob> camera_knobs(const Setup& setup, const Measurement& measuremen
     Knob knob;
     knob.key = nuisance.key;
     knob.centre = knob.believed = get_number(setup, nuisance.key, known);
-    knob.width = knob.believed_error = nuisance.deviation;
-    knob.low = knob.centre - far * nuisance.deviation, knob.high = knob.centre + far * nuisance.deviation;
+    knob.width = knob.believed_error = nuisance.deviation();
+    knob.low = knob.centre - far * knob.width, knob.high = knob.centre + far * knob.width;
     knob.curved = false;
     knob.exact = true;
     knobs.push_back(knob);

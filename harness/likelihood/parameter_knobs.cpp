@@ -2,11 +2,13 @@
 #include "parameter_knobs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace shakedown {
 
-std::vector<Knob> as_given(const Setup& setup) {
-  const auto knob = [](const char* key, double value, double apart, double highest) {
+std::vector<Knob> as_given(const Setup& setup, const std::vector<KnownValue>& known) {
+  const auto knob = [&](const char* key, double value, double apart, double highest) {
+    if (const KnownValue* said = find_known(known, key)) apart = std::hypot(apart, said->error);
     const double reach = 2.5 * apart;
     return Knob{key,   value, reach, std::max(0.0, value - reach), std::min(highest, value + reach),
                 false, value, apart};
@@ -31,6 +33,19 @@ std::vector<Knob> free_parameters(const Setup& setup, double frequency, double w
 
 std::vector<Knob> free_parameters(const Setup& setup) {
   return free_parameters(setup, setup.spring.frequency, 0.01 * setup.spring.frequency);
+}
+
+std::vector<Knob> believed(std::vector<Knob> knobs, const std::vector<KnownValue>& known) {
+  std::erase_if(knobs, [&](const Knob& knob) {
+    const KnownValue* said = find_known(known, knob.key);
+    return said != nullptr && said->error == 0;
+  });
+  for (Knob& knob : knobs)
+    if (const KnownValue* said = find_known(known, knob.key)) {
+      knob.believed = said->value, knob.believed_error = said->error;
+      knob.low = std::min(knob.low, said->value), knob.high = std::max(knob.high, said->value);
+    }
+  return knobs;
 }
 
 }  // namespace shakedown

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "emulator.hpp"
+#include "known_value.hpp"
 
 namespace shakedown {
 
@@ -17,12 +18,16 @@ constexpr double code_restitution = 0.004, code_frequency = 1e-4;
 constexpr double believed_restitution = 0.1;
 
 /// The parameters as given, as far as two codes of the same physics agree on what they mean.
-std::vector<Knob> as_given(const Setup& setup);
+/// Where [known] gives an error they may be off by that too.
+std::vector<Knob> as_given(const Setup& setup, const std::vector<KnownValue>& known = {});
 
 /// What a user may refit, about the setup's values; the spring's about `frequency` (Hz), which the momentum
 /// balance may know better, within
 /// +- width (Hz).
 std::vector<Knob> free_parameters(const Setup& setup, double frequency, double width);
 std::vector<Knob> free_parameters(const Setup& setup);
+
+/// The same with what [known] says of them for the belief; what it knows exactly is no knob any more.
+std::vector<Knob> believed(std::vector<Knob> knobs, const std::vector<KnownValue>& known);
 
 }  // namespace shakedown

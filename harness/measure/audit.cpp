@@ -149,8 +149,8 @@ std::string source_in_words(const NoiseFound& noise) {
       return "frames this far apart do not tell noise from motion; " + millimetres(noise.standard_deviation) +
              " is taken, which may be too much (say uncertainty in the experiment file)";
     case NoiseSource::declared:
-      return "the frames do not tell their noise; the uncertainty of the experiment file, " +
-             millimetres(noise.declared) + ", is used";
+      return "the uncertainty of the experiment file, " + millimetres(noise.declared) +
+             ", is used: the frames do not tell their noise, or scatter by less";
     case NoiseSource::assumed:
       return "too few frames in a row to tell their noise, and the experiment file says no uncertainty; " +
              millimetres(noise.standard_deviation) + " is assumed";
@@ -162,7 +162,7 @@ void warn_about(const RunAudit& run, const NoiseFound& noise, const char* what,
                 std::vector<std::string>& warnings) {
   const std::string who = run.run + ", " + what + ": ";
   if (noise.source == NoiseSource::frames && noise.declared > 0 &&
-      std::abs(noise.standard_deviation / noise.declared - 1) > 0.25)
+      noise.standard_deviation > 1.25 * noise.declared)
     warnings.push_back(who + "the frames scatter by " + millimetres(noise.standard_deviation) +
                        " where the experiment file says " + millimetres(noise.declared) +
                        "; the found value is used");

@@ -27,6 +27,7 @@ struct MeasuredRun {
   Start start = Start::not_said;
   SourcePlace place;  ///< of its [[run]] in the experiment file
 
+  bool release_stated = false;  ///< the file says when it was let go
   bool origin_stated =
       false;  ///< the file says where x_box is 0; else what the table calls 0 is taken for it
 
@@ -48,12 +49,16 @@ struct MeasuredRun {
   bool has_com() const { return !x_com.empty(); }
 };
 
+/// What the positions were measured with. Only a camera has a lens, a shutter and a line of sight.
+enum class Sensor { camera, encoder, ranger, gyro, other };
+
 struct Experiment {
   std::string title;
   std::string file;
   std::vector<MeasuredRun> runs;
   std::vector<KnownValue> known;   ///< what was weighed and measured, and how well
   std::vector<std::string> notes;  ///< what was assumed in reading, in words
+  Sensor sensor = Sensor::camera;
 };
 
 }  // namespace shakedown

@@ -5,11 +5,13 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "column_reading.hpp"
 #include "column_tables.hpp"
 #include "experiment_reader.hpp"
 #include "fnv.hpp"
+#include "prelude.hpp"
 #include "quantity.hpp"
 #include "table_text.hpp"
 #include "toml_document.hpp"
@@ -132,19 +134,11 @@ void append(Violations& violations, Violations more) {
                     std::make_move_iterator(more.end()));
 }
 
-/// Frames before the stated release are no part of the motion that starts there.
-void split_lead_in(MeasuredRun& run) {
-  constexpr double rounding = 1e-9;  // s, of the release's own frame
-  const auto first = std::lower_bound(run.time.begin(), run.time.end(), -rounding);
-  const auto split = [count = first - run.time.begin()](std::vector<double>& series,
-                                                        std::vector<double>& before) {
-    if (series.empty()) return;
-    before.assign(series.begin(), series.begin() + count);
-    series.erase(series.begin(), series.begin() + count);
-  };
-  split(run.x_box, run.lead_in.x_box);
-  split(run.x_com, run.lead_in.x_com);
-  split(run.time, run.lead_in.time);
+/// What the table calls 1 s is 1 s times 1 plus this.
+double clock_error(const MeasuredRun& run, const Experiment& experiment) {
+  for (const std::vector<KnownValue>* values : {&run.known, &std::as_const(experiment).known})
+    if (const KnownValue* clock = find_known(*values, "clock")) return clock->value;
+  return 0;
 }
 
 void read_series(const Table& table, RunColumns columns, const ClockAndScale& scale, MeasuredRun& run,
@@ -157,9 +151,12 @@ void read_series(const Table& table, RunColumns columns, const ClockAndScale& sc
   append(violations, std::move(series.violations));
   experiment.notes.insert(experiment.notes.end(), series.notes.begin(), series.notes.end());
   run.time = std::move(series.time);
+  for (double& when : run.time) when *= 1 + clock_error(run, experiment);
   run.x_box = std::move(series.x_box);
   run.x_com = std::move(series.x_com);
-  if (scale.release_time && run.start != Start::anywhere) split_lead_in(run);
+  // Frames before the stated release are no part of the motion that starts there.
+  run.release_stated = scale.release_time.has_value();
+  if (run.release_stated && run.start != Start::anywhere) run = counted_from(std::move(run), 0);
   if (violations.empty() && run.time.size() < 5)
     violations.push_back({run.place, "run.release_time", "lies after the end of the recording",
                           "give the time that the table's clock shows at the release"});
@@ -190,6 +187,10 @@ void read_run(const TomlValue& table, const std::filesystem::path& folder, const
   run.start = start_of(reader);
   if (const TomlValue* known = reader.table("known"))
     run.known = read_known(*known, "run.known.", violations);
+  for (const KnownValue& one : run.known)
+    if (!may_differ_between_runs(one.key))
+      violations.push_back({one.place, "run.known." + one.key, "is the same in all runs of an experiment",
+                            "say it once, in [known]"});
   take_length_and_grains(reader, folder, experiment.file, run);
   split_run_keys(table, experiment.file, run, violations);
   take_length_of_setup(table, run, violations);
@@ -217,6 +218,17 @@ void read_run(const TomlValue& table, const std::filesystem::path& folder, const
 }  // namespace
 
 namespace {
+
+/// As said, else a camera where something tells of one: pixels, a rate of frames, grains that are seen.
+Sensor sensor_of(const std::string& said, const Defaults& defaults, const Experiment& experiment) {
+  const std::vector<std::string_view>& words = experiment_key(ExperimentTable::camera, "sensor").choices;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (said == words[i]) return static_cast<Sensor>(i);
+  const bool films = defaults.scale.frame_rate > 0 || defaults.scale.pixel_size > 0 ||
+                     std::any_of(experiment.runs.begin(), experiment.runs.end(),
+                                 [](const MeasuredRun& run) { return run.has_com(); });
+  return films ? Sensor::camera : Sensor::other;
+}
 
 /// The tree of the file; throws InputError with what to do where a table or a setup was given instead.
 TomlValue parsed_experiment(std::string_view text, const std::string& name) {
@@ -259,10 +271,12 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
   Defaults defaults;
   const TomlValue* runs = reader.find("run");
   const TomlValue* columns = reader.table("column");
+  std::string sensor;
   if (const TomlValue* camera = reader.table("camera")) {
     const Reader of_camera(*camera, ExperimentTable::camera, "camera.", violations);
     defaults.scale.frame_rate = of_camera.number("frame_rate", 0);
     defaults.scale.pixel_size = of_camera.number("pixel_size", 0);
+    sensor = of_camera.choice("sensor");
     of_camera.report_unknown();
   }
   defaults.columns = read_column_tables(columns, "column.", {}, defaults.scale.pixel_size, violations);
@@ -275,6 +289,7 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
   else
     for (const TomlValue& run : runs->items) read_run(run, folder, defaults, experiment, violations);
   if (!violations.empty()) throw InputError(std::move(violations));
+  experiment.sensor = sensor_of(sensor, defaults, experiment);
   if (experiment.title.empty()) experiment.title = std::filesystem::path(name).stem().string();
   return experiment;
 }

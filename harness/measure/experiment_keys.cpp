@@ -35,6 +35,17 @@ const std::vector<ExperimentKey>& table() {
        "column is a clock, or it counts frames; else the clock is used."},
       {Table::camera, "pixel_size", Kind::quantity, "mm", 0, largest_pixel, "\"0.12 mm\"",
        "The length that one pixel shows in the plane of the motion. Needed where positions are in px."},
+      {Table::camera,
+       "sensor",
+       Kind::choice,
+       "",
+       -infinity,
+       infinity,
+       "\"encoder\"",
+       "What measured the positions; errors of lens, shutter, arc and depth are asked of cameras alone. "
+       "Without "
+       "it: camera where there are pixels, numbered frames, a frame_rate or a track of grains, else other.",
+       {"camera", "encoder", "ranger", "gyro", "other"}},
       {Table::column, "from", Kind::text, "", -infinity, infinity, "\"x_box_mm\"",
        "Header of the column, with or without its unit in brackets. Empty: not measured."},
       {Table::column, "unit", Kind::text, "", -infinity, infinity, "\"mm\"",

@@ -141,9 +141,16 @@ std::string experiment_keys_markdown() {
   text +=
       "\nA run may set any key of the setup for itself, with a dot: `grains.count = 0`, "
       "`release.displacement = "
-      "\"90 mm\"`.\n\n`[known]`: value and error of any number of the setup's sections box, spring, blade, "
-      "grains, restitution, release (in quotes: `\"box.mass\" = \"434 g +- 2 g\"`; `release.displacement` of "
-      "each run independently), and of\n\n| key | example | bounds | meaning |\n|---|---|---|---|\n";
+      "\"90 mm\"`.\n\n`[known]`: value and error of box.mass, grains.mass, spring.frequency, "
+      "restitution.grain_grain, restitution.grain_wall, release.displacement (in quotes: `\"box.mass\" = "
+      "\"434 g +- "
+      "2 g\"`; `release.displacement` of each run independently). The value goes before the setup's, the "
+      "error counts "
+      "in every interval, `+- 0` fixes; other numbers of the setup's sections box, spring, blade, grains, "
+      "release may "
+      "be said with `+- 0` alone. And of camera and clock (0: nothing wrong expected; else the value is put "
+      "into "
+      "the model)\n\n| key | example | bounds | meaning |\n|---|---|---|---|\n";
   for (const CameraKey& key : camera_keys())
     text += row(std::string(key.path), example_of(key), key.positive ? ">= 0" : "",
                 std::string(key.sentence) + (key.each_run ? " Of each run independently." : ""));

@@ -21,15 +21,17 @@ using Kind = TomlValue::Kind;
 
 constexpr std::array<CameraKey, 9> keys_of_camera{{
     {"camera.scale", "", false, false,
-     "Relative error of the scale: what the table calls 1 m is 1 m times 1 plus this."},
+     "Relative error of the scale: by how much the table's lengths are too long."},
     {"camera.lens", "", false, false,
      "Relative distortion of the lens at 0.2 m from the optical axis; it grows with the square of the "
      "distance."},
     {"camera.depth", "", false, false,
-     "Relative: by how much smaller the grains appear than the box's marker because they lie behind it."},
+     "Relative: by how much larger the grains appear than the box's marker; negative where they lie behind "
+     "it."},
     {"camera.shutter", "s", false, false,
      "Time from the first to the last row that is read of 0.4 m of track (rolling shutter)."},
-    {"camera.trigger", "ms", false, true, "How late the clock of a run starts after the release."},
+    {"camera.trigger", "ms", false, true,
+     "What the clock of a run shows at the release; negative where it starts late."},
     {"camera.wander", "mm", true, false, "Standard deviation of a slow error of the tracked positions."},
     {"camera.wander_time", "s", true, false, "Time over which that slow error forgets itself."},
     {"camera.origin", "mm", false, false,
@@ -49,6 +51,21 @@ bool can_be_known(const SetupKey& key) {
   constexpr std::array<std::string_view, 6> measured{"box",    "spring",      "blade",
                                                      "grains", "restitution", "release"};
   return is_numeric(key) && std::find(measured.begin(), measured.end(), key.section()) != measured.end();
+}
+
+/// What of the setup is weighed with its error. Of all else a value without error may be said.
+constexpr std::array<std::string_view, 6> weighed_keys{
+    "box.mass",         "grains.mass",         "restitution.grain_grain", "restitution.grain_wall",
+    "spring.frequency", "release.displacement"};
+bool is_weighed(std::string_view key) {
+  return find_camera_key(key) != nullptr ||
+         std::find(weighed_keys.begin(), weighed_keys.end(), key) != weighed_keys.end();
+}
+
+std::string listed_keys() {
+  std::string words;
+  for (const std::string_view key : weighed_keys) (words += words.empty() ? "" : ", ") += key;
+  return words + " and those of camera and clock";
 }
 
 struct Target {
@@ -214,6 +231,11 @@ void read_entries(const TomlValue& table, const std::string& above, const std::s
     KnownValue known{key, 0, 0, entry.place};
     if (const std::optional<Problem> problem = take(entry.value, *target, known))
       violations.push_back({entry.value.place, path + key, problem->problem, problem->remedy});
+    else if (known.error > 0 && !is_weighed(key))
+      violations.push_back({entry.value.place, path + key, "has an error that nothing here weighs",
+                            "write the value alone, " + key + " = " +
+                                toml_string(write_quantity(known.value, target->unit)) +
+                                ", into the setup or its [[run]]; weighed are " + listed_keys()});
     else
       all.push_back(std::move(known));
   }
@@ -236,6 +258,11 @@ std::vector<const SetupKey*> knowable_setup_keys() {
   for (const SetupKey& key : setup_keys())
     if (can_be_known(key)) keys.push_back(&key);
   return keys;
+}
+
+bool may_differ_between_runs(std::string_view key) {
+  const auto starts = [&](std::string_view with) { return key.substr(0, with.size()) == with; };
+  return !starts("restitution.") && !starts("spring.") && !starts("camera.wander");
 }
 
 bool is_of_each_run(std::string_view key) {

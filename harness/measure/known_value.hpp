@@ -13,7 +13,8 @@ namespace shakedown {
 
 struct SetupKey;
 
-/// `key` is a numeric key of the setup ("box.mass", "restitution.grain_grain") or one of camera_keys().
+/// A value goes before the setup's own; an error of 0 fixes it. `key` is a numeric key of the setup
+/// ("box.mass", "restitution.grain_grain") or one of camera_keys().
 struct KnownValue {
   std::string key;
   double value = 0;   ///< SI; of camera and clock as a rule 0: nothing wrong expected
@@ -40,6 +41,9 @@ std::vector<const SetupKey*> knowable_setup_keys();
 /// True for what is drawn anew in every run, whose error is of each run by itself: the release and the
 /// trigger.
 bool is_of_each_run(std::string_view key);
+
+/// False for what the runs of one experiment have in common: restitutions, the spring, a tracker's wander.
+bool may_differ_between_runs(std::string_view key);
 
 /// Reads [known]: keys in quotes ("box.mass") or with a dot, values as `value +- error [unit]` with the unit
 /// once or with both. What is wrong goes to `violations`; `path` stands before the keys there.

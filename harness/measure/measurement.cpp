@@ -7,6 +7,7 @@
 
 #include "errors.hpp"
 #include "experiment_file.hpp"
+#include "known_setup.hpp"
 #include "setup_file.hpp"
 
 namespace shakedown {
@@ -51,14 +52,22 @@ PlateauSlope plateau_slope(const std::vector<Measurement::Run>& runs) {
 
 }  // namespace
 
+std::vector<std::string> all_notes(const Measurement& measurement) {
+  std::vector<std::string> notes = measurement.notes;
+  notes.insert(notes.end(), measurement.warnings.begin(), measurement.warnings.end());
+  return notes;
+}
+
 Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known) {
   return with_overrides(setup, run.overrides, known);
 }
 
 Measurement measurement_of(const Setup& setup, Experiment experiment,
                            std::span<const EffectRecord* const> known) {
+  experiment = with_known(std::move(experiment), known);
+  const Setup measured = with_known(setup, experiment.known, known);
   std::vector<Setup> setups;
-  for (const MeasuredRun& run : experiment.runs) setups.push_back(setup_of_run(setup, run, known));
+  for (const MeasuredRun& run : experiment.runs) setups.push_back(setup_of_run(measured, run, known));
   return measurement_of(setups, std::move(experiment));
 }
 
@@ -71,6 +80,7 @@ Measurement measurement_of(const std::vector<Setup>& setups, Experiment experime
                           experiment.known,
                           {},
                           {}};
+  measurement.sensor = experiment.sensor;
   std::vector<const MeasuredRun*> recorded;
   std::vector<RunAudit*> audits;
   for (std::size_t r = 0; r < setups.size(); ++r) {

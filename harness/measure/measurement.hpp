@@ -30,13 +30,17 @@ struct Measurement {
   std::vector<KnownValue> known;      ///< what was weighed and measured, and how well
   PlateauSlope plateau;
   std::vector<Run> runs;
+  Sensor sensor = Sensor::camera;
 };
+
+/// What was assumed and what the frames give reason to say.
+std::vector<std::string> all_notes(const Measurement& measurement);
 
 /// The setup of one run: the user's, with the run's own keys. Throws InputError that names the run's line for
 /// a key that does not exist or does not fit.
 Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known);
 
-/// Audits the frames, and gives each run its setup. Throws as setup_of_run does.
+/// Audits the frames, and gives each run its setup, with what is known put in. Throws as setup_of_run does.
 Measurement measurement_of(const Setup& setup, Experiment experiment,
                            std::span<const EffectRecord* const> known);
 

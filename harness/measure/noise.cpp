@@ -248,8 +248,11 @@ void set_deviation(const NoiseSeries& series, NoiseFound& noise) {
                     are_noise(seen, differences(used, noise.order + 2), found);
   found /= gain;
   noise.source = told ? NoiseSource::frames : NoiseSource::bound;
-  if (noise.declared > 0 && !(told && std::isfinite(found)) && !(found < noise.declared)) {
-    noise.source = NoiseSource::declared;
+  const bool frames_tell = told && std::isfinite(found);
+  // Who states more than the frames scatter by knows of errors that neighbouring frames have in common.
+  if (noise.declared > 0 && (!frames_tell || found < noise.declared)) {
+    constexpr double clearly = 0.75;
+    if (!frames_tell || found < clearly * noise.declared) noise.source = NoiseSource::declared;
     found = noise.declared;
   } else if (!std::isfinite(found)) {
     noise.source = NoiseSource::assumed;

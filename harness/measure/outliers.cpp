@@ -143,6 +143,19 @@ double misfit_to_cubic(const std::vector<double>& time, const std::vector<double
   return std::abs(at_centre.dot(right)) / (deviation * std::sqrt(1 + at_centre[0]));
 }
 
+/// How far frames of the series lie off the cubic, as a standard deviation in units of `deviation`; at
+/// least 1.
+double usual_misfit_to_cubic(const std::vector<double>& time, const std::vector<double>& x, double deviation,
+                             double interval) {
+  constexpr double of_a_median = 1.4826;
+  std::vector<double> misfits;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (std::isfinite(x[i]))
+      if (const double misfit = misfit_to_cubic(time, x, i, x[i], deviation, interval); misfit > 0)
+        misfits.push_back(misfit);
+  return misfits.empty() ? 1 : std::max(1.0, of_a_median * median(misfits));
+}
+
 }  // namespace
 
 // What looks wrong beside an outlier is judged again without it, and what an outlier seemed to support too.
@@ -151,6 +164,9 @@ std::vector<double> without_outliers(const std::vector<double>& time, const std:
   constexpr double certain = 5, doubtful = 1.5, off_the_cubic = 4;  // standard deviations
   const OutlierJudge judge(time, x, deviation);
   std::vector<double> kept = x;
+  // A cubic over a good part of a period errs everywhere, as frames of another noise do: a wrong frame stands
+  // out from the others.
+  const double usual = usual_misfit_to_cubic(time, x, deviation, interval);
   for (int pass = 0; pass < 5; ++pass) {
     std::vector<double> next = x;
     bool same = true;
@@ -159,8 +175,9 @@ std::vector<double> without_outliers(const std::vector<double>& time, const std:
       const double misfit = judge.misfit(kept, i, x[i]);
       // The cubic is sharper, but a landing bends away from it; there one side's neighbours support the
       // frame.
-      if (misfit > certain || (pass > 0 && misfit > doubtful &&
-                               misfit_to_cubic(time, kept, i, x[i], deviation, interval) > off_the_cubic))
+      if (misfit > certain ||
+          (pass > 0 && misfit > doubtful &&
+           misfit_to_cubic(time, kept, i, x[i], deviation, interval) > off_the_cubic * usual))
         next[i] = nothing;
       same = same && std::isfinite(next[i]) == std::isfinite(kept[i]);
     }

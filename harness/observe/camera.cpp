@@ -111,15 +111,15 @@ Recording undone(const Camera& camera, const Recording& recording) {
 
 std::span<const CameraParameter> camera_parameters() {
   static constexpr std::array<CameraParameter, 9> parameters{{
-      {"camera_scale.scale", "", 0.01, &Camera::scale},
-      {"camera_lens.distortion", "", 0.005, &Camera::lens},
-      {"camera_depth.depth", "", 0.005, &Camera::depth},
-      {"camera_shutter.time", "s", 1e-3, &Camera::shutter},
+      {"camera_scale.scale", "", 0.01, &Camera::scale, false},
+      {"camera_lens.distortion", "", 0.005, &Camera::lens, true},
+      {"camera_depth.depth", "", 0.005, &Camera::depth, true},
+      {"camera_shutter.time", "s", 1e-3, &Camera::shutter, true},
       {"camera_origin.origin", "m", 0.5e-3, &Camera::origin},
       {"camera_drift.drift", "m/s", 1e-4, &Camera::drift},
       {"camera_time_offset.offset", "s", 0.002, &Camera::time_offset},
-      {"camera_com_bias.bias", "", 0.05, &Camera::centre_bias},
-      {"camera_arc.blade_length", "m", 0.59, &Camera::arc_length, true},
+      {"camera_com_bias.bias", "", 0.05, &Camera::centre_bias, true},
+      {"camera_arc.blade_length", "m", 0.59, &Camera::arc_length, true, true},
   }};
   return parameters;
 }

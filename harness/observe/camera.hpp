@@ -36,6 +36,7 @@ struct CameraParameter {
   std::string_view unit;  ///< SI
   double typical = 0;     ///< SI, of an ordinary camera
   double Camera::*field = nullptr;
+  bool optical = false;  ///< needs a lens, a shutter or a line of sight: no encoder, ranger or gyro has it
   bool inverse_square = false;  ///< the recording is linear in 1 / value^2 (a length; infinite: no error)
 };
 /// All of them; a clock's offset is one of each run.

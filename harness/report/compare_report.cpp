@@ -84,6 +84,12 @@ Report report_of(const Refit& fit, const MomentumAudit& momentum, const ModelJud
   report.sections.back().tables.push_back(validation_table(fit.validation()));
   report.sections.push_back(momentum_section(momentum));
   if (!curves.empty()) report.sections.push_back(energy_section(curves));
+  if (const std::vector<std::string> notes = all_notes(measurement); !notes.empty()) {
+    ReportSection section;
+    section.title = "Notes";
+    section.list = notes;
+    report.sections.push_back(section);
+  }
   say_how_to_reproduce(report, setup);
   if (!curves.empty()) report.health = health_lines(curves);
   return report;

@@ -76,7 +76,7 @@ ReportSection ladder_section(const Diagnosis& diagnosis) {
     bars.lines.push_back({step.step,
                           fmt::format("p = {}", for_people(step.p_value)),
                           {step.error_box * 1e3, step.held_out_error_box * 1e3}});
-    centre.cells.push_back(for_people(step.error_centre * 1e3));
+    centre.cells.push_back(step.floor_centre > 0 ? for_people(step.error_centre * 1e3) : "–");
     floor.cells.push_back(for_people(step.floor_box * 1e3));
     p.cells.push_back(for_people(step.p_value));
   }

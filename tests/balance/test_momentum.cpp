@@ -196,7 +196,9 @@ TEST(Momentum, AForceInNoListIsWrittenAsAFormula) {
 
   what.force = [](double x, double v, double) { return -20 * v * x * x; };
   audit = audited(what, 2);
-  ASSERT_EQ(audit.formulas.size(), 1u);
+  ASSERT_GE(audit.formulas.size(), 1u);
+  for (std::size_t i = 1; i < audit.formulas.size(); ++i)  // a trifle beside it may be told too
+    EXPECT_LT(audit.formulas[i].gain, 0.01 * audit.formulas[0].gain) << audit.formulas[i].formula;
   EXPECT_EQ(audit.formulas[0].formula, "-c*v*x^2");
   EXPECT_NEAR(audit.formulas[0].constants[0].value, 20, 0.2);
 

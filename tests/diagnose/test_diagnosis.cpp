@@ -70,9 +70,12 @@ TEST(SlowDiagnosis, LimitsHoldAndWhatWasNotTriedIsSaid) {
   options.budget = 0;
   options.seconds = 1e-9;
   const Diagnosis hasty = diagnose(believed(), measurement, *engine, options);
-  EXPECT_EQ(hasty.runs_simulated, 2 * 2 * 128);
+  EXPECT_EQ(hasty.runs_simulated, least_budget(measurement));
   EXPECT_FALSE(hasty.not_tried.empty());
   EXPECT_EQ(hasty.missing, std::vector<std::string>{"blade_viscous_damping"}) << hasty.sentence;
+  // What cannot be kept is refused.
+  options.budget = 1;
+  EXPECT_THROW(diagnose(believed(), measurement, *engine, options), InputError);
 }
 
 TEST(Diagnosis, AnotherPackingIsAParameterNotAnEffect) {

@@ -132,6 +132,84 @@ TEST(EmptyBox, NoGrainsInAnyRunIsAnEmptyBoxToo) {
   EXPECT_EQ(d.amended.grains.count, 0);
 }
 
+namespace {
+
+/// Viscous 0.03 N s/m and 10 mN dry, a frequency counted 2 % wrong.
+Diagnosis of_damped_box(const std::vector<KnownValue>& known, const DiagnoseOptions& options,
+                        double stated_frequency_factor = 1) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  shakedown::Setup given = empty_box();
+  given.spring.frequency *= stated_frequency_factor;
+  Experiment experiment = recorded({.viscous = 0.03, .dry = 0.01, .start = 0.23, .origin = 0.004}, 5);
+  experiment.known = known;
+  return diagnose(given, measurement_of(given, experiment, all_effects()), *engine, options);
+}
+
+DiagnoseOptions of_all_effects() {
+  DiagnoseOptions options;
+  options.known = all_effects();
+  return options;
+}
+
+const FoundTerm& term_of(const Diagnosis& d, const std::string& effect) {
+  for (const FoundTerm& term : d.momentum.terms)
+    if (term.effect == effect) return term;
+  ADD_FAILURE() << effect << " is not found: " << d.sentence;
+  static const FoundTerm none;
+  return none;
+}
+
+double half_width(const FoundTerm& term) { return (term.high - term.low) / 2 / term.value; }
+
+}  // namespace
+
+TEST(EmptyBox, ABadlyKnownScaleShrinksNothing) {
+  const Diagnosis usual = of_damped_box({}, of_all_effects()),
+                  bad = of_damped_box({{"camera.scale", 0, 0.1, {}}}, of_all_effects());
+  const FoundTerm &viscous = term_of(usual, "blade_viscous_damping"),
+                  &with_bad = term_of(bad, "blade_viscous_damping");
+  EXPECT_NEAR(with_bad.value, viscous.value, 1e-9 * viscous.value);
+  EXPECT_NEAR(half_width(with_bad), half_width(viscous), 1e-3 * half_width(viscous));
+  // Dry friction is as uncertain as the lengths.
+  EXPECT_GT(half_width(term_of(bad, "clamp_dry_friction")), 0.19);
+  EXPECT_LT(half_width(term_of(usual, "clamp_dry_friction")), 0.1);
+}
+
+TEST(EmptyBox, ABadlyWeighedBoxWidensEveryForce) {
+  const Diagnosis bad =
+      of_damped_box({{"box.mass", empty_box().box.mass, 0.05 * empty_box().box.mass, {}}}, of_all_effects());
+  EXPECT_NEAR(half_width(term_of(bad, "blade_viscous_damping")), 0.1, 0.02);
+}
+
+TEST(EmptyBox, TheMassOfKnownIsTheBoxs) {
+  const double mass = empty_box().box.mass;
+  const Diagnosis usual = of_damped_box({}, of_all_effects()),
+                  heavy = of_damped_box({{"box.mass", 1.1 * mass, 0.001 * mass, {}}}, of_all_effects());
+  EXPECT_NEAR(term_of(heavy, "blade_viscous_damping").value,
+              1.1 * term_of(usual, "blade_viscous_damping").value,
+              1e-3 * term_of(usual, "blade_viscous_damping").value);
+}
+
+TEST(EmptyBox, AFrequencyKnownExactlyStays) {
+  DiagnoseOptions options = of_all_effects();
+  options.fixed = {"spring.frequency"};
+  const double stated = 1.02 * empty_box().spring.frequency;
+  EXPECT_NEAR(of_damped_box({}, options, 1.02).momentum.frequency, stated, 1e-6 * stated);
+  const double right = empty_box().spring.frequency;
+  EXPECT_NEAR(of_damped_box({{"spring.frequency", right, 0, {}}}, of_all_effects(), 1.02).momentum.frequency,
+              right, 1e-6 * right);
+}
+
+TEST(EmptyBox, OnlyTheEffectsAskedForAreAdded) {
+  DiagnoseOptions options = of_all_effects();
+  options.effects = {"spring_cubic"};
+  const Diagnosis d = of_damped_box({}, options);
+  for (const std::string& effect : d.missing) EXPECT_EQ(effect, "spring_cubic");
+  for (const Hypothesis& hypothesis : d.hypotheses)
+    for (const std::string& effect : hypothesis.effects)
+      EXPECT_TRUE(effect == "spring_cubic" || effect == unlisted_effect) << effect;
+}
+
 TEST(Swing, IsCountedFromItsFirstTurnAboutItsOwnOrigin) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const Measurement recorded_anywhere =

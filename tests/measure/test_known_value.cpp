@@ -107,6 +107,29 @@ TEST_F(KnownInExperiment, ARunsOwnValueGoesBeforeTheFiles) {
   EXPECT_FALSE(is_of_each_run("box.mass") || is_of_each_run("camera.scale"));
 }
 
+TEST(KnownValue, AnErrorThatNothingWeighsIsRefusedWithTheLine) {
+  const ReadKnown read = known_of_text("\"box.length\" = \"40 mm +- 0.1 mm\"");
+  EXPECT_TRUE(read.values.empty());
+  for (const char* part :
+       {"experiment.toml:1", "known.box.length", "nothing here weighs", "box.mass", "40 mm"})
+    EXPECT_NE(read.wrong.find(part), std::string::npos) << read.wrong;
+  expect_value("\"box.length\" = \"40 mm +- 0 mm\"", 0.04, 0);
+}
+
+TEST_F(KnownInExperiment, WhatAllRunsHaveInCommonIsNotSaidOfOne) {
+  try {
+    parse("[[run]]\nfile = \"a.csv\"\n[run.known]\n\"restitution.grain_wall\" = \"0.9 +- 0.01\"\n");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("same in all runs"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(KnownInExperiment, TheClockIsPutRight) {
+  const Experiment experiment = parse("[known]\nclock = \"10 % +- 0.1 %\"\n[[run]]\nfile = \"a.csv\"\n");
+  EXPECT_NEAR(experiment.runs[0].time.back(), 0.016 * 1.1, 1e-15);
+}
+
 TEST_F(KnownInExperiment, ARunMayStartAnywhere) {
   const Experiment experiment = parse(
       "[[run]]\nfile = \"a.csv\"\nrelease = \"unknown\"\n[[run]]\nfile = \"a.csv\"\n"

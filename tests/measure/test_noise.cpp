@@ -81,6 +81,14 @@ TEST(Noise, ThatFramesCannotTellIsTheDeclaredOneAndIsSaid) {
   EXPECT_FALSE(warnings_of(without).empty());
 }
 
+TEST(Noise, AStatedUncertaintyAboveWhatFramesScatterByIsTaken) {
+  RecordedSwing swing = recorded_swing({});
+  swing.run.box_uncertainty = 5 * swing.noise;
+  const RunAudit stated = audit_run(swing.run);
+  EXPECT_DOUBLE_EQ(stated.box.standard_deviation, 5 * swing.noise);
+  EXPECT_EQ(stated.box.source, NoiseSource::declared);
+}
+
 // 40 s at rest hold some hundred times the memory: its size is known to a tenth, the memory to a third.
 TEST(Noise, WanderIsFoundAtRest) {
   double size = 0, memory = 0;
