@@ -12,6 +12,7 @@
 #include "engines.hpp"
 #include "ensemble_options.hpp"
 #include "faulty_parts.hpp"
+#include "ideal_judge.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
@@ -24,6 +25,7 @@ namespace {
 struct BlindSuiteArguments {
   std::string setup, out, cases, strengths, variant, mutation = "none", engine = "soft";
   std::string shard;
+  bool ideal = false;
   bool small = false, full = false, baselines = false, resume = false, score_only = false;
   std::vector<double> signals;
   std::uint64_t seed = 1;
@@ -97,7 +99,10 @@ int blind_suite(const BlindSuiteArguments& arguments) {
                share.index + 1, share.of, share.source);
     return exit_done;
   }
-  const BlindScore score = score_blind_suite(folder.path(), tools, arguments.ledger);
+  BlindScore score = score_blind_suite(folder.path(), tools, arguments.ledger);
+  if (arguments.ideal)
+    for (BlindFigure& figure : ideal_judge(folder.path(), believed, tools))
+      score.figures.push_back(std::move(figure));
   std::string lines;
   for (const std::string& line : score.cases) lines += line + "\n";
   folder.write("score.txt", blind_score_text(score) + "\n" + lines);
@@ -156,6 +161,9 @@ Command add_blind_suite_command(CLI::App& program) {
           "job arrays). Processes share the folder")
       ->type_name("i/n");
   command.add_flag("--resume", a->resume, "go on where an interrupted suite stopped");
+  command.add_flag(
+      "--ideal", a->ideal,
+      "score beside an ideal judge, who knows signatures and covariance (some minutes the first time)");
   command.add_flag("--score", a->score_only, "only open and score what is there");
   command
       .add_option("--strengths", a->strengths,

@@ -111,9 +111,9 @@ Matrix likely_covariance(const Matrix& sample, const Matrix& other, const Vector
 
 /// One planned run, in two halves.
 struct Block {
-  std::array<Vector, 2> signature;
-  std::array<Matrix, 2> covariance;        ///< to find the direction with
-  std::array<Matrix, 2> plain_covariance;  ///< to weigh it with
+  std::array<Matrix, 2> signatures;        ///< a column each change
+  std::array<Matrix, 2> covariance;        ///< to find directions with
+  std::array<Matrix, 2> plain_covariance;  ///< to weigh them with
   Matrix unknown_to_all, unknown_of_run;   ///< columns, each times its standard deviation
 };
 
@@ -129,21 +129,25 @@ Matrix columns_of_run(const Vector& mean, bool grains, const IdealIgnorance& ign
   return columns;
 }
 
-Block block_of(const Setup& without, const Setup& with, const IdealSettings& settings,
+Block block_of(const Setup& without, const std::vector<Setup>& with, const IdealSettings& settings,
                const Simulations& simulations) {
-  const int n = settings.count;
+  const int n = settings.count, changes = static_cast<int>(with.size());
   const bool grains = without.grains.count > 0;
   Block block;
   std::array<Matrix, 2> spread;
   Vector mean;
   for (const int half : {0, 1}) {
-    const Runs plain = simulations.simulated(without, half * n, n),
-               altered = simulations.simulated(with, (2 + half) * n, n);
-    block.signature[static_cast<std::size_t>(half)] = altered.mean() - plain.mean();
-    Matrix both(plain.all.rows(), 2 * n);
-    both << plain.residuals(), altered.residuals();
-    spread[static_cast<std::size_t>(half)] = sample_covariance(both, 2);
+    const Runs plain = simulations.simulated(without, half * n, n);
     mean = plain.mean();
+    Matrix residuals(mean.size(), (1 + changes) * n), signatures(mean.size(), changes);
+    residuals.leftCols(n) = plain.residuals();
+    for (int k = 0; k < changes; ++k) {
+      const Runs altered = simulations.simulated(with[static_cast<std::size_t>(k)], (2 + half) * n, n);
+      signatures.col(k) = altered.mean() - mean;
+      residuals.middleCols((1 + k) * n, n) = altered.residuals();
+    }
+    block.signatures[static_cast<std::size_t>(half)] = signatures;
+    spread[static_cast<std::size_t>(half)] = sample_covariance(residuals, 1 + changes);
   }
   const Vector noise = noise_of(settings.recording, mean.size(), grains);
   for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
@@ -176,47 +180,69 @@ bool same_run(const PlannedRun& a, const PlannedRun& b) {
       [](const Override& x, const Override& y) { return x.key == y.key && x.value == y.value; });
 }
 
-/// Square of the distance: signature of one half times C^-1 times that of the other, whose noises are
-/// independent, so that noise adds nothing. C is of one half; the other half's spread along the direction
-/// sets its scale.
-double seen(const std::vector<Block>& blocks, std::size_t finds, std::size_t sees) {
+/// Products of the signatures of one half with those of the other, whose noises are independent, so that
+/// noise adds nothing. C is of one half; the other half's spread along each direction sets its scale.
+Matrix seen(const std::vector<Block>& blocks, std::size_t finds, std::size_t sees) {
+  const Eigen::Index changes = blocks.front().signatures[0].cols();
   Eigen::Index size = 0;
-  for (const Block& block : blocks) size += block.signature[0].size();
+  for (const Block& block : blocks) size += block.signatures[0].rows();
   Matrix covariance = Matrix::Zero(size, size), weighing = covariance, shared(size, 4);
-  Vector found(size), other(size);
+  Matrix found(size, changes), other(size, changes);
   Eigen::Index at = 0;
   for (const Block& block : blocks) {
-    const Eigen::Index here = block.signature[0].size();
+    const Eigen::Index here = block.signatures[0].rows();
     const Matrix own = block.unknown_of_run * block.unknown_of_run.transpose();
     covariance.block(at, at, here, here) = block.covariance[finds] + own;
     weighing.block(at, at, here, here) = block.plain_covariance[sees] + own;
     shared.middleRows(at, here) = block.unknown_to_all;
-    found.segment(at, here) = block.signature[finds];
-    other.segment(at, here) = block.signature[sees];
+    found.middleRows(at, here) = block.signatures[finds];
+    other.middleRows(at, here) = block.signatures[sees];
     at += here;
   }
   covariance += shared * shared.transpose();
   weighing += shared * shared.transpose();
-  const Vector direction = covariance.llt().solve(found);
-  const double variance = direction.dot(weighing * direction);
-  return variance > 0 ? direction.dot(other) * direction.dot(covariance * direction) / variance : 0;
+  const Matrix directions = covariance.llt().solve(found);
+  Matrix products = directions.transpose() * other;
+  for (Eigen::Index k = 0; k < changes; ++k) {
+    const auto direction = directions.col(k);
+    const double variance = direction.dot(weighing * direction);
+    products.row(k) *= variance > 0 ? direction.dot(covariance * direction) / variance : 0;
+  }
+  return products;
 }
 
 }  // namespace
 
-double ideal_signal(const Setup& without, const Setup& with, const IdealSettings& settings,
-                    const TrialTools& tools) {
+std::vector<std::vector<double>> ideal_products(const Setup& without, const std::vector<Setup>& with,
+                                                const IdealSettings& settings, const TrialTools& tools) {
   const Simulations simulations(settings, tools);
   std::vector<Block> blocks;
   for (std::size_t i = 0; i < settings.runs.size(); ++i) {
-    // Repeats of a run have the same signature and spread.
+    // Repeats of a run have the same signatures and spread.
     std::size_t same = 0;
     while (same < i && !same_run(settings.runs[same], settings.runs[i])) ++same;
-    blocks.push_back(same < i ? blocks[same]
-                              : block_of(simulations.planned(without, settings.runs[i]),
-                                         simulations.planned(with, settings.runs[i]), settings, simulations));
+    if (same < i) {
+      blocks.push_back(blocks[same]);
+      continue;
+    }
+    std::vector<Setup> changed_runs;
+    for (const Setup& setup : with) changed_runs.push_back(simulations.planned(setup, settings.runs[i]));
+    blocks.push_back(
+        block_of(simulations.planned(without, settings.runs[i]), changed_runs, settings, simulations));
   }
-  const double squared = 0.5 * (seen(blocks, 0, 1) + seen(blocks, 1, 0));
+  const Matrix half = 0.5 * (seen(blocks, 0, 1) + seen(blocks, 1, 0)),
+               products = 0.5 * (half + half.transpose());
+  std::vector<std::vector<double>> rows;
+  for (Eigen::Index i = 0; i < products.rows(); ++i) {
+    rows.emplace_back();
+    for (Eigen::Index j = 0; j < products.cols(); ++j) rows.back().push_back(products(i, j));
+  }
+  return rows;
+}
+
+double ideal_signal(const Setup& without, const Setup& with, const IdealSettings& settings,
+                    const TrialTools& tools) {
+  const double squared = ideal_products(without, {with}, settings, tools)[0][0];
   return std::copysign(std::sqrt(std::abs(squared)), squared);
 }
 

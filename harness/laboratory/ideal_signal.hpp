@@ -32,4 +32,9 @@ struct IdealSettings {
 double ideal_signal(const Setup& without, const Setup& with, const IdealSettings& settings,
                     const TrialTools& tools);
 
+/// The products s_i'C^-1 s_j of several changes of one setup, symmetric; their diagonal holds squares of
+/// ideal_signal() and may be below zero where there is nothing to see.
+std::vector<std::vector<double>> ideal_products(const Setup& without, const std::vector<Setup>& with,
+                                                const IdealSettings& settings, const TrialTools& tools);
+
 }  // namespace shakedown
