@@ -52,9 +52,9 @@ extern const EffectRecord grain_cohesion{
     // millimetres rarely stick: exp(-2).
     .search = {.strengths = {{.parameters = "force",
                               .typical = 8e-3,
-                              .levels = {2e-3, 8e-3, 32e-3, 128e-3},
+                              .levels = {2e-3, 8e-3, 32e-3},
                               .low = 0,
-                              .high = 0.2,
+                              .high = 64e-3,
                               .strongest = 0.2}},
                .besides = {{"range", 2e-5}},
                .cost = Search::Cost::dear,
