@@ -55,7 +55,7 @@ extern const EffectRecord grain_cohesion{
                               .levels = {2e-3, 8e-3, 32e-3},
                               .low = 0,
                               .high = 64e-3,
-                              .strongest = 0.2}},
+                              .strongest = 64e-3}},
                .besides = {{"range", 2e-5}},
                .cost = Search::Cost::dear,
                .odds = 0.135},

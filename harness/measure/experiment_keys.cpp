@@ -83,7 +83,9 @@ const std::vector<ExperimentKey>& table() {
        "position and speed of its own. Without it: unknown for an empty box, else at rest.",
        {"at rest", "unknown"}},
       {Table::run, "initial_grains", Kind::text, "", -infinity, infinity, "\"grains.csv\"",
-       "Table id,x,y,z,vx,vy,vz (m, m/s) of the grains at release, from the folder of the experiment file."},
+       "Table id,x,y,z,vx,vy,vz (m, m/s) of the grains at release, from the folder of the experiment file. "
+       "Where every "
+       "velocity is 0 nobody measured them: each simulation draws its own."},
       {Table::run, "column", Kind::table, "", -infinity, infinity, "column.box_position.from = \"x2\"",
        "Columns of this run alone, on top of those of the file."},
       {Table::run, "known", Kind::table, "", -infinity, infinity, "known.\"box.mass\" = \"450 g +- 1 g\"",

@@ -59,7 +59,9 @@ std::vector<std::string> all_notes(const Measurement& measurement) {
 }
 
 Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known) {
-  return with_overrides(setup, run.overrides, known);
+  Setup of_run = with_overrides(setup, run.overrides, known);
+  of_run.release.grains_measured = true;
+  return of_run;
 }
 
 Measurement measurement_of(const Setup& setup, Experiment experiment,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "initial_state.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -60,6 +61,14 @@ void set_velocities(const Setup& setup, double energy, int run, State& state) {
   for (Vec3& velocity : state.velocity) velocity *= factor;
 }
 
+/// Measured velocities err, by a thousandth at least: enough for chaos to grow from.
+void set_apart(const Setup& setup, int run, State& state) {
+  constexpr double error = 1e-3;
+  Random random(setup.run.seed, static_cast<std::uint64_t>(run), Stream::velocities);
+  for (Vec3& velocity : state.velocity)
+    for (double& component : velocity) component *= 1 + error * random.normal();
+}
+
 }  // namespace
 
 State initial_state(const Setup& setup, int run) {
@@ -70,11 +79,17 @@ State initial_state(const Setup& setup, int run) {
     state.x_box = setup.release.displacement;
   }
   set_sizes(setup, physics.relative_diameter_deviation, run, state);
-  if (!setup.release.initial_grains.empty()) {
+  const bool measured = !setup.release.initial_grains.empty();
+  if (measured) {
     read_grains(setup, state);
   } else {
     state.position = packed_centres(setup, physics.packing, state.radius, run);
     for (Vec3& position : state.position) position.x() += state.x_box;
+  }
+  const bool at_rest = std::all_of(state.velocity.begin(), state.velocity.end(),
+                                   [](const Vec3& velocity) { return velocity.isZero(0); });
+  if (measured && !at_rest && setup.release.grains_measured) set_apart(setup, run, state);
+  if (!measured || (setup.release.grains_measured && at_rest)) {
     double mass = 0;
     for (const double m : state.mass) mass += m;
     const double spring_energy = physics.stiffness * state.x_box * state.x_box / 2;

@@ -59,8 +59,12 @@ struct Setup {
     double displacement = 0.1075;  ///< m, of the box, at rest
     Packing packing = Packing::fcc;
     std::string initial_grains;  ///< CSV file id,x,y,z,vx,vy,vz; empty: use the packing
+    /// Set for the runs of an experiment (there is no key for it), so that an ensemble of them has its chaos:
+    /// where every velocity in initial_grains is zero nobody measured them, and they are drawn as those of a
+    /// packing are; others are known to a thousandth.
+    bool grains_measured = false;
     /// Kinetic energy of the grains as a fraction of the spring energy (damper); ignored when initial_grains
-    /// is given.
+    /// is given and tells velocities.
     double kinetic_energy_fraction = 2e-5;
     double grain_speed = 1.0;  ///< m/s, root mean square speed of the grains in domains without a spring
   } release;

@@ -31,18 +31,6 @@ struct CurveStatistics {
   }
 };
 
-/// Grains from a file start every run from the same state, and runs would be the same. The smallest nudge
-/// makes them as different as chaos makes real ones.
-void many_from_one_state(const Engine& engine, Setup setup, EnsembleOptions options) {
-  const double restitution = setup.restitution.grain_grain;
-  const int runs = options.runs;
-  options.runs = options.threads = 1;
-  for (int run = 0; run < runs; ++run) {
-    setup.restitution.grain_grain = restitution * (1 - 1e-9 * run);
-    run_ensemble(engine, setup, options);
-  }
-}
-
 ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine& engine,
                       const CurveOptions& options) {
   setup.run.duration = time.back() + 0.1;
@@ -69,10 +57,7 @@ ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine
     for (const std::int64_t n : trajectory.collisions) motion.collisions += n;
     ++motion.runs;
   };
-  if (setup.release.initial_grains.empty())
-    run_ensemble(engine, setup, many);
-  else
-    many_from_one_state(engine, setup, many);
+  run_ensemble(engine, setup, many);
   if (options.stop && *options.stop) throw Interrupted("the curves of the report were not finished");
   motion.box = box.curve();
   motion.centre = centre.curve();
