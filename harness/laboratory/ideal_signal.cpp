@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "hideable.hpp"
 #include "in_order.hpp"
@@ -20,13 +21,15 @@ using Matrix = Eigen::MatrixXd;
 constexpr double bin = 0.1;  // s: shorter than a tenth of a period of any damper that is filmed
 constexpr int samples_a_bin = 10;
 
-/// Means over bins of the box, then of the grains' centre.
-Vector features_of(const Trajectory& motion, bool grains) {
-  const auto bins = static_cast<Eigen::Index>((motion.time.size() - 1) / samples_a_bin);
+/// Means over bins of the box, then of the grains' centre. As many of every run of a setup, whichever sample
+/// is its last.
+Vector features_of(const Trajectory& motion, double duration, bool grains) {
+  const auto bins = static_cast<Eigen::Index>(std::floor(duration / bin + 1e-9));
   Vector features = Vector::Zero(grains ? 2 * bins : bins);
   for (Eigen::Index b = 0; b < bins; ++b)
     for (int i = 0; i < samples_a_bin; ++i) {
-      const auto sample = static_cast<std::size_t>(b * samples_a_bin + i);
+      const std::size_t sample =
+          std::min(motion.time.size() - 1, static_cast<std::size_t>(b * samples_a_bin + i));
       features(b) += motion.x_box[sample] / samples_a_bin;
       if (grains) features(bins + b) += motion.x_com[sample] / samples_a_bin;
     }
@@ -53,7 +56,7 @@ class Simulations {
           options.stop = tools_.stop;
           const Trajectory motion = tools_.model->run(setup, options);
           if (motion.interrupted) throw Interrupted("no signal was measured");
-          return [&columns, features = features_of(motion, setup.grains.count > 0)] {
+          return [&columns, features = features_of(motion, setup.run.duration, setup.grains.count > 0)] {
             columns.push_back(features);
           };
         });
@@ -156,21 +159,31 @@ Block block_of(const Setup& without, const std::vector<Setup>& with, const Ideal
     block.plain_covariance[half].diagonal() += noise;
   }
   block.unknown_of_run = columns_of_run(mean, grains, settings.ignorance);
+  // A law may not reach as far on one side.
+  const auto mean_at = [&](const char* key, double value) -> std::optional<Vector> {
+    try {
+      Setup moved = without;
+      set_number(moved, key, value, simulations.known());
+      return simulations.simulated(moved, 4 * n, n).mean();
+    } catch (const InputError&) {
+      return {};
+    }
+  };
   const auto slope = [&](const char* key, double step) -> Vector {
-    Setup less = without, more = without;
-    set_number(less, key, get_number(without, key) - step, simulations.known());
-    set_number(more, key, get_number(without, key) + step, simulations.known());
-    const Vector difference =
-        simulations.simulated(more, 4 * n, n).mean() - simulations.simulated(less, 4 * n, n).mean();
-    return difference / (2 * step);
+    const double here = get_number(without, key);
+    const std::optional<Vector> less = mean_at(key, here - step), more = mean_at(key, here + step);
+    if (less && more) return (*more - *less) / (2 * step);
+    if (less) return (mean - *less) / step;
+    if (more) return (*more - mean) / step;
+    return Vector::Zero(mean.size());
   };
   const IdealIgnorance& unknown = settings.ignorance;
   const double frequency = without.spring.frequency;
   block.unknown_to_all.resize(mean.size(), 4);
-  block.unknown_to_all << unknown.scale * mean,
-      unknown.frequency * frequency * slope("spring.frequency", 1e-3 * frequency),
-      unknown.restitution * slope("restitution.grain_grain", 0.05),
-      unknown.restitution * slope("restitution.grain_wall", 0.05);
+  block.unknown_to_all.col(0) = unknown.scale * mean;
+  block.unknown_to_all.col(1) = unknown.frequency * frequency * slope("spring.frequency", 1e-3 * frequency);
+  block.unknown_to_all.col(2) = unknown.restitution * slope("restitution.grain_grain", 0.05);
+  block.unknown_to_all.col(3) = unknown.restitution * slope("restitution.grain_wall", 0.05);
   return block;
 }
 

@@ -51,7 +51,7 @@ def record_text(about, rows, before, unanswered):
                                   ""] + reliability_table(rows) + [""]
     lost = [row for row in rows if row["lost"]]
     lines.append(f"No answer: {len(lost)}." + "".join(f" {row['case']}: {row['verdict']}." for row in lost)
-                 + (f" Not asked: {unanswered}." if unanswered else ""))
+                 + (f" Not answered in the time: {unanswered}." if unanswered else ""))
     if before:
         lines += ["", "## Beside the program before", ""] + paired_table(rows, before)
     return "\n".join(lines + ["", "## Case by case", "", "```"] + [case_line(row) for row in rows] + ["```", ""])

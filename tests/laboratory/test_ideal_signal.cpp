@@ -14,11 +14,12 @@ using namespace shakedown;
 namespace {
 
 /// Short runs of few grains: milliseconds each.
-double signal_of(const std::vector<Override>& with, IdealIgnorance ignorance = {}) {
+double signal_of(const std::vector<Override>& with, IdealIgnorance ignorance = {},
+                 const shakedown::Setup& plain = {}) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const TrialTools tools{
       .laboratory = engine.get(), .model = engine.get(), .known = all_effects(), .threads = 1};
-  shakedown::Setup setup;
+  shakedown::Setup setup = plain;
   setup.grains.count = 12;
   setup.run.duration = 3;
   IdealSettings settings;
@@ -50,4 +51,10 @@ TEST(IdealSignal, ASpringThatNobodyKnowsTakesUpItsOwnChange) {
   knows.frequency = 1e-6;
   EXPECT_GT(signal_of(tuned, knows), 10);
   EXPECT_LT(signal_of(tuned), 1);
+}
+
+TEST(IdealSignal, AParameterAtItsBoundIsMovedToOneSide) {
+  shakedown::Setup elastic;
+  elastic.restitution.grain_grain = 0.97;  // 1.02 is none
+  EXPECT_GT(signal_of(damping("\"0.05 N s/m\""), {}, elastic), 10);
 }
