@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -276,4 +277,18 @@ TEST(EmptyBox, ASpringThatRunsAwayIsAnsweredInWords) {
   const SwingError error = swing_error(measurement, *engine, false);
   EXPECT_TRUE(std::isinf(error.error));
   EXPECT_FALSE(error.why_not.empty());
+}
+
+TEST(Swing, TurnsWhereTheFirstPeriodsShowItThoughADampingIsMissing) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  const Measurement damped = measurement_of({empty_box()}, recorded({.viscous = 0.1, .start = 0.23}, 3));
+  double farthest = 0;
+  const Measurement::Run& run = damped.runs.front();
+  for (std::size_t i = 0; i < run.recorded.time.size() && run.recorded.time[i] < 0.8; ++i)
+    farthest = std::max(farthest, std::abs(run.recorded.x_box[i]));
+  const auto turn = [&](double periods) {
+    return std::abs(from_first_turns(damped, *engine, periods).runs.front().setup.release.displacement);
+  };
+  EXPECT_NEAR(turn(1.5), farthest, 0.1 * farthest);
+  EXPECT_LT(turn(std::numeric_limits<double>::infinity()), 0.6 * farthest);
 }
