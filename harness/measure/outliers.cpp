@@ -143,17 +143,22 @@ double misfit_to_cubic(const std::vector<double>& time, const std::vector<double
   return std::abs(at_centre.dot(right)) / (deviation * std::sqrt(1 + at_centre[0]));
 }
 
-/// How far frames of the series lie off the cubic, as a standard deviation in units of `deviation`; at
-/// least 1.
-double usual_misfit_to_cubic(const std::vector<double>& time, const std::vector<double>& x, double deviation,
-                             double interval) {
-  constexpr double of_a_median = 1.4826;
+/// How many times as far as normal noise frames of this series usually lie off, by the nine tenths that lie
+/// nearest; at least 1. Noise of another kind has wide wings everywhere: a wrong frame stands out from them.
+double wings_of(std::vector<double> misfits) {
+  constexpr double share = 0.9, of_a_normal = 1.645;
+  if (misfits.empty()) return 1;
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(misfits.size() - 1));
+  std::nth_element(misfits.begin(), misfits.begin() + at, misfits.end());
+  return std::max(1.0, misfits[static_cast<std::size_t>(at)] / of_a_normal);
+}
+
+template <typename Misfit>
+double wings(const std::vector<double>& x, Misfit&& misfit) {
   std::vector<double> misfits;
   for (std::size_t i = 0; i < x.size(); ++i)
-    if (std::isfinite(x[i]))
-      if (const double misfit = misfit_to_cubic(time, x, i, x[i], deviation, interval); misfit > 0)
-        misfits.push_back(misfit);
-  return misfits.empty() ? 1 : std::max(1.0, of_a_median * median(misfits));
+    if (std::isfinite(x[i])) misfits.push_back(misfit(i));
+  return wings_of(std::move(misfits));
 }
 
 }  // namespace
@@ -164,10 +169,12 @@ std::vector<double> without_outliers(const std::vector<double>& time, const std:
   constexpr double certain = 5, doubtful = 1.5, off_the_cubic = 4;  // standard deviations
   const OutlierJudge judge(time, x, deviation);
   std::vector<double> kept = x;
-  // A cubic over a good part of a period errs everywhere, as frames of another noise do: a wrong frame stands
-  // out from the others.
-  const double usual = usual_misfit_to_cubic(time, x, deviation, interval);
+  const double usual = wings(x, [&](std::size_t i) { return judge.misfit(x, i, x[i]); });
+  double usual_of_cubic = 1;
   for (int pass = 0; pass < 5; ++pass) {
+    if (pass == 1)
+      usual_of_cubic = wings(
+          kept, [&](std::size_t i) { return misfit_to_cubic(time, kept, i, kept[i], deviation, interval); });
     std::vector<double> next = x;
     bool same = true;
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -175,9 +182,9 @@ std::vector<double> without_outliers(const std::vector<double>& time, const std:
       const double misfit = judge.misfit(kept, i, x[i]);
       // The cubic is sharper, but a landing bends away from it; there one side's neighbours support the
       // frame.
-      if (misfit > certain ||
+      if (misfit > certain * usual ||
           (pass > 0 && misfit > doubtful &&
-           misfit_to_cubic(time, kept, i, x[i], deviation, interval) > off_the_cubic * usual))
+           misfit_to_cubic(time, kept, i, x[i], deviation, interval) > off_the_cubic * usual_of_cubic))
         next[i] = nothing;
       same = same && std::isfinite(next[i]) == std::isfinite(kept[i]);
     }
@@ -187,7 +194,8 @@ std::vector<double> without_outliers(const std::vector<double>& time, const std:
   // Two wrong frames side by side may support each other, which no line through six frames does.
   const auto supported = [&](std::size_t i) {
     const auto by = [&](int step) {
-      return misfit_to_robust_line(time, kept, i, step, x[i], deviation, judge.acceleration()) <= certain;
+      return misfit_to_robust_line(time, kept, i, step, x[i], deviation, judge.acceleration()) <=
+             certain * usual;
     };
     return by(0) || by(-1) || by(1);  // both sides together support all but frames at landings
   };

@@ -223,18 +223,24 @@ TEST(RecordingCheck, WrongFramesMakeNoAdvice) {
   EXPECT_EQ(said.impossible, "");
 }
 
-TEST(RecordingCheck, TooFewFramesASwingAreRefused) {
+/// Every so manieth frame.
+Experiment thinned(std::size_t step) {
   Experiment experiment = three_runs();
-  for (MeasuredRun& run : experiment.runs) {
-    MeasuredRun few = run;
-    few.time.clear(), few.x_box.clear(), few.x_com.clear();
-    for (std::size_t i = 0; i < run.time.size(); i += 100) {
-      few.time.push_back(run.time[i]);
-      few.x_box.push_back(run.x_box[i]);
-      few.x_com.push_back(run.x_com[i]);
+  for (MeasuredRun& run : experiment.runs)
+    for (std::vector<double>* series : {&run.time, &run.x_box, &run.x_com}) {
+      std::vector<double> kept;
+      for (std::size_t i = 0; i < series->size(); i += step) kept.push_back((*series)[i]);
+      *series = kept;
     }
-    run = few;
-  }
+  return experiment;
+}
+
+TEST(RecordingCheck, AReleaseFilmedSlowlyIsNoLeadIn) {
+  for (const std::size_t step : {5u, 8u, 16u}) EXPECT_EQ(said_of(thinned(step)).impossible, "") << step;
+}
+
+TEST(RecordingCheck, TooFewFramesASwingAreRefused) {
+  const Experiment experiment = thinned(100);
   expect_parts(said_of(experiment).impossible, {"frames a swing", "10 are the least"});
 }
 
