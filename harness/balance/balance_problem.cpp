@@ -81,8 +81,9 @@ BalanceProblem::BalanceProblem(const Measurement& measurement, std::span<const E
     if (term.kind == TermKind::refit || (possible(term.effect) && !scales_all_lengths(term.key())))
       terms_.push_back(term);
   for (const EffectRecord* record : known)
-    if (const Search search = search_of(*record);
-        search.harmonic && possible(std::string(record->name)) && !find_choice(first, record->name))
+    if (const Search search = search_of(*record); search.harmonic && search.not_searched.empty() &&
+                                                  possible(std::string(record->name)) &&
+                                                  !find_choice(first, record->name))
       typical_sine_ = search.strengths.front().typical;
 }
 

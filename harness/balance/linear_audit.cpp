@@ -76,7 +76,8 @@ std::vector<std::string> look_alikes(const SelectionProblem& p, const std::vecto
 
 std::string name_of_sine(std::span<const EffectRecord* const> known) {
   for (const EffectRecord* record : known)
-    if (search_of(*record).harmonic) return std::string(record->name);
+    if (const Search search = search_of(*record); search.harmonic && search.not_searched.empty())
+      return std::string(record->name);
   return "";
 }
 

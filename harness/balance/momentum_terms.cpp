@@ -109,14 +109,16 @@ Setup with_strength(Setup setup, const MomentumTerm& term, double strength,
   return setup;
 }
 
-std::vector<MomentumTerm> momentum_terms(const Setup& setup, std::span<const EffectRecord* const> known) {
+std::vector<MomentumTerm> momentum_terms(const Setup& setup, std::span<const EffectRecord* const> known,
+                                         bool of_waveform) {
   std::vector<MomentumTerm> terms(1);
   terms[0].effect = terms[0].parameter = "spring.frequency";
   terms[0].kind = TermKind::refit;
   for (const EffectRecord* record : known) {
     const Search search = search_of(*record);
     // A sine is searched by its frequency.
-    if (record->nuisance || search.harmonic || !search.not_searched.empty()) continue;
+    const bool asked = of_waveform && search.in_waveform;
+    if (record->nuisance || (!asked && (search.harmonic || !search.not_searched.empty()))) continue;
     for (const SearchedStrength& searched : search.strengths) {
       // What moves several parameters at once, or replaces a key of the setup, lies inside the contacts.
       if (searched.parameters.find('&') != std::string_view::npos || !searched.absent_key.empty()) continue;

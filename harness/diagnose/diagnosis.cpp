@@ -79,16 +79,34 @@ class Course {
     balance.effects = tools_.options().effects;
     balance.formulas = allowed(tools_.options(), "user_force");
     balance.out_of_time = [this] { return tools_.time_is_up(); };
-    result_.momentum = audit_momentum(recorded_, tools_.known(), balance);
-    if (is_empty(user_, tools_.measurement()))
-      conclude_empty_box(emptied(user_), recorded_, *tools_.workshop().engine, tools_.known(), result_);
-    else
+    if (is_empty(user_, tools_.measurement())) {
+      judge_empty_box(balance);
+    } else {
+      result_.momentum = audit_momentum(recorded_, tools_.known(), balance);
       judge();
+    }
     result_.runs_simulated = tools_.runs();
     return result_;
   }
 
  private:
+  /// Formulas are looked for where no law of the list explains the waveform.
+  void judge_empty_box(const MomentumOptions& whole) {
+    MomentumOptions known_terms = whole;
+    known_terms.formulas = false;
+    result_.momentum = audit_momentum(recorded_, tools_.known(), known_terms);
+    const Engine& engine = *tools_.workshop().engine;
+    Diagnosis by_waveform = result_;
+    if (conclude_by_waveform(emptied(user_), recorded_, engine, tools_.known(), tools_.options().effects,
+                             by_waveform) &&
+        by_waveform.verdict != Verdict::unknown) {
+      result_ = std::move(by_waveform);
+      return;
+    }
+    if (whole.formulas) result_.momentum = audit_momentum(recorded_, tools_.known(), whole);
+    conclude_empty_box(emptied(user_), recorded_, engine, tools_.known(), by_waveform, result_);
+  }
+
   void judge() {
     DiagnosisState state = with_packing();
     state.camera = camera_knobs(state.setup, tools_.measurement(), tools_.known());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "conclusion.hpp"
 #include "errors.hpp"
@@ -19,6 +20,7 @@
 #include "swing.hpp"
 #include "unlisted_force.hpp"
 #include "verdict.hpp"
+#include "waveform_search.hpp"
 
 namespace shakedown {
 
@@ -168,12 +170,164 @@ void judge(const Measurement& final_model, const Engine& engine, std::span<const
   settle_hypotheses(d, findings);
 }
 
+/// Each run against the model that its waveform asks for.
+std::vector<Validation> validation_of(const WaveformFit& fit, const std::vector<WaveformRun>& frames,
+                                      const std::vector<Eigen::VectorXd>& left, double wander) {
+  std::vector<Validation> rows;
+  // Of numbers that were fitted to frames without memory.
+  const double input_share = std::sqrt(static_cast<double>(fit.value.size()) /
+                                       static_cast<double>(std::max<Eigen::Index>(1, fit.frames)));
+  for (std::size_t r = 0; r < frames.size(); ++r) {
+    const double noise = std::hypot(frames[r].white, wander);
+    rows.push_back(
+        {frames[r].name, "box",
+         std::sqrt(left[r].squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, left[r].size()))),
+         3e-7 * frames[r].amplitude, input_share * noise, noise});
+  }
+  return rows;
+}
+
+/// rms of all runs, and the run with the largest remains in words.
+SwingError error_of(const std::vector<WaveformRun>& frames, const std::vector<Eigen::VectorXd>& left) {
+  SwingError all;
+  double worst = 0;
+  for (std::size_t r = 0; r < frames.size(); ++r) {
+    const double squares = left[r].squaredNorm();
+    all.frames += static_cast<double>(left[r].size());
+    all.error += squares;
+    all.chi2 += squares / std::pow(frames[r].white, 2);
+    all.amplitude = std::max(all.amplitude, frames[r].amplitude);
+    if (squares > worst) worst = squares, all.looks_like = words_of_swing(frames[r].time, left[r]);
+  }
+  all.error = std::sqrt(all.error / std::max(1.0, all.frames));
+  return all;
+}
+
+/// The values of the laws found, with 95 % intervals, and the effects that the setup lacks.
+void name_laws(const Setup& user, const WaveformAnswer& answer, std::span<const EffectRecord* const> known,
+               Diagnosis& d) {
+  constexpr double of_95_percent = 1.96;
+  const WaveformFit& fit = answer.sets.front().fit;
+  std::vector<std::size_t> order(fit.laws.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return fit.laws[a].is_mode != fit.laws[b].is_mode ? fit.laws[b].is_mode : answer.gain[a] > answer.gain[b];
+  });
+  const auto add = [&](const std::string& key, double value, double error) {
+    const Parameter* parameter = find_parameter(known, key);
+    const double low = parameter ? parameter->low : value - 1, high = parameter ? parameter->high : value + 1;
+    d.parameters.push_back({key, value, std::max(low, value - of_95_percent * error),
+                            std::min(high, value + of_95_percent * error), si_unit_of_key(key, known), ""});
+  };
+  for (const std::size_t i : order) {
+    const WaveformLaw& law = fit.laws[i];
+    if (find_choice(user, law.term.effect) == nullptr &&
+        std::find(d.missing.begin(), d.missing.end(), law.term.effect) == d.missing.end())
+      d.missing.push_back(law.term.effect);
+    const Eigen::Index at = fit.first_of(i);
+    const auto error = [&](Eigen::Index k) { return std::sqrt(fit.covariance(at + k, at + k)); };
+    for (const auto& [key, value] : law.term.besides)
+      d.parameters.push_back(
+          {key, value, 0, 0, "",
+           write_quantity(std::stod(fmt::format("{:.3g}", value)), unit_of_key(key, known))});
+    double shown = law.term.parameter_at(fit.value[at]);
+    if (law.is_mode) {
+      shown = std::hypot(fit.value[at], fit.value[at + 1]);
+      add(law.term.key(), shown, std::max(error(0), error(1)));
+      add(law.frequency_key, fit.value[at + 2], error(2));
+      add(law.rate_key, std::max(0.0, fit.value[at + 3]), error(3));
+    } else {
+      const double end = law.term.parameter_at(fit.value[at] + error(0));
+      add(law.term.key(), shown, std::abs(end - shown));
+    }
+    d.ranking.push_back(
+        {law.term.effect, answer.gain[i], std::nan(""), std::nan(""), shown, {}, true, false});
+  }
+  const Eigen::Index of_spring = static_cast<Eigen::Index>(3 * fit.residual.size());
+  add("spring.frequency", fit.frequency(), std::sqrt(fit.covariance(of_spring, of_spring)));
+  d.amended = user;
+  for (const WaveformLaw& law : fit.laws) {
+    const auto first = std::find_if(d.parameters.begin(), d.parameters.end(),
+                                    [&](const DiagnosedParameter& p) { return p.name == law.term.key(); });
+    for (const auto& [key, value] : law.term.besides) set_number(d.amended, key, value, known);
+    for (auto p = first; p != d.parameters.end() && effect_of(p->name) == law.term.effect; ++p)
+      if (p->word.empty()) set_number(d.amended, p->name, p->value, known);
+  }
+  d.amended.spring.frequency = fit.frequency();
+}
+
+LadderStep step_of(const std::string& name, double error, double floor) {
+  LadderStep step;
+  step.step = name;
+  step.error_box = error, step.floor_box = floor;
+  step.p_value = step.scatter = step.held_out_error_box = std::nan("");
+  return step;
+}
+
 }  // namespace
 
+bool conclude_by_waveform(const Setup& user, const Measurement& measurement, const Engine& engine,
+                          std::span<const EffectRecord* const> known, const std::vector<std::string>& only,
+                          Diagnosis& d) {
+  const MomentumAudit& balance = d.momentum;
+  const double start = balance.possible && balance.frequency > 0
+                           ? balance.frequency
+                           : measurement.runs.front().setup.spring.frequency;
+  const WaveformAnswer answer = search_waveform(measurement, start, known, only);
+  if (answer.sets.empty()) return false;
+  const WaveformFit& fit = answer.sets.front().fit;
+  const std::vector<WaveformRun> frames = waveform_runs(measurement, true);
+  WaveformOptions options;
+  options.known = known;
+  const std::vector<Eigen::VectorXd> left = residuals_of(frames, fit, options);
+  const double wander = balance.possible ? std::min(balance.wander.deviation, balance.most_wander) : 0;
+  double white = 0;
+  for (const WaveformRun& run : frames) white = std::max(white, run.white);
+  const double floor = std::hypot(white, wander);
+  const SwingError given = swing_error(measurement, engine, true), final = error_of(frames, left);
+  Diagnosis found = d;
+  found.ranking.clear();
+  name_laws(user, answer, known, found);
+  found.hypotheses = answer.table;
+  for (Hypothesis& h : found.hypotheses)
+    std::erase_if(h.effects, [&](const std::string& e) { return find_choice(user, e) != nullptr; });
+  found.explained = share_explained(given, final);
+  Findings findings;
+  findings.features = {std::nan(""), std::nan(""), "an empty box has no ensembles"};
+  findings.balance = {std::nan(""), std::nan(""), "its waveform is judged"};
+  findings.anything_missing = !found.missing.empty();
+  findings.explained = 1 - std::pow(final.error / answer.as_given.rms(), 2);
+  const Eigen::Index of_spring = static_cast<Eigen::Index>(3 * fit.residual.size());
+  findings.refitted = std::abs(fit.frequency() - measurement.runs.front().setup.spring.frequency) >
+                      rules::stands_out * std::sqrt(fit.covariance(of_spring, of_spring));
+  found.validation = validation_of(fit, frames, left, wander);
+  findings.left = {{"box", final.error, floor, answer.as_given.rms(), final.amplitude, final.looks_like}};
+  for (Difference& row : differences_of(found.validation)) findings.left.push_back(std::move(row));
+  found.left = findings.left;
+  found.judgement = judgement_of(findings.features, findings.balance, findings.left);
+  found.verdict = verdict_of(findings);
+  std::string step = "refitted";
+  for (const std::string& effect : found.missing) step += " + " + effect;
+  found.ladder = {step_of("as given", given.error, floor), step_of(step, final.error, floor)};
+  if (found.verdict == Verdict::adequate) found.parameters.clear(), found.amended = user;
+  if (found.verdict == Verdict::unknown) found.missing.clear();
+  settle_hypotheses(found, findings);
+  found.camera.clear();
+  found.sentence = sentence_of(found, known);
+  d = std::move(found);
+  return true;
+}
+
 void conclude_empty_box(const Setup& user, const Measurement& measurement, const Engine& engine,
-                        std::span<const EffectRecord* const> known, Diagnosis& d) {
+                        std::span<const EffectRecord* const> known, const Diagnosis& by_waveform,
+                        Diagnosis& d) {
   const MomentumAudit& balance = d.momentum;
   d.amended = user;
+  if (by_waveform.ladder.size() == 2 && !balance.unlisted) {
+    d = by_waveform;
+    d.momentum = balance;
+    return;
+  }
   if (!balance.possible) {
     d.verdict = Verdict::unknown;
     d.sentence = "Nothing can be said: " + balance.why_not + ".";

@@ -19,6 +19,9 @@
   EFFECT(clamp_dry_friction)             \
   EFFECT(clamp_dahl_friction)            \
   EFFECT(spring_cubic)                   \
+  EFFECT(spring_quadratic)               \
+  EFFECT(pendulum)                       \
+  EFFECT(second_mode)                    \
   EFFECT(blade_mass)                     \
   EFFECT(initial_box_velocity)           \
   EFFECT(initial_packing)                \
@@ -32,6 +35,7 @@
   EFFECT(camera_drift)                   \
   EFFECT(camera_arc)                     \
   EFFECT(camera_lens)                    \
+  EFFECT(camera_tilt)                    \
   EFFECT(camera_shutter)                 \
   EFFECT(camera_depth)                   \
   EFFECT(camera_origin)                  \

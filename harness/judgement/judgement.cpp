@@ -78,6 +78,9 @@ ModelJudgement judgement_of(const ModelTest& features, const ModelTest& balance,
   }
   if (const std::string remains = too_much(left); !remains.empty()) add(against, remains);
   if (!against.empty()) return {Standing::fails, complete, "rejected: " + against};
+  if (!is_made(features) && !is_made(balance) && !left.empty() && times_floor(left.front()) >= 0)
+    add(in_favour, fmt::format("the {} is left {:.2g} times noise and spread", left.front().of,
+                               times_floor(left.front())));
   if (!doubts.empty()) return {Standing::undecided, complete, "undecided: " + doubts};
   if (!in_favour.empty()) return {Standing::holds, complete, "holds: " + in_favour};
   return {Standing::undecided, complete,

@@ -16,19 +16,21 @@ struct Place {
   double box, centre;
 };
 
-double through_lens(double lens, double x) {
+/// Lens and tilt.
+double through_glass(const Camera& camera, double x) {
   const double relative = x / camera_lens_reach;
-  return x * (1 + lens * relative * relative);
+  return x * (1 + camera.tilt * relative + camera.lens * relative * relative);
 }
 
-/// Newton; from the recorded position it converges to rounding in five rounds for any lens that does not
+/// Newton; from the recorded position it converges to rounding in five rounds for any glass that does not
 /// fold.
-double before_lens(double lens, double seen) {
+double before_glass(const Camera& camera, double seen) {
   double x = seen;
-  if (lens == 0) return x;
+  if (camera.lens == 0 && camera.tilt == 0) return x;
   for (int round = 0; round < 20; ++round) {
     const double relative = x / camera_lens_reach;
-    const double step = (through_lens(lens, x) - seen) / (1 + 3 * lens * relative * relative);
+    const double step = (through_glass(camera, x) - seen) /
+                        (1 + 2 * camera.tilt * relative + 3 * camera.lens * relative * relative);
     x -= step;
     if (std::abs(step) < 1e-17) break;
   }
@@ -49,15 +51,14 @@ Place in_picture(const Camera& camera, double time, Place at) {
   if (std::isfinite(at.box) || needs_box(camera))
     centre = at.box + share_seen(camera, at.box) * (at.centre - at.box);
   const double shift = camera.drift * time + camera.origin;
-  return {(1 + camera.scale) * through_lens(camera.lens, at.box) + shift,
-          (1 + camera.scale) * through_lens(camera.lens, (1 + camera.depth) * centre) + shift};
+  return {(1 + camera.scale) * through_glass(camera, at.box) + shift,
+          (1 + camera.scale) * through_glass(camera, (1 + camera.depth) * centre) + shift};
 }
 
 Place out_of_picture(const Camera& camera, double time, Place seen) {
   const double shift = camera.drift * time + camera.origin;
-  const double box = before_lens(camera.lens, (seen.box - shift) / (1 + camera.scale));
-  const double centre =
-      before_lens(camera.lens, (seen.centre - shift) / (1 + camera.scale)) / (1 + camera.depth);
+  const double box = before_glass(camera, (seen.box - shift) / (1 + camera.scale));
+  const double centre = before_glass(camera, (seen.centre - shift) / (1 + camera.scale)) / (1 + camera.depth);
   if (!std::isfinite(box) && !needs_box(camera)) return {box, centre};
   return {box, box + (centre - box) / share_seen(camera, box)};
 }
@@ -110,9 +111,10 @@ Recording undone(const Camera& camera, const Recording& recording) {
 }
 
 std::span<const CameraParameter> camera_parameters() {
-  static constexpr std::array<CameraParameter, 9> parameters{{
+  static constexpr std::array<CameraParameter, 10> parameters{{
       {"camera_scale.scale", "", 0.01, &Camera::scale, false},
       {"camera_lens.distortion", "", 0.005, &Camera::lens, true},
+      {"camera_tilt.tilt", "", 0.01, &Camera::tilt, true},
       {"camera_depth.depth", "", 0.005, &Camera::depth, true},
       {"camera_shutter.time", "s", 1e-3, &Camera::shutter, true},
       {"camera_origin.origin", "m", 0.5e-3, &Camera::origin},
@@ -145,6 +147,9 @@ constexpr Change same = [](double, double, double own, double) { return own; };
 constexpr Change distortion = [](double, double, double own, double) {
   return own * own * own / (camera_lens_reach * camera_lens_reach);
 };
+constexpr Change to_one_side = [](double, double, double own, double) {
+  return own * own / camera_lens_reach;
+};
 constexpr Change one = [](double, double, double, double) { return 1.0; };
 constexpr Change elapsed = [](double time, double, double, double) { return time; };
 constexpr Change backwards = [](double, double, double, double velocity) { return -velocity; };
@@ -156,9 +161,10 @@ constexpr Change foreshortened = [](double, double box, double own, double) {
   return -1.125 * box * box * (own - box);  // cos(1.5 x/l) - 1 = -(1.5 x)^2 / 2 l^2
 };
 
-constexpr std::array<Changes, 9> all_changes{{
+constexpr std::array<Changes, 10> all_changes{{
     {&Camera::scale, same, same},
     {&Camera::lens, distortion, distortion},
+    {&Camera::tilt, to_one_side, to_one_side},
     {&Camera::depth, nothing, same},
     {&Camera::shutter, along_rows, along_rows, true},
     {&Camera::origin, one, one},

@@ -94,6 +94,7 @@ struct SearchedStrength {
 /// A strength that oscillates: a diagnosis searches its frequency and phase too.
 struct SearchedHarmonic {
   std::string_view amplitude{}, frequency{}, phase{};  ///< parameters; of an amplitude the component
+  std::string_view rate{};  ///< parameter by which it dies away; empty: it does not
 };
 
 /// A length or time that shapes the law and that no strength tells. The momentum balance takes each value as
@@ -116,6 +117,7 @@ struct Search {
   /// Restitutions take up most of what is linear in it, so that only its full strength tells.
   bool hides_in_restitution = false;
   std::string_view not_searched{};  ///< why no diagnosis looks for it; empty: one does
+  bool in_waveform = false;  ///< the waveform of an empty box is asked for it, whatever not_searched says
 };
 
 /// How well an error of camera or clock is known beforehand. It is then no effect that may be missing unless

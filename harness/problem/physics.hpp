@@ -155,6 +155,7 @@ struct Camera {
   double arc_length = 0;   ///< m; centre = x_box + (x_com - x_box) cos(1.5 x_box/l); 0: off
   double depth = 0;   ///< centre times 1 + depth: the grains are nearer to the lens (> 0) than the marker
   double lens = 0;    ///< positions times 1 + lens (x / camera_lens_reach)^2
+  double tilt = 0;    ///< positions times 1 + tilt x / camera_lens_reach, with the lens's
   double scale = 0;   ///< positions times 1 + s
   double drift = 0;   ///< m/s, times t added to positions
   double origin = 0;  ///< m, added to positions

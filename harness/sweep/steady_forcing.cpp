@@ -41,7 +41,7 @@ std::optional<SteadyForcing> steady_forcing_of(const Setup& setup) {
   std::optional<SteadyForcing> found;
   for (const EffectChoice& choice : setup.effects) {
     const auto& harmonic = choice.record->search.harmonic;
-    if (!harmonic) continue;
+    if (!harmonic || !harmonic->rate.empty()) continue;
     const double amplitude = choice.vector(harmonic->amplitude.substr(0, harmonic->amplitude.find('.'))).x();
     if (amplitude == 0) continue;
     if (found) return {};

@@ -1,0 +1,485 @@
+// SPDX-License-Identifier: MIT
+#include "waveform_search.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "effect_strength.hpp"
+#include "known_effects.hpp"
+#include "rules.hpp"
+
+namespace shakedown {
+
+namespace {
+
+constexpr double impossible = -std::numeric_limits<double>::infinity();
+
+/// A second swing nearer than this to the box's own, or to a multiple of it, is none: the one exchanges
+/// energy with the box (beats), the other is a harmonic.
+/// Both allow for the swing's own frequency changing with its amplitude.
+constexpr double near_own = 0.2, near_multiple = 0.05;
+
+bool is_own(double frequency, double swing, double resolution) {
+  if (std::abs(frequency - swing) < std::max(near_own * swing, resolution)) return true;
+  const double multiple = std::max(2.0, std::round(frequency / swing));
+  return std::abs(frequency - multiple * swing) < std::max(near_multiple * multiple * swing, resolution);
+}
+
+double longest_of(const std::vector<WaveformRun>& runs) {
+  double longest = 0;
+  for (const WaveformRun& run : runs) longest = std::max(longest, run.time.back() - run.time.front());
+  return longest;
+}
+
+/// ln density of a strength beforehand (Cauchy about none).
+double log_cauchy(double strength, double typical, bool one_sided) {
+  const double ratio = strength / typical;
+  return std::log((one_sided ? 2 : 1) / (std::numbers::pi * typical * (1 + ratio * ratio)));
+}
+
+/// Of one family and told by a waveform alone: a sine beside a cubic, a tilt beside a spring stiffer to one
+/// side say the same twice.
+bool says_it_twice(const WaveformFit& fit, std::size_t which) {
+  const WaveformLaw& law = fit.laws[which];
+  return std::any_of(fit.laws.begin(), fit.laws.begin() + static_cast<std::ptrdiff_t>(which),
+                     [&](const WaveformLaw& other) {
+                       return !law.family.empty() && law.family == other.family &&
+                              (law.only_waveform || other.only_waveform);
+                     });
+}
+
+/// The course of one search.
+class WaveformSearch {
+ public:
+  WaveformSearch(std::vector<WaveformRun> runs, std::span<const EffectRecord* const> known,
+                 const std::vector<std::string>& only)
+      : runs_(std::move(runs)), laws_(waveform_laws(runs_.front().setup, known)), options_{known} {
+    std::erase_if(laws_, [&](const WaveformLaw& law) {
+      return !only.empty() && std::find(only.begin(), only.end(), law.term.effect) == only.end();
+    });
+  }
+
+  WaveformAnswer run(double frequency) {
+    WaveformFit whole = plain_laws(frequency);
+    WaveformAnswer answer;
+    // A fit of many laws may end in a side valley that a set within it leaves: from there once more.
+    constexpr int most_rounds = 3;
+    constexpr double much_better = 0.8;  // of the remains
+    for (int round = 0; round < most_rounds; ++round) {
+      weigh_runs(whole);
+      whole = fit_waveform(runs_, whole.laws, whole.value, options_);
+      constexpr int most_added = 4;
+      for (int added = 0; added < most_added && add_one(whole); ++added) {
+        weigh_runs(whole);
+        whole = fit_waveform(runs_, whole.laws, whole.value, options_);
+      }
+      answer.sets = sets_within(whole);
+      if (answer.sets.empty() || !(answer.sets.front().fit.rms() < much_better * whole.rms())) break;
+      whole = answer.sets.front().fit;
+    }
+    WaveformOptions fixed = options_;
+    fixed.free_frequency = false;
+    answer.as_given =
+        fit_growing(runs_, {}, starting_values(runs_, {}, runs_.front().setup.spring.frequency), fixed);
+    if (!answer.sets.empty()) answer.gain = gains_of(answer.sets.front().fit);
+    answer.table = in_words(answer.sets);
+    answer.runs = runs_;
+    return answer;
+  }
+
+ private:
+  /// What the plain fit has: every law of one strength that engines without a waveform look for too, without
+  /// those that stand for another one (a friction that yields).
+  WaveformFit plain_laws(double frequency) {
+    std::vector<WaveformLaw> plain;
+    for (const WaveformLaw& law : laws_)
+      if (is_plain(law)) plain.push_back(law);
+    const WaveformFit start =
+        fit_waveform(runs_, {}, starting_values(runs_, {}, frequency), until(3 / frequency));
+    std::erase_if(plain, [&](const WaveformLaw& law) { return !leaves_trace(start, law); });
+    std::erase_if(laws_, [&](const WaveformLaw& law) {
+      return is_plain(law) && std::find(plain.begin(), plain.end(), law) == plain.end();
+    });
+    // Each damping alone first: of several that may have either sign the beginning of a swing tells too
+    // little.
+    WaveformFit best = fit_growing(runs_, plain, with_zeros(start.value, plain), options_);
+    for (const WaveformLaw& damping : plain) {
+      if (!damping.term.never_negative) continue;
+      std::vector<WaveformLaw> laws;
+      for (const WaveformLaw& law : plain)
+        if (!law.term.never_negative || law == damping) laws.push_back(law);
+      const WaveformFit one = fit_growing(runs_, laws, with_zeros(start.value, laws), options_);
+      if (!one.possible) continue;
+      few_.push_back(one);
+      WaveformFit all = fit_waveform(runs_, plain, spread(one, plain), options_);
+      if (all.possible && (!best.possible || all.chi2 < best.chi2)) best = std::move(all);
+    }
+    // And each two of them.
+    const std::vector<WaveformFit> alone = few_;
+    for (std::size_t a = 0; a < alone.size(); ++a)
+      for (std::size_t b = 0; b < alone.size(); ++b) {
+        if (a == b || alone[b].chi2 < alone[a].chi2) continue;
+        std::vector<WaveformLaw> laws = alone[a].laws;
+        for (const WaveformLaw& law : alone[b].laws)
+          if (std::find(laws.begin(), laws.end(), law) == laws.end()) laws.push_back(law);
+        few_.push_back(fit_waveform(runs_, laws, spread(alone[a], laws), options_));
+      }
+    return best;
+  }
+  bool is_plain(const WaveformLaw& law) const {
+    return !law.is_mode && !law.only_waveform && law.term.shape.empty();
+  }
+  WaveformOptions until(double end) const {
+    WaveformOptions part = options_;
+    part.until = end;
+    return part;
+  }
+  static Eigen::VectorXd with_zeros(const Eigen::VectorXd& value, const std::vector<WaveformLaw>& laws) {
+    Eigen::Index more = 0;
+    for (const WaveformLaw& law : laws) more += law.width();
+    Eigen::VectorXd longer = Eigen::VectorXd::Zero(value.size() + more);
+    longer.head(value.size()) = value;
+    return longer;
+  }
+  /// The values of a fit as a start for more laws.
+  static Eigen::VectorXd spread(const WaveformFit& fit, const std::vector<WaveformLaw>& laws) {
+    Eigen::VectorXd start = with_zeros(fit.value.head(fit.first_of(0)), laws);
+    Eigen::Index next = fit.first_of(0);
+    for (const WaveformLaw& law : laws) {
+      for (std::size_t i = 0; i < fit.laws.size(); ++i)
+        if (fit.laws[i] == law)
+          start.segment(next, law.width()) = fit.value.segment(fit.first_of(i), law.width());
+      next += law.width();
+    }
+    return start;
+  }
+  /// What frequency, places and origins do not take up.
+  bool leaves_trace(const WaveformFit& fit, const WaveformLaw& law) const {
+    return score_of(runs_, fit, law, until(3 / fit.frequency())).seen > 1e-6;
+  }
+
+  void weigh_runs(const WaveformFit& fit) {
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      const double band = noise_in_band(runs_[r], fit.residual[r], fit.frequency());
+      runs_[r].noise = std::max({runs_[r].white, std::sqrt(band), 1e-6 * runs_[r].amplitude});
+    }
+  }
+
+  double prior_of(const WaveformFit& fit) const {
+    return log_prior_odds(fit, static_cast<double>(laws_.size()), fit.frequency());
+  }
+  double log_odds_of(const WaveformFit& fit) const {
+    return fit.possible ? prior_of(fit) - fit.chi2 / 2 : impossible;
+  }
+
+  /// The law that makes the whole most probable, if one does.
+  bool add_one(WaveformFit& whole) {
+    std::vector<WaveformFit> tried;
+    std::vector<std::pair<double, const WaveformLaw*>> by_gain;
+    for (const WaveformLaw& law : laws_) {
+      if (has(whole, law) || law.is_mode) continue;
+      if (!law.term.shape.empty()) {
+        if (std::optional<WaveformFit> other = in_place_of_dry(whole, law))
+          tried.push_back(std::move(*other));
+        continue;
+      }
+      by_gain.push_back({score_of(runs_, whole, law, options_).gain, &law});
+    }
+    std::sort(by_gain.begin(), by_gain.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    constexpr std::size_t most_fitted = 3;
+    constexpr double worth_a_fit = 6;  // chi2
+    for (std::size_t i = 0; i < std::min(most_fitted, by_gain.size()); ++i)
+      if (by_gain[i].first > worth_a_fit) tried.push_back(with_law(whole, *by_gain[i].second));
+    for (const WaveformLaw& law : laws_)
+      if (law.is_mode && !has(whole, law))
+        if (std::optional<WaveformFit> other = with_mode(whole, law)) tried.push_back(std::move(*other));
+    double most = -whole.chi2 / 2 + cost(whole);
+    const WaveformFit* best = nullptr;
+    for (const WaveformFit& other : tried)
+      if (other.possible && -other.chi2 / 2 + cost(other) > most)
+        most = -other.chi2 / 2 + cost(other), best = &other;
+    if (best == nullptr) return false;
+    whole = WaveformFit(*best);
+    return true;
+  }
+  /// Signs are not asked for on the way: what is needless goes in the end.
+  double cost(const WaveformFit& fit) const {
+    const double each = std::log(rules::expected_effects / static_cast<double>(laws_.size())) - 3;
+    double sum = 0;
+    for (const WaveformLaw& law : fit.laws) sum += each * static_cast<double>(law.width() > 1 ? 3 : 1);
+    return sum;
+  }
+  static bool has(const WaveformFit& fit, const WaveformLaw& law) {
+    return std::any_of(fit.laws.begin(), fit.laws.end(), [&](const WaveformLaw& other) {
+      return law.is_mode ? other == law : other.term.key() == law.term.key();
+    });
+  }
+
+  WaveformFit with_law(const WaveformFit& whole, const WaveformLaw& law) const {
+    std::vector<WaveformLaw> laws = whole.laws;
+    laws.push_back(law);
+    Eigen::VectorXd start = with_zeros(whole.value, {law});
+    start[start.size() - 1] = law.term.inverse ? 0.1 * law.term.typical : 0;
+    return fit_waveform(runs_, laws, start, options_);
+  }
+
+  /// A friction that yields, as strong as the dry one that the fit has.
+  std::optional<WaveformFit> in_place_of_dry(const WaveformFit& whole, const WaveformLaw& law) const {
+    const double travel = law.term.besides.empty() ? 0 : law.term.besides.back().second;
+    double amplitude = 0;
+    for (const WaveformRun& run : runs_) amplitude = std::max(amplitude, run.amplitude);
+    if (travel > amplitude || travel < amplitude / 100) return {};
+    for (std::size_t i = 0; i < whole.laws.size(); ++i) {
+      const Eigen::Index at = whole.first_of(i);
+      if (!whole.laws[i].term.dry || !(whole.value[at] > 5 * std::sqrt(whole.covariance(at, at)))) continue;
+      std::vector<WaveformLaw> laws = whole.laws;
+      laws[i] = law;
+      WaveformOptions few = options_;
+      few.evaluations = 8;
+      return fit_waveform(runs_, laws, whole.value, few);
+    }
+    return {};
+  }
+
+  /// A second swing where the residual has its strongest one.
+  std::optional<WaveformFit> with_mode(const WaveformFit& whole, const WaveformLaw& law) const {
+    const double length = longest_of(runs_), swing = whole.frequency();
+    const WaveformRun& run = runs_.front();
+    const Eigen::VectorXd& left = whole.residual.front();
+    const double highest = std::min(
+        5 * swing, 0.4 * static_cast<double>(run.time.size()) / (run.time.back() - run.time.front()));
+    double most = 0, found = 0;
+    for (double f = 1.5 / length; f < highest; f += 0.25 / length) {
+      if (is_own(f, swing, 2 / length)) continue;
+      double sine = 0, cosine = 0;
+      for (Eigen::Index i = 0; i < left.size(); ++i) {
+        const double phase = 2 * std::numbers::pi * f * run.time[static_cast<std::size_t>(i)];
+        sine += std::sin(phase) * left[i], cosine += std::cos(phase) * left[i];
+      }
+      if (const double power = sine * sine + cosine * cosine; power > most) most = power, found = f;
+    }
+    constexpr double worth_a_fit = 20;  // chi2
+    if (!(2 * most / static_cast<double>(left.size()) > worth_a_fit * run.noise * run.noise)) return {};
+    std::vector<WaveformLaw> laws = whole.laws;
+    laws.push_back(law);
+    Eigen::VectorXd start = with_zeros(whole.value, {law});
+    // Sine and cosine part by the equation's own response, linear at this frequency.
+    start[start.size() - 2] = found;
+    const Eigen::Vector2d parts = linear_mode(runs_, whole, law, found, options_);
+    start[start.size() - 4] = parts[0], start[start.size() - 3] = parts[1];
+    WaveformFit fit = fit_waveform(runs_, laws, start, options_);
+    const double there = fit.value[fit.value.size() - 2];
+    if (!(there > 0) || is_own(there, fit.frequency(), 1 / length)) return {};
+    return fit;
+  }
+
+  /// Every set of laws among those of the whole, by what dropping laws costs to second order; those in
+  /// question are fitted.
+  std::vector<WaveformSet> sets_within(const WaveformFit& whole) const {
+    const std::size_t n = whole.laws.size();
+    struct Guess {
+      unsigned set;
+      double chi2;
+    };
+    std::vector<Guess> guesses;
+    for (unsigned set = 0; set < 1u << n; ++set)
+      if (const double rise = dropped(whole, set); std::isfinite(rise))
+        guesses.push_back({set, whole.chi2 + rise});
+    const double each = std::log(rules::expected_effects / static_cast<double>(laws_.size())) - 3;
+    const auto merit = [&](const Guess& g) {
+      return -g.chi2 / 2 + each * static_cast<double>(std::popcount(g.set));
+    };
+    std::stable_sort(guesses.begin(), guesses.end(),
+                     [&](const Guess& a, const Guess& b) { return merit(a) > merit(b); });
+    constexpr std::size_t most_kept = 8, most_fitted = 24;
+    constexpr double in_question = 30;  // ln odds; the second order is wrong by as much
+    std::vector<WaveformSet> sets;
+    double first = 0;  // merit of the first set that is possible
+    for (std::size_t i = 0; i < std::min(guesses.size(), most_fitted) && sets.size() < most_kept; ++i) {
+      if (!sets.empty() && merit(guesses[i]) < first - in_question) break;
+      WaveformFit fit = part_of(whole, guesses[i].set);
+      const double odds = log_odds_of(fit);
+      if (!std::isfinite(odds)) continue;
+      if (sets.empty()) first = merit(guesses[i]);
+      sets.push_back({std::move(fit), odds});
+    }
+    for (const WaveformFit& few : few_) add_with_extras(few, whole, sets);
+    std::stable_sort(sets.begin(), sets.end(),
+                     [](const WaveformSet& a, const WaveformSet& b) { return a.log_odds > b.log_odds; });
+    return sets;
+  }
+  /// One or two dampings, fitted by themselves, with all of the whole that damps nothing.
+  void add_with_extras(const WaveformFit& few, const WaveformFit& whole,
+                       std::vector<WaveformSet>& sets) const {
+    WaveformFit both = few;
+    std::vector<double> value(few.value.begin(), few.value.end());
+    for (std::size_t i = 0; i < whole.laws.size(); ++i) {
+      const WaveformLaw& law = whole.laws[i];
+      if ((law.term.never_negative && !law.term.inverse && !law.is_mode) ||
+          std::find(both.laws.begin(), both.laws.end(), law) != both.laws.end())
+        continue;
+      both.laws.push_back(law);
+      if (says_it_twice(both, both.laws.size() - 1)) {
+        both.laws.pop_back();
+        continue;
+      }
+      for (Eigen::Index k = 0; k < law.width(); ++k) value.push_back(whole.value[whole.first_of(i) + k]);
+    }
+    WaveformFit fit = fit_waveform(runs_, both.laws,
+                                   Eigen::Map<Eigen::VectorXd>(value.data(), std::ssize(value)), options_);
+    const double odds = log_odds_of(fit);
+    if (!std::isfinite(odds)) return;
+    const auto same = std::find_if(sets.begin(), sets.end(), [&](const WaveformSet& set) {
+      return set.fit.laws.size() == fit.laws.size() &&
+             std::is_permutation(set.fit.laws.begin(), set.fit.laws.end(), fit.laws.begin());
+    });
+    if (same == sets.end())
+      sets.push_back({std::move(fit), odds});
+    else if (odds > same->log_odds)
+      *same = {std::move(fit), odds};
+  }
+
+  /// Rise of chi2 where the laws that are not in the set are zero (Wald); infinite where one that stays would
+  /// have a sign that it cannot have, or the set says something twice.
+  double dropped(const WaveformFit& whole, unsigned set) const {
+    std::vector<Eigen::Index> out;
+    WaveformFit kept;
+    for (std::size_t i = 0; i < whole.laws.size(); ++i) {
+      if ((set >> i & 1) != 0) {
+        kept.laws.push_back(whole.laws[i]);
+        if (says_it_twice(kept, kept.laws.size() - 1)) return INFINITY;
+        continue;
+      }
+      const Eigen::Index width = std::min<Eigen::Index>(2, whole.laws[i].width());
+      for (Eigen::Index k = 0; k < width; ++k) out.push_back(whole.first_of(i) + k);
+    }
+    Eigen::VectorXd value = whole.value;
+    double rise = 0;
+    if (!out.empty()) {
+      const Eigen::VectorXd gone = whole.value(out);
+      const Eigen::MatrixXd covariance = whole.covariance(out, out);
+      const Eigen::VectorXd pull = covariance.completeOrthogonalDecomposition().solve(gone);
+      rise = gone.dot(pull);
+      value -= whole.covariance(Eigen::all, out) * pull;
+    }
+    for (std::size_t i = 0; i < whole.laws.size(); ++i)
+      if ((set >> i & 1) != 0 && whole.laws[i].term.never_negative && !whole.laws[i].is_mode &&
+          value[whole.first_of(i)] <= -std::sqrt(whole.covariance(whole.first_of(i), whole.first_of(i))))
+        return INFINITY;
+    return rise;
+  }
+  WaveformFit part_of(const WaveformFit& whole, unsigned set, int evaluations = 40) const {
+    std::vector<WaveformLaw> laws;
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index k = 0; k <= 3 * std::ssize(runs_); ++k) kept.push_back(k);
+    for (std::size_t i = 0; i < whole.laws.size(); ++i)
+      if ((set >> i & 1) != 0) {
+        laws.push_back(whole.laws[i]);
+        for (Eigen::Index k = 0; k < laws.back().width(); ++k) kept.push_back(whole.first_of(i) + k);
+      }
+    WaveformOptions few = options_;
+    few.evaluations = evaluations;
+    WaveformFit fit = fit_waveform(runs_, laws, whole.value(kept), few);
+    return fit;
+  }
+
+  std::vector<double> gains_of(const WaveformFit& fit) const {
+    std::vector<double> gains;
+    const unsigned all = (1u << fit.laws.size()) - 1;
+    for (std::size_t i = 0; i < fit.laws.size(); ++i)
+      gains.push_back(part_of(fit, all & ~(1u << i), 10).chi2 - fit.chi2);
+    return gains;
+  }
+
+  std::vector<Hypothesis> in_words(const std::vector<WaveformSet>& sets) const {
+    std::vector<Hypothesis> table;
+    for (const WaveformSet& set : sets) {
+      Hypothesis h;
+      h.log_odds = set.log_odds;
+      for (const WaveformLaw& law : set.fit.laws) h.effects.push_back(law.term.effect);
+      table.push_back(std::move(h));
+    }
+    weigh(table);
+    return table;
+  }
+
+  std::vector<WaveformRun> runs_;
+  std::vector<WaveformLaw> laws_;
+  WaveformOptions options_;
+  std::vector<WaveformFit> few_;  ///< one damping or two with the spring's laws, from the beginning on
+};
+
+}  // namespace
+
+std::vector<WaveformLaw> waveform_laws(const Setup& setup, std::span<const EffectRecord* const> known) {
+  std::vector<WaveformLaw> laws;
+  for (const MomentumTerm& term : momentum_terms(setup, known, true)) {
+    const EffectRecord* record = find_record(known, term.effect);
+    if (record == nullptr) continue;
+    const Search search = search_of(*record);
+    const bool on_box = record->acts_on == ActsOn::box || search.in_waveform;
+    if (!on_box) continue;
+    WaveformLaw law{
+        term, search.harmonic.has_value(), search.in_waveform, std::string(record->family), "", "", ""};
+    if (search.harmonic) {
+      const auto key = [&](std::string_view parameter) {
+        return parameter.empty() ? "" : std::string(record->name) + "." + std::string(parameter);
+      };
+      law.frequency_key = key(search.harmonic->frequency), law.phase_key = key(search.harmonic->phase);
+      law.rate_key = key(search.harmonic->rate);
+    }
+    laws.push_back(std::move(law));
+  }
+  return laws;
+}
+
+double log_prior_odds(const WaveformFit& fit, double candidates, double swing_frequency) {
+  double sum = 0;
+  std::vector<Eigen::Index> own;
+  int dry = 0;
+  for (std::size_t i = 0; i < fit.laws.size(); ++i) {
+    const WaveformLaw& law = fit.laws[i];
+    const Eigen::Index at = fit.first_of(i);
+    const double each = std::min(0.5, rules::expected_effects * law.term.odds / std::max(1.0, candidates));
+    sum += std::log(each / (1 - each));
+    if (law.term.dry && ++dry > 1) return impossible;
+    if (says_it_twice(fit, i)) return impossible;
+    for (Eigen::Index k = 0; k < law.width(); ++k) own.push_back(at + k);
+    if (law.is_mode) {
+      const double amplitude = std::hypot(fit.value[at], fit.value[at + 1]);
+      // Any phase; any frequency up to five times the swing's; dying away within a period at most.
+      sum += log_cauchy(amplitude, law.term.typical, true) -
+             std::log(2 * std::numbers::pi * amplitude * 5 * swing_frequency * swing_frequency);
+      if (fit.value[at + 3] < -2 * std::sqrt(fit.covariance(at + 3, at + 3))) return impossible;
+      continue;
+    }
+    const double strength = fit.value[at];
+    if ((law.term.never_negative && strength <= 0) || !law.term.possible(strength)) return impossible;
+    sum += log_cauchy(strength, law.term.typical, law.term.never_negative);
+  }
+  if (own.empty()) return 0;
+  const Eigen::MatrixXd covariance = fit.covariance(own, own);
+  const Eigen::VectorXd root = covariance.diagonal().cwiseSqrt();
+  if (!(root.minCoeff() > 0)) return impossible;
+  const double determinant =
+      (root.cwiseInverse().asDiagonal() * covariance * root.cwiseInverse().asDiagonal()).determinant();
+  if (!(determinant > 0)) return impossible;
+  return sum + static_cast<double>(own.size()) * std::log(2 * std::numbers::pi) / 2 +
+         root.array().log().sum() + std::log(determinant) / 2;
+}
+
+WaveformAnswer search_waveform(const Measurement& measurement, double frequency,
+                               std::span<const EffectRecord* const> known,
+                               const std::vector<std::string>& only) {
+  std::vector<WaveformRun> runs = waveform_runs(measurement);
+  if (runs.empty()) return {};
+  return WaveformSearch(std::move(runs), known, only).run(frequency);
+}
+
+}  // namespace shakedown

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Which laws act on a box without grains? Sets of them are fitted to its waveform and weighed by the same
+// evidence as everywhere: the fall of chi2, the share of the prior that the data leave, and the prior of the
+// effects.
+#pragma once
+#include "evidence.hpp"
+#include "waveform.hpp"
+
+namespace shakedown {
+
+/// A set of laws, fitted.
+struct WaveformSet {
+  WaveformFit fit;
+  double log_odds = 0;  ///< ln of its probability over that of no law at all
+};
+
+struct WaveformAnswer {
+  std::vector<WaveformRun> runs;  ///< as fitted, weighed by what no law explains in the band of the swing
+  std::vector<WaveformSet> sets;  ///< most probable first; empty: no run swings long enough
+  std::vector<double> gain;       ///< of each law of the first set: what chi2 loses without it
+  std::vector<Hypothesis> table;  ///< of the effects
+  WaveformFit as_given;           ///< nothing free but place, speed and origin of each run
+};
+
+/// The laws that the waveform of an empty box can tell, from the records.
+std::vector<WaveformLaw> waveform_laws(const Setup& setup, std::span<const EffectRecord* const> known);
+
+/// ln of prior and of the share that the data leave of it, of the laws of a fit; -infinity where one of them
+/// cannot be what it is fitted to be. `candidates`: how many laws were in question.
+double log_prior_odds(const WaveformFit& fit, double candidates, double swing_frequency);
+
+/// `frequency`: Hz, about where the fit begins; `only`: effects that may act, empty: all.
+WaveformAnswer search_waveform(const Measurement& measurement, double frequency,
+                               std::span<const EffectRecord* const> known,
+                               const std::vector<std::string>& only = {});
+
+}  // namespace shakedown
