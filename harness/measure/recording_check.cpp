@@ -111,8 +111,11 @@ class RunCheck {
 
   bool check_clock() {
     const double ratio = motion_.frequency / setup_.spring.frequency;
-    constexpr double absurd = 30, doubtful = 1.5;  // grains lower the frequency by some per cent only
-    if (ratio < doubtful && ratio > 1 / doubtful) return true;
+    constexpr double absurd = 30, doubtful = 1.5;
+    // Grains that move with the box lower its frequency to this share at most.
+    const double grains = static_cast<double>(setup_.grains.count) * setup_.grains.mass,
+                 carried = std::sqrt(setup_.box.mass / (setup_.box.mass + grains));
+    if (ratio < doubtful && ratio > carried / doubtful) return true;
     const bool far = ratio > absurd || ratio < 1 / absurd;
     const std::string found = "the box swings at " + rounded(motion_.frequency, "Hz") +
                               " where the spring of the setup has " + rounded(setup_.spring.frequency, "Hz") +
