@@ -171,6 +171,8 @@ RingDownAnswer answer_of(const RingDown& case_, const TrialTools& tools) {
     answer.verdict = name_of(diagnosis.verdict);
     answer.missing = diagnosis.missing;
     answer.not_finite = is_not_finite(diagnosis);
+    if (!diagnosis.left.empty()) answer.left = times_floor(diagnosis.left.front());
+    answer.holds = diagnosis.judgement.holds();
   } catch (const Interrupted&) {
     throw;
   } catch (const std::exception& error) {
@@ -181,9 +183,14 @@ RingDownAnswer answer_of(const RingDown& case_, const TrialTools& tools) {
 }
 
 std::string answer_json(const RingDownAnswer& answer, const std::string& program) {
-  return nlohmann::json{
-             {"program", program},        {"verdict", answer.verdict},       {"missing", answer.missing},
-             {"stopped", answer.stopped}, {"not_finite", answer.not_finite}, {"seconds", answer.seconds}}
+  return nlohmann::json{{"program", program},
+                        {"verdict", answer.verdict},
+                        {"missing", answer.missing},
+                        {"stopped", answer.stopped},
+                        {"not_finite", answer.not_finite},
+                        {"seconds", answer.seconds},
+                        {"left", std::isfinite(answer.left) ? nlohmann::json(answer.left) : nlohmann::json()},
+                        {"holds", answer.holds}}
              .dump(2) +
          "\n";
 }
@@ -197,6 +204,8 @@ RingDownAnswer read_answer(const std::filesystem::path& file, const std::string&
     answered_by = document.at("program").get<std::string>();
     answer = {document.at("verdict"), document.at("missing"), document.at("stopped"),
               document.at("not_finite"), document.at("seconds")};
+    if (document.at("left").is_number()) answer.left = document.at("left");
+    answer.holds = document.at("holds");
   });
   if (answered_by != program)
     throw InputError({{{file.string(), 0, 0},

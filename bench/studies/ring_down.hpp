@@ -4,6 +4,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ struct RingDownAnswer {
   std::string stopped;               ///< why there is no answer
   bool not_finite = false;           ///< a number of the answer is none
   double seconds = 0;
+  double left = std::numeric_limits<double>::quiet_NaN();  ///< by the final model, times noise and spread
+  bool holds = false;                                      ///< says its judgement
 };
 /// As a file keeps it, with the program that answered. `read_answer` throws InputError for what is no answer
 /// of that program.

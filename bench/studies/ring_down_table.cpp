@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "ring_down.hpp"
@@ -25,6 +27,20 @@ std::string line(std::string_view what, const std::vector<RingDownResult>& resul
   const Share share = share_of(right, cases);
   return fmt::format("{:<36}{:>6}{:>7}{:>6.0f} % ({:.0f} to {:.0f} %){:>10}{:>9}{:>6}\n", what, cases, right,
                      100 * share.value, 100 * share.low, 100 * share.high, invented, stopped, not_finite);
+}
+
+/// What right or wrong answers leave of the motion, and how many of them say that the model holds.
+std::string left_by(const std::vector<RingDownResult>& results, bool right) {
+  std::vector<double> left;
+  int hold = 0;
+  for (const RingDownResult& one : results)
+    if (one.right == right && std::isfinite(one.answer.left))
+      left.push_back(one.answer.left), hold += one.answer.holds;
+  if (left.empty()) return "";
+  std::sort(left.begin(), left.end());
+  return fmt::format(
+      "{} answers leave {:.2f} times noise and spread at the median, {:.2f} at most; {} of {} hold\n",
+      right ? "right" : "wrong", left[left.size() / 2], left.back(), hold, left.size());
 }
 
 Chosen hides(std::size_t number) {
@@ -81,13 +97,14 @@ std::string ring_down_table(const std::vector<RingDownResult>& results) {
   add("8 to 20 frames a period", frames_between(8, 20));
   add("20 to 100 frames a period", frames_between(20, 100));
   add("100 frames a period and more", frames_between(100, any));
+  text += left_by(results, true) + left_by(results, false);
   return text + "aims: weakest signal 12 and more: right 90 %, invented 3 %; no stop, no NaN\n";
 }
 
 std::string ring_down_csv(const std::vector<RingDownResult>& results) {
   std::string text =
       "case,hidden,signals,noise,frame_rate_hz,frames_a_period,runs,declared,verdict,missing,right,invented,"
-      "not_finite,seconds,stopped\n";
+      "not_finite,seconds,left,holds,stopped\n";
   for (const RingDownResult& one : results) {
     const RecordingSettings& recording = one.drawn.trial.recording;
     std::string signals;
@@ -108,6 +125,8 @@ std::string ring_down_csv(const std::vector<RingDownResult>& results) {
                                          word(one.invented),
                                          word(one.answer.not_finite),
                                          fmt::format("{:.2f}", one.answer.seconds),
+                                         fmt::format("{:.2f}", one.answer.left),
+                                         word(one.answer.holds),
                                          quoted(one.answer.stopped)};
     text += joined(cells, ",") + "\n";
   }

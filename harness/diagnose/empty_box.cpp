@@ -312,7 +312,7 @@ bool conclude_by_waveform(const Setup& user, const Measurement& measurement, con
   if (found.verdict == Verdict::adequate) found.parameters.clear(), found.amended = user;
   if (found.verdict == Verdict::unknown) found.missing.clear();
   settle_hypotheses(found, findings);
-  found.camera.clear();
+  found.camera = balance.nuisances;
   found.sentence = sentence_of(found, known);
   d = std::move(found);
   return true;

@@ -298,7 +298,8 @@ WaveformFit fit_waveform(const std::vector<WaveformRun>& runs, const std::vector
   if (fit.frames > residuals.inputs()) {
     Eigen::LevenbergMarquardt<Residuals> search(residuals);
     search.parameters.maxfev = options.evaluations;
-    search.parameters.ftol = 1e-7, search.parameters.xtol = 1e-7;
+    // chi2 is some thousands, and ln odds are wanted to a tenth.
+    search.parameters.ftol = search.parameters.xtol = 1e-5;
     // MINPACK's first region of trust, in the units of the residuals where the start is the origin.
     residuals.at(start, left);
     search.parameters.factor = std::max(1.0, left.norm());
