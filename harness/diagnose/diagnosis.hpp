@@ -35,7 +35,7 @@ struct RankedEffect {
   double standard_error = 0;  ///< of held_out_gain
   double value = 0;           ///< its strength
   std::vector<std::string> look_alikes{};
-  bool fitted = false;      ///< its gain is that of a fit, not of a linear estimate
+  bool fitted = false;      ///< its gain is that of a fit, not of its signature at a few strengths
   bool by_balance = false;  ///< its gain is that of the momentum balance, which needs no simulation
 };
 

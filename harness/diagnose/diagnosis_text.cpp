@@ -85,7 +85,7 @@ std::string diagnosis_text(const Diagnosis& d) {
                           std::isfinite(r.held_out_gain) ? fmt::format("{:.1f}", r.held_out_gain)
                           : r.by_balance                 ? "(balance)"
                           : r.fitted                     ? "-"
-                                                         : "(linear)",
+                                                         : "(signature)",
                           alike);
     }
   }

@@ -36,7 +36,7 @@ double prior_log_odds(double odds, double candidates);
 /// deviation.
 double beyond_emulator_noise(double fitted_gain);
 
-/// The gain to believe of an effect with a linear estimate and a fit: the linear one (its noise is that of
+/// The gain to believe of an effect with a signature and a fit: that of the signature (its noise is that of
 /// the data alone) where the fit keeps half of it, else what the fit shows beyond its own noise.
 double believed_gain(double linear, double fitted);
 

@@ -121,7 +121,7 @@ ReportSection suspects_section(const Diagnosis& diagnosis) {
     bars.lines.push_back(line);
   }
   bars.caption =
-      "In units of chi squared. Effects without a second bar were judged by a linear estimate or by the "
+      "In units of chi squared. Effects without a second bar were judged by their signatures or by the "
       "balance only.";
   if (!bars.lines.empty()) section.bars = {bars};
   ReportTable table{"All suspects as numbers",
