@@ -115,7 +115,7 @@ Refit DiagnosisTools::fit(const DiagnosisState& state, const std::string& stage,
                           const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by,
                           double look_again_below) {
   stage_ = stage;
-  if (state.dear)
+  if (state.dear && !effort.whole)
     effort.count = std::min(effort.count, effort::most_when_dear),
     effort.confirming = std::min(effort.confirming, effort::most_when_dear);
   RefitOptions options;

@@ -33,10 +33,12 @@ struct Effort {
   int rounds, count, confirming;
   bool beside = false;  ///< a poor one looks on both sides along what is known least
   bool once = false;    ///< does not follow a solution that leaves the box
+  bool whole = false;   ///< not cut where runs are dear: its intervals are the answer's
 };
 namespace effort {
 constexpr Effort look{1, 128, 0}, refit{2, 160, 128, true}, attempt{2, 128, 96}, attempt_when_dear{1, 72, 48},
-    conclude{1, 192, 160}, apart{2, 160, 128}, least{1, 64, 0, false, true};
+    conclude{1, 192, 160, false, false, true}, apart{2, 160, 128, false, false, true},
+    least{1, 64, 0, false, true};
 constexpr int most_when_dear = 80;
 constexpr ScreenEffort rank{}, rank_when_dear{32, 48, 12, 12, 12};
 }  // namespace effort

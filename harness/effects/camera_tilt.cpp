@@ -30,7 +30,7 @@ extern const EffectRecord camera_tilt{
     .engines = {{every_engine, {Fidelity::exact}}},
     // A degree or two is usual: one film in ten is taken from clearly aside.
     .search = {.odds = 0.1,
-               .not_searched = "only the waveform of an empty box tells it",
+               .not_searched = "Only the waveform of an empty box tells it.",
                .in_waveform = true},
     .apply = &apply};
 

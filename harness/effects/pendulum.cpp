@@ -27,6 +27,7 @@ extern const EffectRecord pendulum{
     .limits = "The whole restoring force is gravity's; a spring beside it makes l longer than the pendulum.",
     .parameters = {{.name = "length",
                     .unit = "m",
+                    .default_value = 0.5,
                     .required = true,
                     .low = 1e-3,
                     .high = 1e3,
@@ -37,7 +38,7 @@ extern const EffectRecord pendulum{
                 {"soft",
                  {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
     .search = {.strengths = {{.parameters = "length", .typical = 0.5, .inverse = true}},
-               .not_searched = "only the waveform of an empty box tells it from a softening spring",
+               .not_searched = "Only the waveform of an empty box tells it from a softening spring.",
                .in_waveform = true},
     .apply = &apply};
 

@@ -42,6 +42,7 @@ extern const EffectRecord second_mode{
                     .default_value = 1.0,
                     .low = 1e-3,
                     .high = 1e3,
+                    .typical = 1,
                     .sentence = "Frequency of the second swing."},
                    {.name = "rate",
                     .unit = "1/s",
@@ -60,7 +61,7 @@ extern const EffectRecord second_mode{
                 {"soft",
                  {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
     .search = {.harmonic = SearchedHarmonic{"amplitude", "frequency", "phase", "rate"},
-               .not_searched = "only the waveform of an empty box tells it",
+               .not_searched = "Only the waveform of an empty box tells it.",
                .in_waveform = true},
     .apply = &apply,
     .applied_last = true};

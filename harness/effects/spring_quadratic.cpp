@@ -36,12 +36,13 @@ extern const EffectRecord spring_quadratic{
                     .default_value = 0.1,
                     .low = 1e-4,
                     .high = 10,
+                    .typical = 0.1,
                     .sentence = "Displacement of the coefficient."}},
     .engines = {{"hard",
                  {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"}},
                 {"soft",
                  {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
-    .search = {.not_searched = "only the waveform of an empty box tells it", .in_waveform = true},
+    .search = {.not_searched = "Only the waveform of an empty box tells it.", .in_waveform = true},
     .apply = &apply};
 
 }  // namespace shakedown::effect

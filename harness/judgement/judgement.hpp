@@ -19,8 +19,8 @@ constexpr double balance_rejected = 1e-3;
 /// to 0.43 ms judged by hard impacts of the same parameters have 1.1 to 1.33.
 constexpr double codes_differ = 1.4;
 
-/// Times noise and spread from run to run that a model which holds may leave of the measurement at most. Of 23
-/// recordings of real oscillators that others published the right answers left up to 1.75, and nine of the
+/// Times noise and spread from run to run that a model which holds may leave of the measurement at most. Of
+/// 23 recordings of real oscillators that others published the right answers left up to 1.75, and nine of the
 /// eleven wrong ones 2.8 and more.
 constexpr double most_left = 2.5;
 

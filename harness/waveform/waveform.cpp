@@ -174,7 +174,8 @@ class Residuals {
   bool of_run(std::size_t r, const Eigen::VectorXd& value, Eigen::Ref<Eigen::VectorXd> out) const {
     const WaveformRun& run = runs_[r];
     const Eigen::Index first = 3 * static_cast<Eigen::Index>(r);
-    const std::vector<double> time(run.time.begin(), run.time.begin() + used_[r]);
+    std::vector<double> time{run.start_time()};
+    time.insert(time.end(), run.time.begin(), run.time.begin() + used_[r]);
     constexpr double too_far = 10;  // amplitudes: the box has run away
     const double frequency = value[3 * std::ssize(runs_)];
     std::vector<double> x;
@@ -191,7 +192,7 @@ class Residuals {
     }
     if (!(physics.camera == Camera{})) x = seen_through(physics.camera, {time, std::move(x), {}}).x_box;
     for (Eigen::Index i = 0; i < used_[r]; ++i)
-      out[i] = (run.x[static_cast<std::size_t>(i)] - value[first + 2] - x[static_cast<std::size_t>(i)]) /
+      out[i] = (run.x[static_cast<std::size_t>(i)] - value[first + 2] - x[static_cast<std::size_t>(i) + 1]) /
                run.noise;
     return out.allFinite();
   }
@@ -217,6 +218,7 @@ WaveformRun waveform_run(const Measurement::Run& run, bool every_frame) {
         (starts_anywhere(run.recorded, run.setup) || run.recorded.time[i] >= 0))
       time.push_back(run.recorded.time[i]), x.push_back(run.audit.x_box[i]);
   if (time.size() < least_frames) return made;
+  made.begin = time.front();
   const double interval = (time.back() - time.front()) / static_cast<double>(time.size() - 1),
                period = 1 / run.setup.spring.frequency;
   const auto group =
@@ -271,8 +273,8 @@ Eigen::VectorXd starting_values(const std::vector<WaveformRun>& runs, const std:
     const WaveformRun& run = runs[r];
     std::vector<Eigen::Vector3d> rows;
     std::vector<double> right;
-    for (std::size_t i = 0; i < run.time.size() && run.time[i] <= run.time.front() + 1.5 / frequency; ++i) {
-      const double phase = two_pi * frequency * (run.time[i] - run.time.front());
+    for (std::size_t i = 0; i < run.time.size() && run.time[i] <= run.start_time() + 1.5 / frequency; ++i) {
+      const double phase = two_pi * frequency * (run.time[i] - run.start_time());
       rows.push_back({std::cos(phase), std::sin(phase), 1});
       right.push_back(run.x[i]);
     }

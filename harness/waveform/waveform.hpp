@@ -4,6 +4,8 @@
 // and one set of strengths.
 #pragma once
 #include <Eigen/Core>
+#include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,10 +31,13 @@ struct WaveformLaw {
 struct WaveformRun {
   std::string name;
   Setup setup;
-  std::vector<double> time, x;  ///< s, m
-  double white = 0;             ///< m, noise of these frames by the frames alone
-  double noise = 0;             ///< m, what they are weighed by
-  double amplitude = 0;         ///< m
+  std::vector<double> time, x;                              ///< s, m
+  double white = 0;                                         ///< m, noise of these frames by the frames alone
+  double noise = 0;                                         ///< m, what they are weighed by
+  double amplitude = 0;                                     ///< m
+  double begin = std::numeric_limits<double>::quiet_NaN();  ///< s, of the first frame as recorded: place and
+                                                            ///< speed are those there; NaN: time.front()
+  double start_time() const { return std::isfinite(begin) ? begin : time.front(); }
 };
 
 /// All runs of a measurement that swing long enough to be fitted; `every_frame`: without averaging.

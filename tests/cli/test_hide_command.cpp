@@ -32,10 +32,10 @@ TEST_F(HideCommand, SaysWhatIsWrongWithItsArguments) {
 }
 
 TEST_F(HideCommand, PowerCountsAnswersAndWritesNothing) {
-  // A budget of nothing and a model that holds: one comparison, about a second.
+  // The least budget and a model that holds: one comparison, about a second.
   const Outcome outcome =
       shakedown_program({"hide", example("L040.toml"), "--engine", "hard", "--lengths", "40mm", "--duration",
-                         "2 s", "--power", "--repeats", "1", "--budget", "1", "--json"});
+                         "2 s", "--power", "--repeats", "1", "--budget", "256", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const nlohmann::json power = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(power["detected"]["trials"], 1);

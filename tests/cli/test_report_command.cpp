@@ -82,7 +82,7 @@ class SlowReportCommand : public ReportCommand {};
 
 TEST_F(SlowReportCommand, ComparisonsLaddersFitsAndSweepsAreShownAlone) {
   ASSERT_EQ(shakedown_program({"hide", example("L040.toml"), "--engine", "hard", "--lengths", "40mm,65mm",
-                               "--duration", "1 s", "--out", in_folder("case")})
+                               "--duration", "3 s", "--out", in_folder("case")})
                 .code,
             0);
   const std::string setup = in_folder("case/setup.toml"), data = in_folder("case/experiment.toml");
