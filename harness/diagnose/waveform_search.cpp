@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -310,8 +311,8 @@ class WaveformSearch {
       sets.push_back({std::move(fit), odds});
     }
     for (const WaveformFit& few : few_) add_with_extras(few, whole, sets);
-    std::stable_sort(sets.begin(), sets.end(),
-                     [](const WaveformSet& a, const WaveformSet& b) { return a.log_odds > b.log_odds; });
+    sort_by_odds(sets);
+    without_the_needless(sets);
     return sets;
   }
   /// One or two dampings, fitted by themselves, with all of the whole that damps nothing.
@@ -333,6 +334,10 @@ class WaveformSearch {
     }
     WaveformFit fit = fit_waveform(runs_, both.laws,
                                    Eigen::Map<Eigen::VectorXd>(value.data(), std::ssize(value)), options_);
+    keep(std::move(fit), sets);
+  }
+
+  void keep(WaveformFit fit, std::vector<WaveformSet>& sets) const {
     const double odds = log_odds_of(fit);
     if (!std::isfinite(odds)) return;
     const auto same = std::find_if(sets.begin(), sets.end(), [&](const WaveformSet& set) {
@@ -343,6 +348,24 @@ class WaveformSearch {
       sets.push_back({std::move(fit), odds});
     else if (odds > same->log_odds)
       *same = {std::move(fit), odds};
+  }
+
+  static void sort_by_odds(std::vector<WaveformSet>& sets) {
+    std::stable_sort(sets.begin(), sets.end(),
+                     [](const WaveformSet& a, const WaveformSet& b) { return a.log_odds > b.log_odds; });
+  }
+
+  /// The most probable set without each of its laws, until none of these is more probable: the guesses of
+  /// second order are taken about the whole, where a needless law may hold the others away from their
+  /// minimum.
+  void without_the_needless(std::vector<WaveformSet>& sets) const {
+    for (std::size_t laws = SIZE_MAX; !sets.empty() && sets.front().fit.laws.size() < laws;) {
+      const WaveformFit best = sets.front().fit;
+      laws = best.laws.size();
+      const unsigned all = (1u << laws) - 1;
+      for (std::size_t i = 0; i < laws; ++i) keep(part_of(best, all & ~(1u << i)), sets);
+      sort_by_odds(sets);
+    }
   }
 
   /// Rise of chi2 where the laws that are not in the set are zero (Wald); infinite where one that stays would
