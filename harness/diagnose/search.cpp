@@ -273,11 +273,11 @@ DiagnosisState concluded(const DiagnosisState& state, DiagnosisTools& tools, con
   DiagnosisState apart = state;
   apart.found = taken_apart(state.found);
   for (Knob& part : apart.found) {
-    // one may be far from what both were together
+    // One may be far from what both were together: from nothing to three times that.
     const bool was_joint = std::none_of(state.found.begin(), state.found.end(),
                                         [&](const Knob& knob) { return knob.key == part.key; });
     if (was_joint)
-      part.width = std::max(part.width, 0.6 * (part.centre - part.low)),
+      part.width = std::max(part.width, 1.5 * (part.centre - part.low)),
       part.centre = std::max(part.centre, part.low + part.width);
   }
   apart.fit = tools.fit(apart, stage, apart.knobs(), effort::apart);
