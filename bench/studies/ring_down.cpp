@@ -125,18 +125,13 @@ RingDown drawn_once(Random& random, unsigned which, const Engine& engine,
   return drawn;
 }
 
-bool holds_null(const nlohmann::json& tree) {
-  if (tree.is_null()) return true;
-  return (tree.is_object() || tree.is_array()) && std::any_of(tree.begin(), tree.end(), holds_null);
-}
-
-/// A number that is none stands as null among the parameters and in the balance.
+/// A number that is none stands among those that could not be computed.
 bool is_not_finite(const Diagnosis& diagnosis) {
   const nlohmann::json document = nlohmann::json::parse(diagnosis_json(diagnosis));
-  for (const nlohmann::json& parameter : document.at("parameters"))
-    if (parameter.at("value").is_number() ? holds_null(parameter) : parameter.at("value").is_null())
-      return true;
-  return holds_null(document.at("momentum"));
+  const nlohmann::json none = document.value("not_computed", nlohmann::json::object());
+  return std::any_of(none.items().begin(), none.items().end(), [](const auto& one) {
+    return one.key().starts_with("/parameters/") || one.key().starts_with("/momentum/");
+  });
 }
 
 }  // namespace

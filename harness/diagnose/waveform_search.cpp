@@ -21,6 +21,9 @@ namespace {
 
 constexpr double impossible = -std::numeric_limits<double>::infinity();
 
+/// Chance of a line in noise above which a second swing is not even asked for.
+constexpr double one_in_a_thousand = 1e-3;
+
 /// A second swing nearer than this to the box's own, or to a multiple of it, is none: the one exchanges
 /// energy with the box (beats), the other is a harmonic.
 /// Both allow for the swing's own frequency changing with its amplitude.
@@ -255,18 +258,18 @@ class WaveformSearch {
     const Eigen::VectorXd& left = whole.residual.front();
     const double highest = std::min(
         5 * swing, 0.4 * static_cast<double>(run.time.size()) / (run.time.back() - run.time.front()));
-    double most = 0, found = 0;
-    for (double f = 1.5 / length; f < highest; f += 0.25 / length) {
+    std::vector<PowerAt> spectrum;
+    for (double f = 1.5 / length; f < highest; f += 0.5 / length) {
       if (is_own(f, swing, 2 / length)) continue;
       double sine = 0, cosine = 0;
       for (Eigen::Index i = 0; i < left.size(); ++i) {
         const double phase = 2 * std::numbers::pi * f * run.time[static_cast<std::size_t>(i)];
         sine += std::sin(phase) * left[i], cosine += std::cos(phase) * left[i];
       }
-      if (const double power = sine * sine + cosine * cosine; power > most) most = power, found = f;
+      spectrum.push_back({f, (sine * sine + cosine * cosine) / static_cast<double>(left.size())});
     }
-    constexpr double worth_a_fit = 20;  // chi2
-    if (!(2 * most / static_cast<double>(left.size()) > worth_a_fit * run.noise * run.noise)) return {};
+    const double found = line_in(spectrum);
+    if (!(found > 0)) return {};
     std::vector<WaveformLaw> laws = whole.laws;
     laws.push_back(law);
     Eigen::VectorXd start = with_zeros(whole.value, {law});
@@ -495,6 +498,28 @@ double log_prior_odds(const WaveformFit& fit, double candidates, double swing_fr
   if (!(determinant > 0)) return impossible;
   return sum + static_cast<double>(own.size()) * std::log(2 * std::numbers::pi) / 2 +
          root.array().log().sum() + std::log(determinant) / 2;
+}
+
+double line_in(const std::vector<PowerAt>& spectrum) {
+  if (spectrum.empty()) return 0;
+  const auto peak = std::max_element(spectrum.begin(), spectrum.end(),
+                                     [](const PowerAt& a, const PowerAt& b) { return a.power < b.power; });
+  const auto at = peak - spectrum.begin();
+  // The peak and its skirts are five steps wide to either side; noise is what lies beside it, on the side
+  // where it is stronger: a track's wander falls with the frequency.
+  constexpr std::ptrdiff_t skirt = 5, beside = 20;
+  double noise = 0;
+  for (const std::ptrdiff_t side : {-1, 1}) {
+    double sum = 0, count = 0;
+    for (std::ptrdiff_t i = skirt + 1; i <= skirt + beside; ++i)
+      if (const std::ptrdiff_t k = at + side * i; k >= 0 && k < std::ssize(spectrum))
+        sum += spectrum[static_cast<std::size_t>(k)].power, ++count;
+    if (count >= skirt) noise = std::max(noise, sum / count);
+  }
+  if (!(noise > 0)) return 0;
+  // The power of noise is exponential: of n frequencies one exceeds x means by chance with n exp(-x).
+  const double by_chance = static_cast<double>(spectrum.size()) * std::exp(-peak->power / noise);
+  return by_chance < one_in_a_thousand ? peak->frequency : 0;
 }
 
 WaveformAnswer search_waveform(const Measurement& measurement, double frequency,

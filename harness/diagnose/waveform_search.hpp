@@ -29,6 +29,14 @@ std::vector<WaveformLaw> waveform_laws(const Setup& setup, std::span<const Effec
 /// cannot be what it is fitted to be. `candidates`: how many laws were in question.
 double log_prior_odds(const WaveformFit& fit, double candidates, double swing_frequency);
 
+/// One frequency of a periodogram.
+struct PowerAt {
+  double frequency = 0, power = 0;  ///< Hz; of whatever unit
+};
+/// The frequency of a line that stands out from the noise around it, red or white; 0: none does. Frequencies
+/// ascend in steps of half the resolution.
+double line_in(const std::vector<PowerAt>& spectrum);
+
 /// `frequency`: Hz, about where the fit begins; `only`: effects that may act, empty: all.
 WaveformAnswer search_waveform(const Measurement& measurement, double frequency,
                                std::span<const EffectRecord* const> known,

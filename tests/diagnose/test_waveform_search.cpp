@@ -93,6 +93,20 @@ TEST(WaveformSearch, BeatsNeverHold) {
   EXPECT_TRUE(d.verdict == Verdict::unknown || d.judgement.standing == Standing::fails) << d.sentence;
 }
 
+// The strongest of a wander lies at its slow end and stands out from nothing.
+TEST(WaveformSearch, ALineStandsOutFromTheNoiseAroundIt) {
+  Random random(3, 0, Stream::camera);
+  std::vector<PowerAt> spectrum;
+  for (int i = 1; i <= 300; ++i)
+    spectrum.push_back({0.01 * i, -std::log(1 - random.uniform()) * (1 + 1e3 / (1 + std::pow(i / 30.0, 2)))});
+  EXPECT_EQ(line_in(spectrum), 0);
+  spectrum[150].power = 40;
+  std::vector<PowerAt> white = spectrum;
+  for (PowerAt& one : white) one.power = one.frequency == spectrum[150].frequency ? 40 : 1;
+  EXPECT_EQ(line_in(white), spectrum[150].frequency);
+  EXPECT_EQ(line_in({}), 0);
+}
+
 TEST(WaveformSearch, APriorNeverLetsADampingPush) {
   WaveformFit fit;
   for (const WaveformLaw& law : waveform_laws(empty_box(), all_effects()))
