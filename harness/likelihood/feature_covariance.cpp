@@ -1,18 +1,71 @@
 // SPDX-License-Identifier: MIT
 #include "feature_covariance.hpp"
 
+#include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
+#include <limits>
+
 namespace shakedown {
+
+namespace {
+
+/// Correlations kept, less than one by these: the likelihood is flat over a factor of three.
+constexpr std::array shrinkages{0.003, 0.01, 0.03, 0.1, 0.3, 1.0};
+
+/// ln of the likelihood of `unseen` simulations (camera noise of the variance `white` added, averaged over
+/// it) by the covariance of `seen` ones. In the space of simulations, which are fewer than features
+/// (Woodbury): C = D + X' X with X = sqrt((1 - s) / n) seen.
+double log_likelihood(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& unseen,
+                      const Eigen::VectorXd& white, double shrinkage) {
+  const auto n = static_cast<double>(seen.rows());
+  const Eigen::VectorXd variance = seen.colwise().squaredNorm().transpose() / n;
+  const Eigen::VectorXd diagonal = shrinkage * variance + white;
+  if (!(diagonal.minCoeff() > 0)) return -std::numeric_limits<double>::infinity();
+  const Eigen::MatrixXd x = std::sqrt((1 - shrinkage) / n) * seen;
+  const Eigen::MatrixXd scaled = x * diagonal.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd inner = scaled * x.transpose();
+  inner.diagonal().array() += 1;
+  const Eigen::LLT<Eigen::MatrixXd> root(inner);
+  const double log_determinant =
+      diagonal.array().log().sum() + 2 * Eigen::MatrixXd(root.matrixL()).diagonal().array().log().sum();
+  const Eigen::MatrixXd taken = root.matrixL().solve(scaled);  // C^-1 = D^-1 - taken' taken
+  const Eigen::VectorXd inverse =
+      diagonal.cwiseInverse() - taken.colwise().squaredNorm().transpose();  // its diagonal
+  const double squares = ((unseen.array().square().rowwise() / diagonal.transpose().array()).sum() -
+                          (taken * unseen.transpose()).squaredNorm()) /
+                         static_cast<double>(unseen.rows());
+  return -(log_determinant + squares + inverse.dot(white)) / 2;
+}
+
+/// By which every other simulation tells the rest best, both ways round.
+double best_shrinkage(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& white) {
+  constexpr Eigen::Index least = 8;
+  if (residuals.rows() < least) return shrinkages.back();
+  const Eigen::Index half = residuals.rows() / 2;
+  const Eigen::MatrixXd even = residuals(Eigen::seqN(0, half, 2), Eigen::all),
+                        odd = residuals(Eigen::seqN(1, half, 2), Eigen::all);
+  double best = shrinkages.back(), most = -std::numeric_limits<double>::infinity();
+  for (const double shrinkage : shrinkages) {
+    const double told =
+        log_likelihood(even, odd, white, shrinkage) + log_likelihood(odd, even, white, shrinkage);
+    if (told > most) most = told, best = shrinkage;
+  }
+  return best;
+}
+
+}  // namespace
 
 Eigen::MatrixXd feature_covariance(const Eigen::MatrixXd& residuals, const FeaturePlan& plan,
                                    double model_error) {
-  constexpr double shrinkage = 0.4;
+  Eigen::VectorXd white(residuals.cols());
+  for (Eigen::Index f = 0; f < white.size(); ++f)
+    white[f] = std::pow(plan.features[static_cast<std::size_t>(f)].noise, 2) + model_error * model_error;
+  const double shrinkage = best_shrinkage(residuals, white);
   Eigen::MatrixXd covariance = residuals.transpose() * residuals / static_cast<double>(residuals.rows());
   const Eigen::VectorXd variance = covariance.diagonal();
   covariance *= 1 - shrinkage;
-  for (Eigen::Index f = 0; f < variance.size(); ++f) {
-    const double noise = plan.features[static_cast<std::size_t>(f)].noise;
-    covariance(f, f) += shrinkage * variance[f] + noise * noise + model_error * model_error;
-  }
+  covariance.diagonal() += shrinkage * variance + white;
   return covariance;
 }
 
