@@ -110,6 +110,8 @@ class Course {
   void judge() {
     DiagnosisState state = with_packing();
     state.camera = camera_knobs(state.setup, tools_.measurement(), tools_.known());
+    tools_.limit_to(share::model_as_given / 2);
+    state.camera = together(state.camera, tools_.weigh_damper(state.setup));
     DiagnosisState given = state;
     given.theta = as_given(state.setup, tools_.measurement().known);
     tools_.workshop().ensembles = tools_.options().ensembles;

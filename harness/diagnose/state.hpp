@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "damper_errors.hpp"
 #include "diagnosis.hpp"
 #include "effect_screen.hpp"
 #include "evidence.hpp"
@@ -74,6 +75,10 @@ class DiagnosisTools {
     if (options_.progress) options_.progress(stage_, share_spent());
   }
 
+  /// From now on features tell what release and masses are uncertain by: knobs of what all runs share.
+  /// Nothing where simulations or time do not suffice.
+  std::vector<Knob> weigh_damper(const Setup& setup);
+
   /// The measured runs beside this setup, with what the camera does to them.
   std::vector<MeasuredFeatures> features(const Setup& setup) const;
   Refit fit(const DiagnosisState& state, const std::string& stage, const std::vector<Knob>& knobs,
@@ -92,6 +97,8 @@ class DiagnosisTools {
   Workshop workshop_;
   std::string stage_;
   int batch_ = 0;
+  std::vector<DamperError> damper_errors_;
+  std::vector<FeatureColumns> damper_columns_;
 };
 
 /// One round of the search: what was weighed, and the state with the effect that was added (none: as before).

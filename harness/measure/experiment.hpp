@@ -27,6 +27,9 @@ struct MeasuredRun {
   Start start = Start::not_said;
   SourcePlace place;  ///< of its [[run]] in the experiment file
 
+  /// m, standard deviation of release.displacement, where the first frames or `[known]` tell it; 0: exact.
+  double release_error = 0;
+
   bool release_stated = false;  ///< the file says when it was let go
   bool origin_stated =
       false;  ///< the file says where x_box is 0; else what the table calls 0 is taken for it

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// What release and masses that are known to an error do to the features, on a stand-in whose motion is a
+// formula.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "damper_errors.hpp"
+#include "effects.hpp"
+#include "random.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+/// A swing from where it was let go, slower with a heavier box, and noise that is the microstate's.
+class Swing final : public Engine {
+ public:
+  std::string_view name() const override { return "stand-in"; }
+  Capability can_model(const EffectRecord&) const override { return {Fidelity::exact, ""}; }
+  Trajectory run(const Setup& setup, const RunOptions& options) const override {
+    Random random(setup.run.seed, static_cast<std::uint64_t>(options.run), Stream::velocities);
+    const double chaos = 1e-3 * random.normal();
+    Trajectory trajectory;
+    for (int k = 0; k <= static_cast<int>(setup.run.duration * 500); ++k) {
+      const double t = k / 500.0, drawn = chaos * std::sin(1.7 * t);
+      trajectory.time.push_back(t);
+      trajectory.x_box.push_back(setup.release.displacement * std::cos(7 * t) + 0.2 * setup.box.mass * t +
+                                 drawn);
+      trajectory.x_com.push_back(trajectory.x_box.back() + drawn);
+    }
+    trajectory.v_box = trajectory.total_energy = trajectory.x_box;
+    return trajectory;
+  }
+};
+
+Measurement two_runs() {
+  Setup setup;
+  setup.run.duration = 3;
+  Experiment experiment;
+  for (const char* name : {"a", "b"}) {
+    MeasuredRun run;
+    run.name = name;
+    run.frame_rate = 500;
+    const Trajectory seen = Swing{}.run(setup, {});
+    run.time = seen.time, run.x_box = seen.x_box, run.x_com = seen.x_com;
+    run.release_error = run.name == "a" ? 4e-4 : 0;
+    experiment.runs.push_back(run);
+  }
+  experiment.known = {{"box.mass", 0.434, 0.002, {}}, {"grains.mass", 0.00404, 0, {}}};
+  return measurement_of({setup, setup}, experiment);
+}
+
+}  // namespace
+
+TEST(DamperErrors, AreThoseOfWhatWasWeighedAndOfEachRelease) {
+  const std::vector<DamperError> errors = damper_errors(two_runs());
+  ASSERT_EQ(errors.size(), 2u);  // grains weighed without an error are none
+  EXPECT_EQ(errors[0].key, "release.displacement");
+  EXPECT_TRUE(errors[0].each_run);
+  EXPECT_EQ(errors[0].deviation, (std::vector<double>{4e-4, 0}));
+  EXPECT_EQ(errors[1].key, "box.mass");
+  EXPECT_FALSE(errors[1].each_run);
+  EXPECT_EQ(errors[1].deviation, (std::vector<double>{0.002, 0.002}));
+}
+
+TEST(DamperErrors, ColumnsHaveNoNoiseForTheMicrostatesAreTheSame) {
+  const Measurement measurement = two_runs();
+  std::vector<MeasuredFeatures> measured = features_of(measurement);
+  const std::vector<DamperError> errors = damper_errors(measurement);
+  const Swing engine;
+  Workshop workshop;
+  workshop.engine = &engine;
+  workshop.known = all_effects();
+  workshop.threads = 1;
+  const std::vector<FeatureColumns> columns = columns_of(errors, measured, 8, 1000, workshop);
+  ASSERT_EQ(columns.size(), 2u);
+  add_columns(errors, columns, measured);
+  // Of the run that was let go 0.4 mm off; the other has nothing of its own.
+  ASSERT_EQ(measured[0].own.cols(), 1);
+  EXPECT_EQ(measured[1].own.cols(), 0);
+  for (Eigen::Index f = 0; f < measured[0].values.size(); ++f) {
+    const double t = measured[0].plan.features[static_cast<std::size_t>(f)].time;
+    // A parabola's level in a bin of 0.1 s is not quite the cosine's at its middle. Seen: 4e-7.
+    EXPECT_NEAR(measured[0].own(f, 0), 4e-4 * std::cos(7 * t), 4e-6);
+    EXPECT_NEAR(measured[0].by_camera.at("box.mass")[f], 0.2 * t, 1e-10);  // seen: 1e-12
+  }
+  const std::vector<Knob> knobs = knobs_of(errors, measurement.runs.front().setup);
+  ASSERT_EQ(knobs.size(), 1u);
+  EXPECT_TRUE(knobs[0].exact);
+  EXPECT_EQ(knobs[0].believed_error, 0.002);
+}
