@@ -2,6 +2,7 @@
 #include "effect_screen.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,6 +12,7 @@
 #include "errors.hpp"
 #include "feature_covariance.hpp"
 #include "linear_model.hpp"
+#include "random.hpp"
 #include "refit.hpp"
 #include "signature.hpp"
 
@@ -20,7 +22,8 @@ namespace {
 
 using Roots = std::vector<Eigen::LLT<Eigen::MatrixXd>>;
 
-/// Of each run's chaos, camera noise and difference of two codes, as a fit weighs them.
+/// Of each run's chaos, camera noise and difference of two codes: as the first half of its simulations has
+/// it.
 Roots roots_of(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators) {
   Roots roots;
   for (std::size_t r = 0; r < measured.size(); ++r) {
@@ -32,8 +35,64 @@ Roots roots_of(const std::vector<MeasuredFeatures>& measured, const std::vector<
   return roots;
 }
 
-/// What free parameters cannot take up of a whitened column. Below the features stands a row for each of
-/// them: what is known of it beforehand.
+/// Coordinates of one run's features in which its metric is one and chaos from run to run has no
+/// correlations: a share of each coordinate's variance is chaos, the rest the camera's and the run's own.
+class Coordinates {
+ public:
+  Coordinates(const MeasuredFeatures& measured, const Eigen::LLT<Eigen::MatrixXd>& root) {
+    const double model_error = RefitOptions{}.model_error * measured.setup.release.displacement;
+    Eigen::MatrixXd known = measured.own.cols() > 0
+                                ? Eigen::MatrixXd(measured.own * measured.own.transpose())
+                                : Eigen::MatrixXd::Zero(measured.values.size(), measured.values.size());
+    for (Eigen::Index f = 0; f < known.rows(); ++f)
+      known(f, f) +=
+          std::pow(measured.plan.features[static_cast<std::size_t>(f)].noise, 2) + model_error * model_error;
+    const Eigen::MatrixXd half = root.matrixL().solve(known);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(
+        root.matrixL().solve(half.transpose()).transpose());
+    to_ = axes.eigenvectors().transpose() *
+          root.matrixL().solve(Eigen::MatrixXd::Identity(known.rows(), known.rows()));
+    chaos_ = (1 - axes.eigenvalues().array()).max(0.0).min(1.0);
+  }
+  Eigen::VectorXd operator()(const Eigen::VectorXd& features) const { return to_ * features; }
+  /// Of each coordinate where simulations have these residuals. Between them chaos is as in the metric but
+  /// for a factor in each quarter of the coordinates, by their share of chaos: some simulations tell that
+  /// well.
+  Eigen::ArrayXd variance(const Eigen::MatrixXd& residuals) const {
+    constexpr Eigen::Index parts = 4;
+    const Eigen::ArrayXd seen = (residuals * to_.transpose()).colwise().squaredNorm().transpose().array() /
+                                static_cast<double>(residuals.rows());
+    Eigen::ArrayXd variance = 1 - chaos_;
+    for (Eigen::Index part = 0; part < parts; ++part) {
+      const Eigen::Index from = part * chaos_.size() / parts,
+                         count = (part + 1) * chaos_.size() / parts - from;
+      const double expected = chaos_.segment(from, count).sum();
+      if (expected > 0)
+        variance.segment(from, count) +=
+            chaos_.segment(from, count) * (seen.segment(from, count).sum() / expected);
+    }
+    return variance;
+  }
+  /// Single simulations as a camera would have filmed them.
+  Eigen::MatrixXd filmed(const Eigen::MatrixXd& residuals, Random& random) const {
+    Eigen::MatrixXd rows = residuals * to_.transpose();
+    for (Eigen::Index f = 0; f < rows.cols(); ++f) {
+      const double noise = std::sqrt(1 - chaos_[f]);
+      for (Eigen::Index i = 0; i < rows.rows(); ++i) rows(i, f) += noise * random.normal();
+    }
+    return rows;
+  }
+  double chaos(const Eigen::MatrixXd& residuals) const {
+    return (residuals * to_.transpose()).squaredNorm() / static_cast<double>(residuals.rows());
+  }
+
+ private:
+  Eigen::MatrixXd to_;
+  Eigen::ArrayXd chaos_;  ///< descending share
+};
+
+/// What free parameters cannot take up of a column. Below the features stands a row for each of them: what is
+/// known of it beforehand.
 class Outside {
  public:
   explicit Outside(const Eigen::MatrixXd& free)
@@ -52,113 +111,6 @@ std::vector<Knob> at_a_point(std::vector<Knob> knobs) {
   for (Knob& knob : knobs) knob.width = 0;
   return knobs;
 }
-
-/// All that one screening shares.
-class Screen {
- public:
-  Screen(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
-         const Workshop& workshop, const ScreenEffort& effort, int first_run,
-         const std::vector<Eigen::MatrixXd>& metric)
-      : measured_(measured), fitted_(fitted), workshop_(workshop), first_run_(first_run) {
-    const std::vector<Emulator> nothing =
-        emulate(measured, at_a_point(fitted), effort.nothing, next_run(), workshop);
-    const std::vector<Knob> about = straight(fitted, 0.5);
-    const std::vector<Emulator> slopes = emulate(measured, about, effort.slopes, next_run(), workshop);
-    for (const Eigen::MatrixXd& covariance : metric) roots_.emplace_back(covariance);
-    if (roots_.empty()) roots_ = roots_of(measured, nothing);
-    for (const Emulator& e : nothing) means_.push_back(e.coefficients.row(0).transpose());
-    for (std::size_t r = 0; r < nothing.size(); ++r)
-      chaos_ += roots_[r].matrixL().solve(nothing[r].residuals.transpose()).squaredNorm() /
-                static_cast<double>(nothing[r].residuals.rows());
-    set_free_parameters(about, slopes);
-    without_.noise = chaos_ / static_cast<double>(nothing.front().residuals.rows());
-  }
-
-  /// The posterior of the candidate's strength, from simulations at its levels; nothing where the engine
-  /// could simulate none, with the reason.
-  std::optional<Signature> signature_of(const Candidate& candidate, int count, std::string& reason) {
-    if (candidate.fitted_knobs().front().exact) return Signature({exact_level(candidate)}, without_, true);
-    std::vector<SignatureLevel> levels;
-    for (const Candidate::Level& level : candidate.levels) try {
-        levels.push_back(simulated_level(candidate, level, count));
-      } catch (const PhysicsError& error) {
-        reason = error.what();
-      } catch (const InputError& error) {
-        reason = error.what();
-      }
-    if (levels.empty()) return std::nullopt;
-    return Signature(levels, without_);
-  }
-
- private:
-  int next_run() { return first_run_ + 1000 * batches_++; }
-
-  /// Whitened, all runs below each other and a zero for each free parameter.
-  Eigen::VectorXd stacked(const std::vector<Eigen::VectorXd>& runs) const {
-    Eigen::Index total = std::ssize(fitted_), at = 0;
-    for (const Eigen::VectorXd& run : runs) total += run.size();
-    Eigen::VectorXd column = Eigen::VectorXd::Zero(total);
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      column.segment(at, runs[r].size()) = roots_[r].matrixL().solve(runs[r]);
-      at += runs[r].size();
-    }
-    return column;
-  }
-
-  void set_free_parameters(const std::vector<Knob>& about, const std::vector<Emulator>& slopes) {
-    const auto count = std::ssize(fitted_);
-    std::vector<Eigen::VectorXd> left;
-    for (std::size_t r = 0; r < measured_.size(); ++r) left.push_back(measured_[r].values - means_[r]);
-    Eigen::VectorXd residual = stacked(left);
-    const Eigen::Index features = residual.size() - count;
-    Eigen::MatrixXd free(residual.size(), count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      std::vector<Eigen::VectorXd> column;
-      for (const Emulator& e : slopes) column.push_back(e.coefficients.row(1 + k).transpose());
-      free.col(k) = stacked(column);
-      const Knob& knob = about[static_cast<std::size_t>(k)];
-      if (!(knob.believed_error > 0)) continue;
-      free(features + k, k) = knob.width / knob.believed_error;
-      residual[features + k] = (knob.believed - knob.centre) / knob.believed_error;
-    }
-    outside_.emplace(free);
-    without_.residual = (*outside_)(residual);
-  }
-
-  SignatureLevel simulated_level(const Candidate& candidate, const Candidate::Level& level, int count) {
-    std::vector<MeasuredFeatures> with =
-        candidate.slow || candidate.dear ? kicked_rarely(measured_) : measured_;
-    Knob knob = candidate.fitted_knobs().front();
-    knob.centre = level.value;
-    for (MeasuredFeatures& m : with) {
-      m.setup = prepared(m.setup, candidate, workshop_.known);
-      set_knob(m.setup, knob, workshop_.known);
-    }
-    const std::vector<Emulator> there = emulate(with, at_a_point(fitted_), count, next_run(), workshop_);
-    std::vector<Eigen::VectorXd> changes;
-    for (std::size_t r = 0; r < there.size(); ++r)
-      changes.push_back(there[r].coefficients.row(0).transpose() - means_[r]);
-    return {level.strength, (*outside_)(stacked(changes)), chaos_ / count};
-  }
-
-  /// A camera's error is arithmetic on the recording.
-  SignatureLevel exact_level(const Candidate& candidate) const {
-    const Knob& knob = candidate.fitted_knobs().front();
-    std::vector<Eigen::VectorXd> changes;
-    for (const MeasuredFeatures& m : measured_) changes.push_back(knob.width * m.by_camera.at(knob.key));
-    return {knob.width, (*outside_)(stacked(changes)), 0};
-  }
-
-  const std::vector<MeasuredFeatures>& measured_;
-  const std::vector<Knob>& fitted_;
-  const Workshop& workshop_;
-  int first_run_, batches_ = 0;
-  Roots roots_;                         ///< one metric for all
-  std::vector<Eigen::VectorXd> means_;  ///< of the model without candidates, m
-  double chaos_ = 0;                    ///< expected square of one simulation's chaos, whitened
-  std::optional<Outside> outside_;
-  SignatureResidual without_;
-};
 
 void weigh_by(const Signature& signature, const Candidate& candidate, ScreenedEffect& effect) {
   const StrengthPosterior found = posterior_of(signature, candidate.strengths);
@@ -194,10 +146,193 @@ std::vector<std::size_t> by_cost(const std::vector<Candidate>& candidates) {
 
 }  // namespace
 
-Screening screen(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
-                 const std::vector<Candidate>& candidates, const Workshop& workshop,
-                 const ScreenEffort& effort, int first_run, const std::vector<Eigen::MatrixXd>& metric) {
-  Screen all(measured, fitted, workshop, effort, first_run, metric);
+/// All that one screening shares.
+class EffectScreen::Simulated {
+ public:
+  Simulated(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted, const Workshop& workshop,
+            const ScreenEffort& effort, int first_run, const std::vector<Eigen::MatrixXd>& metric)
+      : measured_(std::move(measured)),
+        fitted_(std::move(fitted)),
+        workshop_(workshop),
+        effort_(effort),
+        first_run_(first_run) {
+    const std::vector<Emulator> nothing =
+        emulate(measured_, at_a_point(fitted_), effort.nothing, next_run(), workshop);
+    const std::vector<Knob> about = straight(fitted_, 0.5);
+    const std::vector<Emulator> slopes = emulate(measured_, about, effort.slopes, next_run(), workshop);
+    Roots roots;
+    for (const Eigen::MatrixXd& covariance : metric) roots.emplace_back(covariance);
+    if (roots.empty()) roots = roots_of(measured_, nothing);
+    for (std::size_t r = 0; r < measured_.size(); ++r) coordinates_.emplace_back(measured_[r], roots[r]);
+    for (const Emulator& e : nothing) means_.push_back(e.coefficients.row(0).transpose());
+    set_free_parameters(about, slopes);
+    without_.variance = variances(nothing);
+    without_.simulations = filmed(nothing);
+    without_.noise = chaos_of(nothing) / static_cast<double>(nothing.front().residuals.rows());
+  }
+
+  /// The posterior of the candidate's strength, from simulations at its levels; nothing where the engine
+  /// could simulate none, with the reason.
+  std::optional<Signature> signature_of(const Candidate& candidate, int count, std::string& reason) {
+    if (candidate.fitted_knobs().front().exact) return Signature({exact_level(candidate)}, without_, true);
+    std::vector<SignatureLevel> levels;
+    for (const Candidate::Level& level : candidate.levels) try {
+        levels.push_back(simulated_level(candidate, level, count));
+      } catch (const PhysicsError& error) {
+        reason = error.what();
+      } catch (const InputError& error) {
+        reason = error.what();
+      }
+    if (levels.empty()) return std::nullopt;
+    return Signature(levels, without_);
+  }
+
+  Screening weigh(const std::vector<Candidate>& candidates);
+
+  double log_likelihood_ratio(const std::vector<MeasuredFeatures>& other, const std::vector<Knob>& values,
+                              int count) {
+    const std::vector<Emulator> there = emulate(other, at_a_point(values), count, next_run(), workshop_);
+    std::vector<Eigen::VectorXd> changes;
+    for (std::size_t r = 0; r < there.size(); ++r)
+      changes.push_back(there[r].coefficients.row(0).transpose() - means_[r]);
+    SignatureLevel level{1, stacked(changes), chaos_of(there) / count, variances(there)};
+    // Where parameters were moved, what is known of them beforehand counts from there.
+    const Eigen::Index features = level.change.size() - std::ssize(fitted_);
+    for (std::size_t k = 0; k < fitted_.size(); ++k)
+      for (const Knob& value : values)
+        if (value.key == fitted_[k].key && !value.exact && fitted_[k].believed_error > 0)
+          level.change[features + static_cast<Eigen::Index>(k)] =
+              (value.centre - fitted_[k].centre) / fitted_[k].believed_error;
+    return Signature({level}, without_).log_likelihood(1);
+  }
+
+  /// What free parameters cannot take up of a change.
+  Eigen::VectorXd outside(const Eigen::VectorXd& change) const { return (*outside_)(change); }
+
+ private:
+  int next_run() { return first_run_ + 1000 * batches_++; }
+
+  /// In the coordinates, all runs below each other and a zero for each free parameter.
+  Eigen::VectorXd stacked(const std::vector<Eigen::VectorXd>& runs) const {
+    Eigen::Index total = std::ssize(fitted_), at = 0;
+    for (const Eigen::VectorXd& run : runs) total += run.size();
+    Eigen::VectorXd column = Eigen::VectorXd::Zero(total);
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      column.segment(at, runs[r].size()) = coordinates_[r](runs[r]);
+      at += runs[r].size();
+    }
+    return column;
+  }
+
+  Eigen::VectorXd variances(const std::vector<Emulator>& there) const {
+    Eigen::Index total = std::ssize(fitted_), at = 0;
+    for (const Emulator& e : there) total += e.residuals.cols();
+    Eigen::VectorXd column = Eigen::VectorXd::Ones(total);
+    for (std::size_t r = 0; r < there.size(); ++r) {
+      const Eigen::ArrayXd of_run = coordinates_[r].variance(there[r].residuals);
+      column.segment(at, of_run.size()) = of_run;
+      at += of_run.size();
+    }
+    return column;
+  }
+
+  /// Simulations x features.
+  Eigen::MatrixXd filmed(const std::vector<Emulator>& there) const {
+    Eigen::Index total = std::ssize(fitted_), at = 0, rows = there.front().residuals.rows();
+    for (const Emulator& e : there) total += e.residuals.cols(), rows = std::min(rows, e.residuals.rows());
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows, total);
+    for (std::size_t r = 0; r < there.size(); ++r) {
+      Random random(29, r, Stream::camera);
+      const Eigen::Index features = there[r].residuals.cols();
+      // Repeats share simulations; here each is to have its own.
+      Eigen::MatrixXd own(rows, features);
+      for (Eigen::Index i = 0; i < rows; ++i)
+        own.row(i) = there[r].residuals.row((i + static_cast<Eigen::Index>(r) * rows / 7) % rows);
+      all.middleCols(at, features) = coordinates_[r].filmed(own, random);
+      at += features;
+    }
+    return all;
+  }
+
+  /// Expected square of one simulation's chaos.
+  double chaos_of(const std::vector<Emulator>& there) const {
+    double sum = 0;
+    for (std::size_t r = 0; r < there.size(); ++r) sum += coordinates_[r].chaos(there[r].residuals);
+    return sum;
+  }
+
+  void set_free_parameters(const std::vector<Knob>& about, const std::vector<Emulator>& slopes) {
+    const auto count = std::ssize(fitted_);
+    std::vector<Eigen::VectorXd> left;
+    for (std::size_t r = 0; r < measured_.size(); ++r) left.push_back(measured_[r].values - means_[r]);
+    without_.residual = stacked(left);
+    const Eigen::Index features = without_.residual.size() - count;
+    without_.free.resize(without_.residual.size(), count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      std::vector<Eigen::VectorXd> column;
+      for (const Emulator& e : slopes) column.push_back(e.coefficients.row(1 + k).transpose());
+      without_.free.col(k) = stacked(column);
+      const Knob& knob = about[static_cast<std::size_t>(k)];
+      if (!(knob.believed_error > 0)) continue;
+      without_.free(features + k, k) = knob.width / knob.believed_error;
+      without_.residual[features + k] = (knob.believed - knob.centre) / knob.believed_error;
+    }
+    outside_.emplace(without_.free);
+  }
+
+  SignatureLevel simulated_level(const Candidate& candidate, const Candidate::Level& level, int count) {
+    std::vector<MeasuredFeatures> with =
+        candidate.slow || candidate.dear ? kicked_rarely(measured_) : measured_;
+    Knob knob = candidate.fitted_knobs().front();
+    knob.centre = level.value;
+    for (MeasuredFeatures& m : with) {
+      m.setup = prepared(m.setup, candidate, workshop_.known);
+      set_knob(m.setup, knob, workshop_.known);
+    }
+    const std::vector<Emulator> there = emulate(with, at_a_point(fitted_), count, next_run(), workshop_);
+    std::vector<Eigen::VectorXd> changes;
+    for (std::size_t r = 0; r < there.size(); ++r)
+      changes.push_back(there[r].coefficients.row(0).transpose() - means_[r]);
+    return {level.strength, stacked(changes), chaos_of(there) / count, variances(there)};
+  }
+
+  /// A camera's error is arithmetic on the recording.
+  SignatureLevel exact_level(const Candidate& candidate) const {
+    const Knob& knob = candidate.fitted_knobs().front();
+    std::vector<Eigen::VectorXd> changes;
+    for (const MeasuredFeatures& m : measured_) changes.push_back(knob.width * m.by_camera.at(knob.key));
+    return {knob.width, stacked(changes), 0, {}};
+  }
+
+  std::vector<MeasuredFeatures> measured_;
+  std::vector<Knob> fitted_;
+  const Workshop& workshop_;
+  ScreenEffort effort_;
+  int first_run_, batches_ = 0;
+  std::vector<Coordinates> coordinates_;  ///< one metric for all
+  std::vector<Eigen::VectorXd> means_;    ///< of the model without candidates, m
+  std::optional<Outside> outside_;
+  SignatureResidual without_;
+};
+
+EffectScreen::EffectScreen(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted,
+                           const Workshop& workshop, const ScreenEffort& effort, int first_run,
+                           const std::vector<Eigen::MatrixXd>& metric)
+    : simulated_(std::make_unique<Simulated>(std::move(measured), std::move(fitted), workshop, effort,
+                                             first_run, metric)) {}
+
+EffectScreen::~EffectScreen() = default;
+
+Screening EffectScreen::weigh(const std::vector<Candidate>& candidates) {
+  return simulated_->weigh(candidates);
+}
+
+double EffectScreen::log_likelihood_ratio(const std::vector<MeasuredFeatures>& other,
+                                          const std::vector<Knob>& values, int count) {
+  return simulated_->log_likelihood_ratio(other, values, count);
+}
+
+Screening EffectScreen::Simulated::weigh(const std::vector<Candidate>& candidates) {
   Screening screening;
   std::vector<Eigen::VectorXd> changes;  // at the strength found, of each in the list
   bool spent = false;
@@ -207,14 +342,14 @@ Screening screen(const std::vector<MeasuredFeatures>& measured, const std::vecto
     Eigen::VectorXd change;
     if (!spent) try {
         std::string reason;
-        const int count = candidate.dear ? effort.dear : candidate.slow ? effort.slow : effort.plain;
-        const std::optional<Signature> signature = all.signature_of(candidate, count, reason);
+        const int count = candidate.dear ? effort_.dear : candidate.slow ? effort_.slow : effort_.plain;
+        const std::optional<Signature> signature = signature_of(candidate, count, reason);
         if (!signature) {
           screening.left_out.push_back({candidate.effect, reason});
           continue;
         }
         weigh_by(*signature, candidate, effect);
-        change = signature->change(candidate.strength_of(effect.value));
+        change = outside(signature->change(candidate.strength_of(effect.value)));
       } catch (const BudgetSpent&) {
         spent = true;
       }

@@ -3,6 +3,7 @@
 // beside the fitted model, with its parameters as they are fitted, and the measured features say which
 // strength they ask for when those parameters move along. A fit only confirms.
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,12 +38,29 @@ struct ScreenEffort {
   int plain = 32, slow = 16, dear = 12;  ///< of each candidate at each level, by what a run costs
 };
 
-/// `fitted` stand at their fitted values. `metric`: covariance of each measured run's features, m^2, by which
-/// the fit of the model without candidates was judged, so that gains here and there are one thing; empty: of
-/// these simulations. `first_run` addresses the random numbers. PhysicsError and InputError are of the model
-/// without candidates.
-Screening screen(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
-                 const std::vector<Candidate>& candidates, const Workshop& workshop,
-                 const ScreenEffort& effort, int first_run, const std::vector<Eigen::MatrixXd>& metric = {});
+/// The model without candidates, simulated once, and what is asked of it. `fitted` stand at their fitted
+/// values. `metric`: covariance of each measured run's features, m^2, by which the fit of that model was
+/// judged; empty: of these simulations. `first_run` addresses the random numbers. PhysicsError and InputError
+/// are of the model without candidates.
+class EffectScreen {
+ public:
+  EffectScreen(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted, const Workshop& workshop,
+               const ScreenEffort& effort, int first_run, const std::vector<Eigen::MatrixXd>& metric = {});
+  ~EffectScreen();
+  EffectScreen(const EffectScreen&) = delete;
+  EffectScreen& operator=(const EffectScreen&) = delete;
+
+  Screening weigh(const std::vector<Candidate>& candidates);
+
+  /// ln of the likelihood of another model of the same runs over that of the model without candidates, both
+  /// by their means and spreads at the values given, camera and what else is free moved along: simulated at
+  /// `values`, parameters among them wherever a fit put them. BudgetSpent, PhysicsError and InputError pass.
+  double log_likelihood_ratio(const std::vector<MeasuredFeatures>& other, const std::vector<Knob>& values,
+                              int count);
+
+ private:
+  class Simulated;
+  std::unique_ptr<Simulated> simulated_;
+};
 
 }  // namespace shakedown

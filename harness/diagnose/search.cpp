@@ -2,6 +2,7 @@
 // One round of the search: which effect, beside what the model has, would explain what is left?
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "errors.hpp"
@@ -22,6 +23,7 @@ struct Rival {
   ScreenedEffect screened;
   double log_odds = 0;
   double gain = 0, held_out_gain = 0;  ///< of chi2, fitted
+  double log_ratio = std::nan("");  ///< ln likelihood of the fitted model over that before, means and spreads
   bool fitted = false;
   DiagnosisState state{};  ///< where it was fitted
   bool weighed = false;    ///< log_odds is more than its prior
@@ -73,7 +75,16 @@ std::vector<Knob> without(std::vector<Knob> knobs, const std::vector<Knob>& thes
   return knobs;
 }
 
-void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools, double lowest) {
+/// Knobs at the values of a fit.
+std::vector<Knob> at_values(const Refit& fit) {
+  std::vector<Knob> knobs = fit.knobs;
+  for (std::size_t k = 0; k < knobs.size(); ++k)
+    if (!knobs[k].exact) knobs[k].centre = fit.values[k].value;
+  return knobs;
+}
+
+void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
+               double lowest) {
   const Candidate& candidate = *rival.candidate;
   DiagnosisState& state = rival.state = before;
   state.setup = prepared(before.setup, candidate, tools.known());
@@ -92,6 +103,10 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
   rival.fitted = true;
   rival.gain = before.fit.judged_chi2 - state.fit.judged_chi2;
   rival.held_out_gain = before.fit.judged_held_out_chi2 - state.fit.judged_held_out_chi2;
+  if (added.front().exact) return;  // the signature was arithmetic
+  rival.log_ratio =
+      screen.log_likelihood_ratio(tools.features(state.setup), at_values(state.fit),
+                                  state.dear ? effort::rank_when_dear.nothing : effort::rank.nothing);
 }
 
 /// The fitted strength of a rival, as the prior counts it.
@@ -116,7 +131,8 @@ void weigh_rival(Rival& rival, double candidates) {
   if (rival.screened.weighed) rival.log_odds += rival.screened.log_evidence;
   if (!rival.fitted) return;
   StrengthSeen fitted = strength_fitted(rival);
-  fitted.gain = believed_gain(rival.screened.gain, rival.gain);
+  fitted.gain =
+      std::isfinite(rival.log_ratio) ? 2 * rival.log_ratio : believed_gain(rival.screened.gain, rival.gain);
   rival.log_odds = log_odds_of(fitted, candidates);
 }
 
@@ -125,7 +141,7 @@ RankedEffect ranked_as(const Rival& rival) {
                       rival.screened.value,    rival.screened.look_alikes};
   if (!rival.fitted) return ranked;
   ranked.fitted = true;
-  ranked.gain = rival.gain;
+  ranked.gain = std::isfinite(rival.log_ratio) ? 2 * rival.log_ratio : rival.gain;
   ranked.held_out_gain = rival.held_out_gain;
   // of a difference of two chi2 of nested models
   ranked.standard_error = 2 * std::sqrt(std::abs(rival.held_out_gain));
@@ -189,9 +205,10 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   }
   tools.begin("ranking the effects");
   const double all = static_cast<double>(tools.known().size());
-  const Screening screening =
-      screen(tools.features(state.setup), state.knobs(), candidates, tools.workshop(),
-             state.dear ? effort::rank_when_dear : effort::rank, tools.next_batch(), state.fit.covariances);
+  EffectScreen screen(tools.features(state.setup), state.knobs(), tools.workshop(),
+                      state.dear ? effort::rank_when_dear : effort::rank, tools.next_batch(),
+                      state.fit.covariances);
+  const Screening screening = screen.weigh(candidates);
   std::vector<Rival> rivals;
   for (const ScreenedEffect& screened : screening.list)
     rivals.push_back({&candidates[screened.candidate], screened});
@@ -203,6 +220,7 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   for (Rival& rival : rivals) weigh_rival(rival, all);
   std::vector<Rival*> order;
   for (Rival& rival : rivals) order.push_back(&rival);
+  constexpr double worth_asking = -3;  // ln odds: one in twenty, as often as a right model is doubtful
   const auto by_odds = [](const Rival* a, const Rival* b) { return a->log_odds > b->log_odds; };
   std::stable_sort(order.begin(), order.end(), by_odds);
   for (const Rival& rival : rivals)
@@ -217,7 +235,7 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
       round.notes.push_back(rival.candidate->effect + " could not be tried: " + error.what());
     };
     try {
-      fit_rival(rival, state, tools, lowest);
+      fit_rival(rival, state, tools, screen, lowest);
       lowest = std::min(lowest, rival.state.fit.judged_chi2);
       weigh_rival(rival, all);
     } catch (const BudgetSpent&) {
@@ -230,10 +248,14 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   };
   // Fits confirm the most probable, and what has more than a tenth of its probability; where a fit takes back
   // what a signature promised, the next has its turn.
-  for (bool more = true; more;) {
+  const bool is_rejected = state.fit.p_value <= rules::holds;
+  for (bool more = true; more && tried < static_cast<int>(rules::most_tried);) {
     more = false;
     std::stable_sort(order.begin(), order.end(), by_odds);
-    const double worth_a_fit = std::max(0.0, order.front()->log_odds - std::log(10));
+    // A model that the data reject is not what is there: the best of a bad lot are fitted whatever their
+    // odds.
+    const double worth_a_fit = is_rejected ? -std::numeric_limits<double>::infinity()
+                                           : std::max(worth_asking, order.front()->log_odds - std::log(10));
     for (Rival* rival : order) {
       if (rival->attempted || !rival->weighed || !(rival->log_odds > worth_a_fit)) continue;
       attempt(*rival);

@@ -96,8 +96,11 @@ double absent_value(const EffectRecord& record, const SearchedStrength& strength
 
 double value_at_level(const SearchedStrength& strength, double level, double absent) {
   if (strength.inverse) return level;
-  const bool outside = absent + level < strength.low || absent + level > strength.high;
-  return std::clamp(outside ? absent - level : absent + level, strength.low, strength.high);
+  // At the bound where half of the level is left of it, else on the other side.
+  const double there = std::clamp(absent + level, strength.low, strength.high);
+  return std::abs(there - absent) >= std::abs(level) / 2
+             ? there
+             : std::clamp(absent - level, strength.low, strength.high);
 }
 
 std::string strength_in_words(const EffectRecord& record, const SearchedStrength& strength, double value) {

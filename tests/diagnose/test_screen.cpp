@@ -31,7 +31,7 @@ ScreenedEffect screened(const std::string& hidden, const std::string& candidate)
   workshop.threads = 2;
   const std::vector<Candidate> candidates = candidates_for(setup, {candidate}, all_effects(), *engine);
   const std::vector<ScreenedEffect> list =
-      screen(features, free_parameters(setup), candidates, workshop, {}, 1000).list;
+      EffectScreen(features, free_parameters(setup), workshop, {}, 1000).weigh(candidates).list;
   EXPECT_FALSE(list.empty());
   return list.empty() ? ScreenedEffect{} : list.front();
 }
@@ -56,7 +56,8 @@ std::vector<ScreenedEffect> ranking_with(const std::string& hidden) {
   std::erase_if(candidates, [&](const Candidate& candidate) {
     return std::find(seen.begin(), seen.end(), candidate.fitted_knobs().front().key) != seen.end();
   });
-  return screen(features_with_camera(measurement, all_effects()), fitted, candidates, workshop, {}, 1000)
+  return EffectScreen(features_with_camera(measurement, all_effects()), fitted, workshop, {}, 1000)
+      .weigh(candidates)
       .list;
 }
 
