@@ -244,10 +244,40 @@ class RunCheck {
     const double grains_off = distance_from_sine(run_.time, audit_.x_com, grains.frequency, grains.centre);
     constexpr double clearly = 0.8;  // seen: 0.55 to 0.66 swapped, above 1.5 as it should be
     if (!(grains_off < clearly * box_off)) return true;
+    // Grains that weigh more than their box shake it: then it is the spring's force that tells whose place it
+    // is.
+    if (!(unbalanced(audit_.x_com, audit_.x_box) < unbalanced(audit_.x_box, audit_.x_com))) return true;
     add("columns", true, "column.grain_centre",
         "swings like a spring and column.box_position does not: the two columns are swapped",
         "exchange what stands behind from in [column.box_position] and [column.grain_centre]");
     return false;
+  }
+
+  /// Share of the momentum's change, box and grains as weighed, that no spring on `box` explains (of the sum
+  /// of squares over windows of 0.6 periods): M x_box'' + N m x_com'' = -k x_box, k free, by parts as in the
+  /// balance. 1 where nothing can be said.
+  double unbalanced(const std::vector<double>& box, const std::vector<double>& grains) const {
+    const double length = 0.6 / motion_.frequency, half = length / 2,
+                 mass = static_cast<double>(setup_.grains.count) * setup_.grains.mass;
+    double pushes = 0, pulls = 0, both = 0;
+    for (double start = run_.time.front(); start + length <= run_.time.back(); start += half) {
+      double push = 0, pull = 0;
+      const double middle = start + half;
+      const auto first = static_cast<std::size_t>(
+          std::lower_bound(run_.time.begin(), run_.time.end(), start) - run_.time.begin());
+      for (std::size_t i = std::max<std::size_t>(first, 1);
+           i + 1 < run_.time.size() && run_.time[i] < start + length; ++i) {
+        const double u = (run_.time[i] - middle) / half, dt = (run_.time[i + 1] - run_.time[i - 1]) / 2,
+                     rest = 1 - u * u;
+        const double bump = std::pow(rest, 4),
+                     bent = (48 * u * u * rest * rest - 8 * rest * rest * rest) / (half * half);
+        push += bent * (setup_.box.mass * box[i] + mass * grains[i]) * dt;
+        pull += bump * box[i] * dt;
+      }
+      if (!std::isfinite(push) || !std::isfinite(pull)) continue;  // a frame is missing
+      pushes += push * push, pulls += pull * pull, both += push * pull;
+    }
+    return pushes > 0 && pulls > 0 ? 1 - both * both / (pushes * pulls) : 1;
   }
 
   void check_grains() {

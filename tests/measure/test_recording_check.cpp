@@ -133,6 +133,28 @@ TEST(RecordingCheck, SwappedColumnsAreNamed) {
   expect_parts(said_of(experiment).impossible, {"the two columns are swapped", "exchange"});
 }
 
+// Grains that weigh more than their box shake it: their centre swings like a spring and the box does not.
+TEST(RecordingCheck, HeavyGrainsAreNoSwappedColumns) {
+  constexpr double box_mass = 0.15, grain_mass = 4e-3, count = 63, omega = 2 * std::numbers::pi * 1.03,
+                   of_grains = 0.62 * omega, swing = 0.08;
+  Experiment experiment;
+  experiment.runs = {recorded("a", 0.049)};
+  MeasuredRun& run = experiment.runs.front();
+  Random random(4, 0, Stream::packing);
+  // M x'' + N m c'' = -M omega^2 x, c being one cosine.
+  const double forced = count * grain_mass * of_grains * of_grains * swing /
+                        (box_mass * (omega * omega - of_grains * of_grains));
+  for (std::size_t i = 0; i < run.time.size(); ++i) {
+    run.x_com[i] = swing * std::cos(of_grains * run.time[i]) + 2e-4 * random.normal();
+    run.x_box[i] = forced * std::cos(of_grains * run.time[i]) + 0.05 * std::cos(omega * run.time[i]) +
+                   2e-4 * random.normal();
+  }
+  std::vector<DamperSetup> setups = setups_for(experiment);
+  setups[0].box.mass = box_mass, setups[0].grains.mass = grain_mass, setups[0].grains.count = 63;
+  setups[0].spring.frequency = 1.03, setups[0].release.displacement = forced + 0.05;
+  EXPECT_EQ(said_of(experiment, setups).impossible.find("swapped"), std::string::npos);
+}
+
 TEST(RecordingCheck, LateStartsAndLeadInsAreNamed) {
   Experiment early = three_runs();
   for (MeasuredRun& run : early.runs) {
