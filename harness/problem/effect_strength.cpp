@@ -96,9 +96,9 @@ double absent_value(const EffectRecord& record, const SearchedStrength& strength
 
 double value_at_level(const SearchedStrength& strength, double level, double absent) {
   if (strength.inverse) return level;
-  // At the bound where half of the level is left of it, else on the other side.
+  constexpr double nearly_all = 0.8;  // of the level: at the bound it still is one, else on the other side
   const double there = std::clamp(absent + level, strength.low, strength.high);
-  return std::abs(there - absent) >= std::abs(level) / 2
+  return std::abs(there - absent) >= nearly_all * std::abs(level)
              ? there
              : std::clamp(absent - level, strength.low, strength.high);
 }

@@ -24,8 +24,8 @@ const Parameter& parameter_of(const EffectRecord& record, const SearchedStrength
 /// The value at which the effect is absent from this setup; infinite where it is `inverse`.
 double absent_value(const EffectRecord& record, const SearchedStrength& strength, const Setup& setup);
 
-/// The value of the parameters at a level, given the one when absent. A change that leaves the bounds is made
-/// the other way.
+/// The value of the parameters at a level, given the one when absent. A change that leaves the bounds by more
+/// than a fifth of it is made the other way.
 double value_at_level(const SearchedStrength& strength, double level, double absent);
 
 /// The strength as people read it: "linear damping of the box, 0.05 N s/m".

@@ -155,6 +155,8 @@ TEST(Search, ChangesThatLeaveTheBoundsGoTheOtherWay) {
   EXPECT_DOUBLE_EQ(value_at_level(strength, -0.2, absent_value(side, strength, setup)), 0.56);
   setup.restitution.grain_wall = 0.2;
   EXPECT_DOUBLE_EQ(value_at_level(strength, -0.2, absent_value(side, strength, setup)), 0.4);
+  setup.restitution.grain_wall = 0.62;  // what is nearly there stays on its side
+  EXPECT_DOUBLE_EQ(value_at_level(strength, -0.6, absent_value(side, strength, setup)), 0.05);
 }
 
 TEST(Search, IsMadeFromTheParametersOfARecordThatSaysNothing) {
