@@ -20,26 +20,26 @@ namespace shakedown {
 
 namespace {
 
-using Roots = std::vector<Eigen::LLT<Eigen::MatrixXd>>;
-
 /// Of each run's chaos, camera noise and difference of two codes: as the first half of its simulations has
 /// it.
-Roots roots_of(const std::vector<MeasuredFeatures>& measured, const std::vector<Emulator>& emulators) {
-  Roots roots;
+using CovarianceOf = Eigen::MatrixXd(const Eigen::MatrixXd&, const FeaturePlan&, double);
+std::vector<Eigen::MatrixXd> covariances_of(const std::vector<MeasuredFeatures>& measured,
+                                            const std::vector<Emulator>& emulators, CovarianceOf& of) {
+  std::vector<Eigen::MatrixXd> list;
   for (std::size_t r = 0; r < measured.size(); ++r) {
     const double model_error = RefitOptions{}.model_error * measured[r].setup.release.displacement;
-    Eigen::MatrixXd covariance = feature_covariance(emulators[r].residuals, measured[r].plan, model_error);
-    if (measured[r].own.cols() > 0) covariance += measured[r].own * measured[r].own.transpose();
-    roots.emplace_back(covariance);
+    list.push_back(of(emulators[r].residuals, measured[r].plan, model_error));
+    if (measured[r].own.cols() > 0) list.back() += measured[r].own * measured[r].own.transpose();
   }
-  return roots;
+  return list;
 }
 
 /// Coordinates of one run's features in which its metric is one and chaos from run to run has no
 /// correlations: a share of each coordinate's variance is chaos, the rest the camera's and the run's own.
 class Coordinates {
  public:
-  Coordinates(const MeasuredFeatures& measured, const Eigen::LLT<Eigen::MatrixXd>& root) {
+  Coordinates(const MeasuredFeatures& measured, const Eigen::MatrixXd& covariance) {
+    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
     const double model_error = RefitOptions{}.model_error * measured.setup.release.displacement;
     Eigen::MatrixXd known = measured.own.cols() > 0
                                 ? Eigen::MatrixXd(measured.own * measured.own.transpose())
@@ -150,7 +150,7 @@ std::vector<std::size_t> by_cost(const std::vector<Candidate>& candidates) {
 class EffectScreen::Simulated {
  public:
   Simulated(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted, const Workshop& workshop,
-            const ScreenEffort& effort, int first_run, const std::vector<Eigen::MatrixXd>& metric)
+            const ScreenEffort& effort, int first_run, const ScreenMetric& metric)
       : measured_(std::move(measured)),
         fitted_(std::move(fitted)),
         workshop_(workshop),
@@ -160,21 +160,21 @@ class EffectScreen::Simulated {
         emulate(measured_, at_a_point(fitted_), effort.nothing, next_run(), workshop);
     const std::vector<Knob> about = straight(fitted_, 0.5);
     const std::vector<Emulator> slopes = emulate(measured_, about, effort.slopes, next_run(), workshop);
-    Roots roots;
-    for (const Eigen::MatrixXd& covariance : metric) roots.emplace_back(covariance);
-    if (roots.empty()) roots = roots_of(measured_, nothing);
-    for (std::size_t r = 0; r < measured_.size(); ++r) coordinates_.emplace_back(measured_[r], roots[r]);
     for (const Emulator& e : nothing) means_.push_back(e.coefficients.row(0).transpose());
-    set_free_parameters(about, slopes);
-    without_.variance = variances(nothing);
-    without_.simulations = filmed(nothing);
-    without_.noise = chaos_of(nothing) / static_cast<double>(nothing.front().residuals.rows());
+    ScreenMetric used = metric;
+    if (used.for_means.empty()) used.for_means = covariances_of(measured_, nothing, covariance_for_means);
+    if (used.likeliest.empty()) used.likeliest = covariances_of(measured_, nothing, feature_covariance);
+    means_frame_ = frame_of(used.for_means, about, slopes, nothing);
+    frame_ = frame_of(used.likeliest, about, slopes, nothing);
+    frame_.without.variance = variances(nothing);
+    frame_.without.simulations = filmed(nothing);
   }
 
   /// The posterior of the candidate's strength, from simulations at its levels; nothing where the engine
   /// could simulate none, with the reason.
   std::optional<Signature> signature_of(const Candidate& candidate, int count, std::string& reason) {
-    if (candidate.fitted_knobs().front().exact) return Signature({exact_level(candidate)}, without_, true);
+    if (candidate.fitted_knobs().front().exact)
+      return Signature({exact_level(candidate)}, means_frame_.without, true);
     std::vector<SignatureLevel> levels;
     for (const Candidate::Level& level : candidate.levels) try {
         levels.push_back(simulated_level(candidate, level, count));
@@ -184,7 +184,7 @@ class EffectScreen::Simulated {
         reason = error.what();
       }
     if (levels.empty()) return std::nullopt;
-    return Signature(levels, without_);
+    return Signature(levels, means_frame_.without);
   }
 
   Screening weigh(const std::vector<Candidate>& candidates);
@@ -192,10 +192,7 @@ class EffectScreen::Simulated {
   double log_likelihood_ratio(const std::vector<MeasuredFeatures>& other, const std::vector<Knob>& values,
                               int count) {
     const std::vector<Emulator> there = emulate(other, at_a_point(values), count, next_run(), workshop_);
-    std::vector<Eigen::VectorXd> changes;
-    for (std::size_t r = 0; r < there.size(); ++r)
-      changes.push_back(there[r].coefficients.row(0).transpose() - means_[r]);
-    SignatureLevel level{1, stacked(changes), chaos_of(there) / count, variances(there)};
+    SignatureLevel level{1, change_to(there, frame_), chaos_of(there, frame_) / count, variances(there)};
     // Where parameters were moved, what is known of them beforehand counts from there.
     const Eigen::Index features = level.change.size() - std::ssize(fitted_);
     for (std::size_t k = 0; k < fitted_.size(); ++k)
@@ -203,25 +200,59 @@ class EffectScreen::Simulated {
         if (value.key == fitted_[k].key && !value.exact && fitted_[k].believed_error > 0)
           level.change[features + static_cast<Eigen::Index>(k)] =
               (value.centre - fitted_[k].centre) / fitted_[k].believed_error;
-    return Signature({level}, without_).log_likelihood(1);
+    return Signature({level}, frame_.without).log_likelihood(1);
   }
 
-  /// What free parameters cannot take up of a change.
-  Eigen::VectorXd outside(const Eigen::VectorXd& change) const { return (*outside_)(change); }
-
  private:
+  /// One metric for all: coordinates of each run, and what the model without candidates leaves in them.
+  struct Frame {
+    std::vector<Coordinates> coordinates;
+    SignatureResidual without;
+  };
+
   int next_run() { return first_run_ + 1000 * batches_++; }
 
+  Frame frame_of(const std::vector<Eigen::MatrixXd>& covariances, const std::vector<Knob>& about,
+                 const std::vector<Emulator>& slopes, const std::vector<Emulator>& nothing) const {
+    Frame frame;
+    for (std::size_t r = 0; r < measured_.size(); ++r)
+      frame.coordinates.emplace_back(measured_[r], covariances[r]);
+    const auto count = std::ssize(fitted_);
+    std::vector<Eigen::VectorXd> left;
+    for (std::size_t r = 0; r < measured_.size(); ++r) left.push_back(measured_[r].values - means_[r]);
+    frame.without.residual = stacked(left, frame);
+    const Eigen::Index features = frame.without.residual.size() - count;
+    frame.without.free.resize(frame.without.residual.size(), count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      std::vector<Eigen::VectorXd> column;
+      for (const Emulator& e : slopes) column.push_back(e.coefficients.row(1 + k).transpose());
+      frame.without.free.col(k) = stacked(column, frame);
+      const Knob& knob = about[static_cast<std::size_t>(k)];
+      if (!(knob.believed_error > 0)) continue;
+      frame.without.free(features + k, k) = knob.width / knob.believed_error;
+      frame.without.residual[features + k] = (knob.believed - knob.centre) / knob.believed_error;
+    }
+    frame.without.noise = chaos_of(nothing, frame) / static_cast<double>(nothing.front().residuals.rows());
+    return frame;
+  }
+
   /// In the coordinates, all runs below each other and a zero for each free parameter.
-  Eigen::VectorXd stacked(const std::vector<Eigen::VectorXd>& runs) const {
+  Eigen::VectorXd stacked(const std::vector<Eigen::VectorXd>& runs, const Frame& frame) const {
     Eigen::Index total = std::ssize(fitted_), at = 0;
     for (const Eigen::VectorXd& run : runs) total += run.size();
     Eigen::VectorXd column = Eigen::VectorXd::Zero(total);
     for (std::size_t r = 0; r < runs.size(); ++r) {
-      column.segment(at, runs[r].size()) = coordinates_[r](runs[r]);
+      column.segment(at, runs[r].size()) = frame.coordinates[r](runs[r]);
       at += runs[r].size();
     }
     return column;
+  }
+
+  Eigen::VectorXd change_to(const std::vector<Emulator>& there, const Frame& frame) const {
+    std::vector<Eigen::VectorXd> changes;
+    for (std::size_t r = 0; r < there.size(); ++r)
+      changes.push_back(there[r].coefficients.row(0).transpose() - means_[r]);
+    return stacked(changes, frame);
   }
 
   Eigen::VectorXd variances(const std::vector<Emulator>& there) const {
@@ -229,7 +260,7 @@ class EffectScreen::Simulated {
     for (const Emulator& e : there) total += e.residuals.cols();
     Eigen::VectorXd column = Eigen::VectorXd::Ones(total);
     for (std::size_t r = 0; r < there.size(); ++r) {
-      const Eigen::ArrayXd of_run = coordinates_[r].variance(there[r].residuals);
+      const Eigen::ArrayXd of_run = frame_.coordinates[r].variance(there[r].residuals);
       column.segment(at, of_run.size()) = of_run;
       at += of_run.size();
     }
@@ -248,36 +279,17 @@ class EffectScreen::Simulated {
       Eigen::MatrixXd own(rows, features);
       for (Eigen::Index i = 0; i < rows; ++i)
         own.row(i) = there[r].residuals.row((i + static_cast<Eigen::Index>(r) * rows / 7) % rows);
-      all.middleCols(at, features) = coordinates_[r].filmed(own, random);
+      all.middleCols(at, features) = frame_.coordinates[r].filmed(own, random);
       at += features;
     }
     return all;
   }
 
   /// Expected square of one simulation's chaos.
-  double chaos_of(const std::vector<Emulator>& there) const {
+  static double chaos_of(const std::vector<Emulator>& there, const Frame& frame) {
     double sum = 0;
-    for (std::size_t r = 0; r < there.size(); ++r) sum += coordinates_[r].chaos(there[r].residuals);
+    for (std::size_t r = 0; r < there.size(); ++r) sum += frame.coordinates[r].chaos(there[r].residuals);
     return sum;
-  }
-
-  void set_free_parameters(const std::vector<Knob>& about, const std::vector<Emulator>& slopes) {
-    const auto count = std::ssize(fitted_);
-    std::vector<Eigen::VectorXd> left;
-    for (std::size_t r = 0; r < measured_.size(); ++r) left.push_back(measured_[r].values - means_[r]);
-    without_.residual = stacked(left);
-    const Eigen::Index features = without_.residual.size() - count;
-    without_.free.resize(without_.residual.size(), count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      std::vector<Eigen::VectorXd> column;
-      for (const Emulator& e : slopes) column.push_back(e.coefficients.row(1 + k).transpose());
-      without_.free.col(k) = stacked(column);
-      const Knob& knob = about[static_cast<std::size_t>(k)];
-      if (!(knob.believed_error > 0)) continue;
-      without_.free(features + k, k) = knob.width / knob.believed_error;
-      without_.residual[features + k] = (knob.believed - knob.centre) / knob.believed_error;
-    }
-    outside_.emplace(without_.free);
   }
 
   SignatureLevel simulated_level(const Candidate& candidate, const Candidate::Level& level, int count) {
@@ -290,10 +302,7 @@ class EffectScreen::Simulated {
       set_knob(m.setup, knob, workshop_.known);
     }
     const std::vector<Emulator> there = emulate(with, at_a_point(fitted_), count, next_run(), workshop_);
-    std::vector<Eigen::VectorXd> changes;
-    for (std::size_t r = 0; r < there.size(); ++r)
-      changes.push_back(there[r].coefficients.row(0).transpose() - means_[r]);
-    return {level.strength, stacked(changes), chaos_of(there) / count, variances(there)};
+    return {level.strength, change_to(there, means_frame_), chaos_of(there, means_frame_) / count, {}};
   }
 
   /// A camera's error is arithmetic on the recording.
@@ -301,7 +310,7 @@ class EffectScreen::Simulated {
     const Knob& knob = candidate.fitted_knobs().front();
     std::vector<Eigen::VectorXd> changes;
     for (const MeasuredFeatures& m : measured_) changes.push_back(knob.width * m.by_camera.at(knob.key));
-    return {knob.width, stacked(changes), 0, {}};
+    return {knob.width, stacked(changes, means_frame_), 0, {}};
   }
 
   std::vector<MeasuredFeatures> measured_;
@@ -309,15 +318,13 @@ class EffectScreen::Simulated {
   const Workshop& workshop_;
   ScreenEffort effort_;
   int first_run_, batches_ = 0;
-  std::vector<Coordinates> coordinates_;  ///< one metric for all
-  std::vector<Eigen::VectorXd> means_;    ///< of the model without candidates, m
-  std::optional<Outside> outside_;
-  SignatureResidual without_;
+  std::vector<Eigen::VectorXd> means_;  ///< of the model without candidates, m
+  Frame means_frame_, frame_;           ///< for changes of the means, and for how likely one run is
 };
 
 EffectScreen::EffectScreen(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted,
                            const Workshop& workshop, const ScreenEffort& effort, int first_run,
-                           const std::vector<Eigen::MatrixXd>& metric)
+                           const ScreenMetric& metric)
     : simulated_(std::make_unique<Simulated>(std::move(measured), std::move(fitted), workshop, effort,
                                              first_run, metric)) {}
 
@@ -349,7 +356,7 @@ Screening EffectScreen::Simulated::weigh(const std::vector<Candidate>& candidate
           continue;
         }
         weigh_by(*signature, candidate, effect);
-        change = outside(signature->change(candidate.strength_of(effect.value)));
+        change = Outside(means_frame_.without.free)(signature->change(candidate.strength_of(effect.value)));
       } catch (const BudgetSpent&) {
         spent = true;
       }

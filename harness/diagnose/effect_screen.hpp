@@ -38,14 +38,20 @@ struct ScreenEffort {
   int plain = 32, slow = 16, dear = 12;  ///< of each candidate at each level, by what a run costs
 };
 
+/// Covariances of each measured run's features, m^2, as the fit of the model without candidates has them: by
+/// which changes of the means are looked for, and by which a run is likely. Empty: of the screen's
+/// simulations.
+struct ScreenMetric {
+  std::vector<Eigen::MatrixXd> for_means{}, likeliest{};
+};
+
 /// The model without candidates, simulated once, and what is asked of it. `fitted` stand at their fitted
-/// values. `metric`: covariance of each measured run's features, m^2, by which the fit of that model was
-/// judged; empty: of these simulations. `first_run` addresses the random numbers. PhysicsError and InputError
-/// are of the model without candidates.
+/// values. `first_run` addresses the random numbers. PhysicsError and InputError are of the model without
+/// candidates.
 class EffectScreen {
  public:
   EffectScreen(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted, const Workshop& workshop,
-               const ScreenEffort& effort, int first_run, const std::vector<Eigen::MatrixXd>& metric = {});
+               const ScreenEffort& effort, int first_run, const ScreenMetric& metric = {});
   ~EffectScreen();
   EffectScreen(const EffectScreen&) = delete;
   EffectScreen& operator=(const EffectScreen&) = delete;

@@ -207,7 +207,7 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   const double all = static_cast<double>(tools.known().size());
   EffectScreen screen(tools.features(state.setup), state.knobs(), tools.workshop(),
                       state.dear ? effort::rank_when_dear : effort::rank, tools.next_batch(),
-                      state.fit.covariances);
+                      {state.fit.for_means, state.fit.covariances});
   const Screening screening = screen.weigh(candidates);
   std::vector<Rival> rivals;
   for (const ScreenedEffect& screened : screening.list)

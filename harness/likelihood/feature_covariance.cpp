@@ -54,19 +54,33 @@ double best_shrinkage(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& w
   return best;
 }
 
-}  // namespace
-
-Eigen::MatrixXd feature_covariance(const Eigen::MatrixXd& residuals, const FeaturePlan& plan,
-                                   double model_error) {
-  Eigen::VectorXd white(residuals.cols());
+Eigen::VectorXd white_of(const FeaturePlan& plan, double model_error) {
+  Eigen::VectorXd white(std::ssize(plan.features));
   for (Eigen::Index f = 0; f < white.size(); ++f)
     white[f] = std::pow(plan.features[static_cast<std::size_t>(f)].noise, 2) + model_error * model_error;
-  const double shrinkage = best_shrinkage(residuals, white);
+  return white;
+}
+
+Eigen::MatrixXd shrunk(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& white, double shrinkage) {
   Eigen::MatrixXd covariance = residuals.transpose() * residuals / static_cast<double>(residuals.rows());
   const Eigen::VectorXd variance = covariance.diagonal();
   covariance *= 1 - shrinkage;
   covariance.diagonal() += shrinkage * variance + white;
   return covariance;
+}
+
+}  // namespace
+
+Eigen::MatrixXd feature_covariance(const Eigen::MatrixXd& residuals, const FeaturePlan& plan,
+                                   double model_error) {
+  const Eigen::VectorXd white = white_of(plan, model_error);
+  return shrunk(residuals, white, best_shrinkage(residuals, white));
+}
+
+Eigen::MatrixXd covariance_for_means(const Eigen::MatrixXd& residuals, const FeaturePlan& plan,
+                                     double model_error) {
+  constexpr double shrinkage = 0.4;
+  return shrunk(residuals, white_of(plan, model_error), shrinkage);
 }
 
 }  // namespace shakedown

@@ -208,6 +208,16 @@ std::vector<Eigen::MatrixXd> FitRound::covariances() const {
   return list;
 }
 
+std::vector<Eigen::MatrixXd> FitRound::for_means(double model_error) const {
+  std::vector<Eigen::MatrixXd> list;
+  for (std::size_t r = 0; r < measured_.size(); ++r) {
+    list.push_back(covariance_for_means(emulators_[r].residuals, measured_[r].plan,
+                                        model_error * measured_[r].setup.release.displacement));
+    if (measured_[r].own.cols() > 0) list.back() += measured_[r].own * measured_[r].own.transpose();
+  }
+  return list;
+}
+
 RunComparison FitRound::comparison(std::size_t r, const Eigen::VectorXd& z) const {
   RunComparison c{measured_[r].run, 0, 0, 0, 0, 0, measured_[r].values - model(r, z), whitened_[r].spread};
   const Eigen::VectorXd phi = regression_terms(knobs_, z);

@@ -68,6 +68,8 @@ class FitRound {
   std::vector<Rule> rules_of(const Refit* other) const;
 
   std::vector<Eigen::MatrixXd> covariances() const;
+  /// covariance_for_means() of all simulations, with what each run has of its own.
+  std::vector<Eigen::MatrixXd> for_means(double model_error) const;
 
   RunComparison comparison(std::size_t r, const Eigen::VectorXd& z) const;
 

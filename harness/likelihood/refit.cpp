@@ -109,6 +109,7 @@ void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& meas
   for (std::size_t k = 0; k < best.about.size(); ++k)
     set_value(best.about[k], best.about[k].at(solution[static_cast<Eigen::Index>(k)]), result.values[k]);
   result.covariances = best.round.covariances();
+  result.for_means = best.round.for_means(options.model_error);
   const std::vector<Rule> rules = best.round.rules_of(options.judged_by);
   result.judged_chi2 = 0;
   for (std::size_t r = 0; r < measured.size(); ++r)
@@ -154,6 +155,7 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
   for (std::size_t r = 0; r < measured.size(); ++r)
     result.judged_chi2 += round.judged_chi2(r, minimum.z, own[r]);
   result.covariances = round.covariances();
+  result.for_means = round.for_means(options.model_error);
   if (options.confirming > 0 && scattered > 0) try {
       confirm(round, measured, workshop, options, minimum.z, result);
     } catch (const BudgetSpent&) {  // the emulator's solution stands

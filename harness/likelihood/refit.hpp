@@ -42,6 +42,7 @@ struct Refit {
                                 ///< in their units
   std::vector<Eigen::MatrixXd>
       covariances;  ///< m^2, of each measured run's features: chaos, camera noise and model error
+  std::vector<Eigen::MatrixXd> for_means;  ///< covariance_for_means() of the same
   std::vector<FittedValue> values;
   Eigen::MatrixXd covariance;  ///< of the values, in their units
   double chi2 = 0, degrees = 0;
