@@ -47,7 +47,7 @@ MeasuredFeatures seen(Setup setup, double noise_box, double noise_centre, const 
 double distance(const Emulator& model, const Emulator& rival, const FeaturePlan& plan,
                 const Eigen::MatrixXd& covariance, double model_error) {
   const Eigen::MatrixXd open = model.coefficients.middleRows(1, covariance.rows());
-  const Eigen::LLT<Eigen::MatrixXd> root(feature_covariance(model.residuals, plan, model_error) +
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance_for_means(model.residuals, plan, model_error) +
                                          open.transpose() * covariance * open);
   const Eigen::VectorXd apart =
       root.matrixL().solve((rival.coefficients.row(0) - model.coefficients.row(0)).transpose());
