@@ -174,11 +174,31 @@ void complete_ranking(Diagnosis& d) {
   });
 }
 
+namespace {
+
+/// Effects that there was no time for: those that are named, or all but the ones found where no round was
+/// held.
+std::vector<std::string> not_looked_at_in(const Diagnosis& d) {
+  std::vector<std::string> effects = d.not_tried;
+  const auto in = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  if (in(d.not_tried, no_round_held))
+    for (const Hypothesis& h : d.hypotheses)
+      for (const std::string& effect : h.effects)
+        if (!in(d.missing, effect) && !in(effects, effect)) effects.push_back(effect);
+  return effects;
+}
+
+}  // namespace
+
 void settle_hypotheses(Diagnosis& d, const Findings& findings) {
   // Where a formula closes the balance and no set of known strengths does, odds are those of the two fits.
   const double something_else = findings.unlisted ? 1 / (1 + std::exp(-d.momentum.unlisted_log_odds))
                                                   : probability_of_something_else(worst_p_value(findings));
-  d.hypotheses = with_something_else(std::move(d.hypotheses), something_else, d.missing);
+  d.hypotheses = findings.unlisted ? with_something_else(std::move(d.hypotheses), something_else, d.missing)
+                                   : with_something_else_or(not_looked_at_in(d), std::move(d.hypotheses),
+                                                            something_else, d.missing);
   constexpr double shown = 0.99;
   double sum = 0;
   std::size_t count = 0;

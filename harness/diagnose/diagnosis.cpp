@@ -290,7 +290,7 @@ class Course {
       try {
         round = search_round(state, tools_, result_.momentum.seen);
       } catch (const BudgetSpent&) {
-        leave_out("one more effect");
+        leave_out(no_round_held);
         keep_priors(state);
         break;
       }

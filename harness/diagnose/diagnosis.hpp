@@ -15,6 +15,9 @@
 
 namespace shakedown {
 
+/// In Diagnosis::not_tried where there was no time to look for any further effect.
+constexpr const char* no_round_held = "one more effect";
+
 /// adequate: the model holds as given. refit: with other values of its parameters. measurement: with errors
 /// of camera or clock within what is known of them. missing: effects are missing. unknown: none that is known
 /// explains the data.

@@ -74,6 +74,24 @@ std::vector<Hypothesis> with_something_else(std::vector<Hypothesis> table, doubl
   return table;
 }
 
+std::vector<Hypothesis> with_something_else_or(const std::vector<std::string>& not_looked_at,
+                                               std::vector<Hypothesis> table, double probability,
+                                               std::vector<std::string> beside) {
+  const double prior = rules::something_else / (1 - rules::something_else),
+               odds = probability / std::max(1 - probability, 1e-300), raised = std::max(1.0, odds / prior);
+  double sum = 0;
+  for (Hypothesis& h : table) {
+    const bool asks = std::any_of(h.effects.begin(), h.effects.end(), [&](const std::string& effect) {
+      return std::find(not_looked_at.begin(), not_looked_at.end(), effect) != not_looked_at.end();
+    });
+    if (asks) h.probability *= raised, h.log_odds += std::log(raised);
+    sum += h.probability;
+  }
+  if (!(sum > 0)) return with_something_else(std::move(table), probability, std::move(beside));
+  for (Hypothesis& h : table) h.probability /= sum;
+  return with_something_else(std::move(table), odds / (sum + odds), std::move(beside));
+}
+
 std::vector<Hypothesis> answer_set(const std::vector<Hypothesis>& table) {
   std::vector<Hypothesis> set;
   double sum = 0;

@@ -56,6 +56,12 @@ double probability_of_something_else(double p_value);
 std::vector<Hypothesis> with_something_else(std::vector<Hypothesis> table, double probability,
                                             std::vector<std::string> beside = {});
 
+/// The same, where some effects were not looked at: a p-value speaks for each of them as it does for
+/// something in no list, so that hypotheses with one of them are raised by as much.
+std::vector<Hypothesis> with_something_else_or(const std::vector<std::string>& not_looked_at,
+                                               std::vector<Hypothesis> table, double probability,
+                                               std::vector<std::string> beside = {});
+
 /// The first hypotheses that together hold rules::answer_set; `table` is weighed.
 std::vector<Hypothesis> answer_set(const std::vector<Hypothesis>& table);
 

@@ -189,6 +189,29 @@ TEST(Evidence, SomethingInNoListIsWeighedByThePValue) {
   EXPECT_NEAR(table[1].probability, 0.4, 1e-12);
 }
 
+// A model that fails while half of the list was not looked at: what was not may be it as well.
+TEST(Evidence, WhatWasNotLookedAtIsRaisedWithSomethingInNoList) {
+  const std::vector<Hypothesis> table{{{}, 0, 0.7}, {{"a"}, 0, 0.1}, {{"b"}, 0, 0.1}, {{"c"}, 0, 0.1}};
+  const double certain = 1 - 1e-9;
+  const std::vector<Hypothesis> all_looked_at = with_something_else_or({}, table, certain);
+  EXPECT_NEAR(sum_of(all_looked_at), 1, 1e-12);
+  EXPECT_EQ(all_looked_at.front().effects, std::vector<std::string>{unlisted_effect});
+  EXPECT_GT(all_looked_at.front().probability, 0.999);
+  const std::vector<Hypothesis> half = with_something_else_or({"b", "c"}, table, certain);
+  EXPECT_NEAR(sum_of(half), 1, 1e-12);
+  // Among what may be, prior odds decide: 0.1 and 0.1 to 0.02 / 0.98.
+  const double unlisted = 0.02 / 0.98;
+  for (const Hypothesis& h : half)
+    EXPECT_NEAR(h.probability,
+                h.effects == std::vector<std::string>{unlisted_effect} ? unlisted / (0.2 + unlisted)
+                : h.effects == std::vector<std::string>{"b"} || h.effects == std::vector<std::string>{"c"}
+                    ? 0.1 / (0.2 + unlisted)
+                    : 0,
+                1e-6);
+  // A model that holds gives nothing away.
+  EXPECT_NEAR(with_something_else_or({"b", "c"}, table, 0.02).front().probability, 0.7 * 0.98, 1e-12);
+}
+
 TEST(Evidence, TiesAreWhatItMayBeInstead) {
   EXPECT_EQ(ties_of({{{"a"}, 0, 0.5}, {{"a", "b"}, 0, 0.2}, {{"c"}, 0, 0.2}, {{"b"}, 0, 0.06}}),
             (std::vector<std::string>{"b", "c"}));
