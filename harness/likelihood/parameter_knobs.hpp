@@ -10,8 +10,8 @@ namespace shakedown {
 
 /// How far restitutions (absolute) and the spring's frequency (relative) of two codes of the same physics may
 /// lie apart before their motions do: contacts of 0.3 ms instead of none move the slope of the decay by 0.7
-/// %, as much as 0.004 in both restitutions. (What matches the whole motion best, grain_grain less by 0.007 and
-/// grain_wall more by 0.015, lies along the valley of the two.)
+/// %, as much as 0.004 in both restitutions. (What matches the whole motion best, grain_grain less by 0.007
+/// and grain_wall more by 0.015, lies along the valley of the two.)
 constexpr double code_restitution = 0.004, code_frequency = 1e-4;
 
 /// What the user's restitutions are worth beforehand: it decides only along valleys that the data leave open.
