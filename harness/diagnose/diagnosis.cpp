@@ -111,7 +111,11 @@ class Course {
     DiagnosisState state = with_packing();
     state.camera = camera_knobs(state.setup, tools_.measurement(), tools_.known());
     tools_.limit_to(share::model_as_given / 2);
-    state.camera = together(state.camera, tools_.weigh_damper(state.setup));
+    state = unless_spent(damper_weighed, state, [&] {
+      DiagnosisState weighed = state;
+      weighed.camera = together(state.camera, tools_.weigh_damper(state.setup));
+      return weighed;
+    });
     DiagnosisState given = state;
     given.theta = as_given(state.setup, tools_.measurement().known);
     tools_.workshop().ensembles = tools_.options().ensembles;

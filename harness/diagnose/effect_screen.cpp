@@ -12,6 +12,7 @@
 #include "errors.hpp"
 #include "feature_covariance.hpp"
 #include "linear_model.hpp"
+#include "model_ratio.hpp"
 #include "random.hpp"
 #include "refit.hpp"
 #include "signature.hpp"
@@ -20,17 +21,15 @@ namespace shakedown {
 
 namespace {
 
-/// Of each run's chaos, camera noise and difference of two codes: as the first half of its simulations has
-/// it.
+/// Of each run's chaos, camera noise and difference of two codes.
 using CovarianceOf = Eigen::MatrixXd(const Eigen::MatrixXd&, const FeaturePlan&, double);
 std::vector<Eigen::MatrixXd> covariances_of(const std::vector<MeasuredFeatures>& measured,
                                             const std::vector<Emulator>& emulators, CovarianceOf& of) {
   std::vector<Eigen::MatrixXd> list;
-  for (std::size_t r = 0; r < measured.size(); ++r) {
-    const double model_error = RefitOptions{}.model_error * measured[r].setup.release.displacement;
-    list.push_back(of(emulators[r].residuals, measured[r].plan, model_error));
-    if (measured[r].own.cols() > 0) list.back() += measured[r].own * measured[r].own.transpose();
-  }
+  for (std::size_t r = 0; r < measured.size(); ++r)
+    list.push_back(with_own(of(emulators[r].residuals, measured[r].plan,
+                               RefitOptions{}.model_error * measured[r].setup.release.displacement),
+                            measured[r]));
   return list;
 }
 
@@ -41,9 +40,8 @@ class Coordinates {
   Coordinates(const MeasuredFeatures& measured, const Eigen::MatrixXd& covariance) {
     const Eigen::LLT<Eigen::MatrixXd> root(covariance);
     const double model_error = RefitOptions{}.model_error * measured.setup.release.displacement;
-    Eigen::MatrixXd known = measured.own.cols() > 0
-                                ? Eigen::MatrixXd(measured.own * measured.own.transpose())
-                                : Eigen::MatrixXd::Zero(measured.values.size(), measured.values.size());
+    Eigen::MatrixXd known =
+        with_own(Eigen::MatrixXd::Zero(measured.values.size(), measured.values.size()), measured);
     for (Eigen::Index f = 0; f < known.rows(); ++f)
       known(f, f) +=
           std::pow(measured.plan.features[static_cast<std::size_t>(f)].noise, 2) + model_error * model_error;
@@ -88,7 +86,7 @@ class Coordinates {
 
  private:
   Eigen::MatrixXd to_;
-  Eigen::ArrayXd chaos_;  ///< descending share
+  Eigen::ArrayXd chaos_;  ///< share of each coordinate, descending
 };
 
 /// What free parameters cannot take up of a column. Below the features stands a row for each of them: what is
@@ -164,17 +162,18 @@ class EffectScreen::Simulated {
     ScreenMetric used = metric;
     if (used.for_means.empty()) used.for_means = covariances_of(measured_, nothing, covariance_for_means);
     if (used.likeliest.empty()) used.likeliest = covariances_of(measured_, nothing, feature_covariance);
-    means_frame_ = frame_of(used.for_means, about, slopes, nothing);
-    frame_ = frame_of(used.likeliest, about, slopes, nothing);
-    frame_.without.variance = variances(nothing);
-    frame_.without.simulations = filmed(nothing);
+    of_means_ = frame_of(used.for_means, about, slopes, nothing);
+    outside_.emplace(of_means_.model.free);
+    without_ = {(*outside_)(of_means_.model.residual), of_means_.model.noise};
+    of_runs_ = frame_of(used.likeliest, about, slopes, nothing);
+    of_runs_.model.variance = variances(nothing);
+    of_runs_.model.simulations = filmed(nothing);
   }
 
   /// The posterior of the candidate's strength, from simulations at its levels; nothing where the engine
   /// could simulate none, with the reason.
   std::optional<Signature> signature_of(const Candidate& candidate, int count, std::string& reason) {
-    if (candidate.fitted_knobs().front().exact)
-      return Signature({exact_level(candidate)}, means_frame_.without, true);
+    if (candidate.fitted_knobs().front().exact) return Signature({exact_level(candidate)}, without_, true);
     std::vector<SignatureLevel> levels;
     for (const Candidate::Level& level : candidate.levels) try {
         levels.push_back(simulated_level(candidate, level, count));
@@ -184,7 +183,7 @@ class EffectScreen::Simulated {
         reason = error.what();
       }
     if (levels.empty()) return std::nullopt;
-    return Signature(levels, means_frame_.without);
+    return Signature(levels, without_);
   }
 
   Screening weigh(const std::vector<Candidate>& candidates);
@@ -192,22 +191,22 @@ class EffectScreen::Simulated {
   double log_likelihood_ratio(const std::vector<MeasuredFeatures>& other, const std::vector<Knob>& values,
                               int count) {
     const std::vector<Emulator> there = emulate(other, at_a_point(values), count, next_run(), workshop_);
-    SignatureLevel level{1, change_to(there, frame_), chaos_of(there, frame_) / count, variances(there)};
+    OtherModel model{change_to(there, of_runs_), chaos_of(there, of_runs_) / count, variances(there)};
     // Where parameters were moved, what is known of them beforehand counts from there.
-    const Eigen::Index features = level.change.size() - std::ssize(fitted_);
+    const Eigen::Index features = model.change.size() - std::ssize(fitted_);
     for (std::size_t k = 0; k < fitted_.size(); ++k)
       for (const Knob& value : values)
         if (value.key == fitted_[k].key && !value.exact && fitted_[k].believed_error > 0)
-          level.change[features + static_cast<Eigen::Index>(k)] =
+          model.change[features + static_cast<Eigen::Index>(k)] =
               (value.centre - fitted_[k].centre) / fitted_[k].believed_error;
-    return Signature({level}, frame_.without).log_likelihood(1);
+    return shakedown::log_likelihood_ratio(model, of_runs_.model);
   }
 
  private:
   /// One metric for all: coordinates of each run, and what the model without candidates leaves in them.
   struct Frame {
     std::vector<Coordinates> coordinates;
-    SignatureResidual without;
+    FirstModel model;
   };
 
   int next_run() { return first_run_ + 1000 * batches_++; }
@@ -220,19 +219,19 @@ class EffectScreen::Simulated {
     const auto count = std::ssize(fitted_);
     std::vector<Eigen::VectorXd> left;
     for (std::size_t r = 0; r < measured_.size(); ++r) left.push_back(measured_[r].values - means_[r]);
-    frame.without.residual = stacked(left, frame);
-    const Eigen::Index features = frame.without.residual.size() - count;
-    frame.without.free.resize(frame.without.residual.size(), count);
+    frame.model.residual = stacked(left, frame);
+    const Eigen::Index features = frame.model.residual.size() - count;
+    frame.model.free.resize(frame.model.residual.size(), count);
     for (Eigen::Index k = 0; k < count; ++k) {
       std::vector<Eigen::VectorXd> column;
       for (const Emulator& e : slopes) column.push_back(e.coefficients.row(1 + k).transpose());
-      frame.without.free.col(k) = stacked(column, frame);
+      frame.model.free.col(k) = stacked(column, frame);
       const Knob& knob = about[static_cast<std::size_t>(k)];
       if (!(knob.believed_error > 0)) continue;
-      frame.without.free(features + k, k) = knob.width / knob.believed_error;
-      frame.without.residual[features + k] = (knob.believed - knob.centre) / knob.believed_error;
+      frame.model.free(features + k, k) = knob.width / knob.believed_error;
+      frame.model.residual[features + k] = (knob.believed - knob.centre) / knob.believed_error;
     }
-    frame.without.noise = chaos_of(nothing, frame) / static_cast<double>(nothing.front().residuals.rows());
+    frame.model.noise = chaos_of(nothing, frame) / static_cast<double>(nothing.front().residuals.rows());
     return frame;
   }
 
@@ -255,12 +254,12 @@ class EffectScreen::Simulated {
     return stacked(changes, frame);
   }
 
-  Eigen::VectorXd variances(const std::vector<Emulator>& there) const {
+  Eigen::ArrayXd variances(const std::vector<Emulator>& there) const {
     Eigen::Index total = std::ssize(fitted_), at = 0;
     for (const Emulator& e : there) total += e.residuals.cols();
-    Eigen::VectorXd column = Eigen::VectorXd::Ones(total);
+    Eigen::ArrayXd column = Eigen::ArrayXd::Ones(total);
     for (std::size_t r = 0; r < there.size(); ++r) {
-      const Eigen::ArrayXd of_run = frame_.coordinates[r].variance(there[r].residuals);
+      const Eigen::ArrayXd of_run = of_runs_.coordinates[r].variance(there[r].residuals);
       column.segment(at, of_run.size()) = of_run;
       at += of_run.size();
     }
@@ -279,7 +278,7 @@ class EffectScreen::Simulated {
       Eigen::MatrixXd own(rows, features);
       for (Eigen::Index i = 0; i < rows; ++i)
         own.row(i) = there[r].residuals.row((i + static_cast<Eigen::Index>(r) * rows / 7) % rows);
-      all.middleCols(at, features) = frame_.coordinates[r].filmed(own, random);
+      all.middleCols(at, features) = of_runs_.coordinates[r].filmed(own, random);
       at += features;
     }
     return all;
@@ -302,7 +301,7 @@ class EffectScreen::Simulated {
       set_knob(m.setup, knob, workshop_.known);
     }
     const std::vector<Emulator> there = emulate(with, at_a_point(fitted_), count, next_run(), workshop_);
-    return {level.strength, change_to(there, means_frame_), chaos_of(there, means_frame_) / count, {}};
+    return {level.strength, (*outside_)(change_to(there, of_means_)), chaos_of(there, of_means_) / count};
   }
 
   /// A camera's error is arithmetic on the recording.
@@ -310,7 +309,7 @@ class EffectScreen::Simulated {
     const Knob& knob = candidate.fitted_knobs().front();
     std::vector<Eigen::VectorXd> changes;
     for (const MeasuredFeatures& m : measured_) changes.push_back(knob.width * m.by_camera.at(knob.key));
-    return {knob.width, stacked(changes, means_frame_), 0, {}};
+    return {knob.width, (*outside_)(stacked(changes, of_means_)), 0};
   }
 
   std::vector<MeasuredFeatures> measured_;
@@ -319,7 +318,9 @@ class EffectScreen::Simulated {
   ScreenEffort effort_;
   int first_run_, batches_ = 0;
   std::vector<Eigen::VectorXd> means_;  ///< of the model without candidates, m
-  Frame means_frame_, frame_;           ///< for changes of the means, and for how likely one run is
+  Frame of_means_, of_runs_;            ///< for changes of the means, and for how likely one run is
+  std::optional<Outside> outside_;      ///< of the means' frame
+  SignatureResidual without_;
 };
 
 EffectScreen::EffectScreen(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted,
@@ -356,7 +357,7 @@ Screening EffectScreen::Simulated::weigh(const std::vector<Candidate>& candidate
           continue;
         }
         weigh_by(*signature, candidate, effect);
-        change = Outside(means_frame_.without.free)(signature->change(candidate.strength_of(effect.value)));
+        change = signature->change(candidate.strength_of(effect.value));
       } catch (const BudgetSpent&) {
         spent = true;
       }

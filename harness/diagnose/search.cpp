@@ -220,7 +220,7 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   for (Rival& rival : rivals) weigh_rival(rival, all);
   std::vector<Rival*> order;
   for (Rival& rival : rivals) order.push_back(&rival);
-  constexpr double worth_asking = -3;  // ln odds: one in twenty, as often as a right model is doubtful
+  const double worth_asking = std::log(rules::doubtful);  // less than the odds at which a model is doubted
   const auto by_odds = [](const Rival* a, const Rival* b) { return a->log_odds > b->log_odds; };
   std::stable_sort(order.begin(), order.end(), by_odds);
   for (const Rival& rival : rivals)

@@ -118,12 +118,8 @@ std::vector<Knob> DiagnosisTools::weigh_damper(const Setup& setup) {
   constexpr int count = 32;  // an eighth of the chaos is left in a column: 2 % of its variance
   std::vector<DamperError> errors = damper_errors(measurement_);
   if (errors.empty()) return {};
-  begin("what release and masses are uncertain by");
-  try {
-    damper_columns_ = columns_of(errors, features(setup), count, next_batch(), workshop_);
-  } catch (const BudgetSpent&) {
-    return {};
-  }
+  begin(damper_weighed);
+  damper_columns_ = columns_of(errors, features(setup), count, next_batch(), workshop_);
   damper_errors_ = std::move(errors);
   return knobs_of(damper_errors_, setup);
 }

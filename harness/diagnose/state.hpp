@@ -51,6 +51,9 @@ namespace share {
 constexpr double model_as_given = 0.2, first_refit = 0.45;
 }
 
+/// Step of the course that may be left out.
+constexpr const char* damper_weighed = "what release and masses are uncertain by";
+
 /// What all steps share. Counts simulations and numbers the batches of random microstates.
 class DiagnosisTools {
  public:
@@ -76,7 +79,6 @@ class DiagnosisTools {
   }
 
   /// From now on features tell what release and masses are uncertain by: knobs of what all runs share.
-  /// Nothing where simulations or time do not suffice.
   std::vector<Knob> weigh_damper(const Setup& setup);
 
   /// The measured runs beside this setup, with what the camera does to them.

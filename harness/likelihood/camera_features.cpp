@@ -6,6 +6,7 @@
 
 #include "camera.hpp"
 #include "nuisance.hpp"
+#include "parameter_knobs.hpp"
 #include "setup_file.hpp"
 
 namespace shakedown {
@@ -37,18 +38,10 @@ std::vector<MeasuredFeatures> features_with_camera(const Measurement& measuremen
 
 std::vector<Knob> camera_knobs(const Setup& setup, const Measurement& measurement,
                                std::span<const EffectRecord* const> known) {
-  constexpr double far = 6;  // standard deviations: a bound that no camera meets
   std::vector<Knob> knobs;
   for (const CameraNuisance& nuisance : camera_nuisances(measurement, known)) {
     if (nuisance.each_run || find_camera_parameter(nuisance.key) == nullptr) continue;
-    Knob knob;
-    knob.key = nuisance.key;
-    knob.centre = knob.believed = get_number(setup, nuisance.key, known);
-    knob.width = knob.believed_error = nuisance.deviation();
-    knob.low = knob.centre - far * knob.width, knob.high = knob.centre + far * knob.width;
-    knob.curved = false;
-    knob.exact = true;
-    knobs.push_back(knob);
+    knobs.push_back(exact_knob(nuisance.key, get_number(setup, nuisance.key, known), nuisance.deviation()));
   }
   return knobs;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "nuisance.hpp"
+#include "parameter_knobs.hpp"
 #include "setup_file.hpp"
 
 namespace shakedown {
@@ -30,7 +31,8 @@ std::vector<DamperError> damper_errors(const Measurement& measurement) {
   const std::size_t runs = measurement.runs.size();
   DamperError release{"release.displacement", std::vector<double>(runs, 0), true};
   for (std::size_t r = 0; r < runs; ++r)
-    if (measurement.runs[r].setup.grains.count > 0)
+    if (const Setup& setup = measurement.runs[r].setup;
+        setup.grains.count > 0 && setup.release.initial_grains.empty())
       release.deviation[r] = measurement.runs[r].recorded.release_error;
   std::vector<DamperError> list{release};
   for (const WeighedNuisance& weighed : weighed_nuisances(measurement)) {
@@ -83,18 +85,11 @@ void add_columns(const std::vector<DamperError>& errors, const std::vector<Featu
 }
 
 std::vector<Knob> knobs_of(const std::vector<DamperError>& errors, const Setup& setup) {
-  constexpr double far = 6;  // standard deviations: a bound that no balance meets
   std::vector<Knob> knobs;
   for (const DamperError& error : errors) {
     if (error.each_run) continue;
-    Knob knob;
-    knob.key = error.key;
-    knob.centre = knob.believed = get_number(setup, error.key);
-    knob.width = knob.believed_error = *std::max_element(error.deviation.begin(), error.deviation.end());
-    knob.low = knob.centre - far * knob.width, knob.high = knob.centre + far * knob.width;
-    knob.curved = false;
-    knob.exact = true;
-    knobs.push_back(knob);
+    knobs.push_back(exact_knob(error.key, get_number(setup, error.key),
+                               *std::max_element(error.deviation.begin(), error.deviation.end())));
   }
   return knobs;
 }

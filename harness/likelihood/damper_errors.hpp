@@ -17,7 +17,8 @@ struct DamperError {
 };
 
 /// Masses as `[known]` has them or as such things are weighed, and the release of each run that was measured.
-/// Runs without grains, and those that do not begin with a release, have none.
+/// Runs without grains, those that do not begin with a release, and those whose grains were measured in the
+/// same frame as the box (it would be moved through them) have none.
 std::vector<DamperError> damper_errors(const Measurement& measurement);
 
 /// Of each run the change of the features by two standard deviations, divided by the value's change, m per

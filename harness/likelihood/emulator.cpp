@@ -38,6 +38,11 @@ std::vector<MeasuredFeatures> features_of(const Measurement& measurement) {
   return measured;
 }
 
+Eigen::MatrixXd with_own(Eigen::MatrixXd covariance, const MeasuredFeatures& measured) {
+  if (measured.own.cols() > 0) covariance += measured.own * measured.own.transpose();
+  return covariance;
+}
+
 Eigen::VectorXd regression_terms(const std::vector<Knob>& knobs, const Eigen::VectorXd& z) {
   std::vector<double> terms{1.0};
   for (Eigen::Index k = 0; k < z.size(); ++k) terms.push_back(z[k]);

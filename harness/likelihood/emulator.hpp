@@ -60,6 +60,9 @@ struct MeasuredFeatures {
 
 std::vector<MeasuredFeatures> features_of(const Measurement& measurement);
 
+/// A covariance of its features with what the run has of its own.
+Eigen::MatrixXd with_own(Eigen::MatrixXd covariance, const MeasuredFeatures& measured);
+
 struct Workshop {
   const Engine* engine = nullptr;
   std::span<const EffectRecord* const> known;

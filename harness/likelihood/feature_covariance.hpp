@@ -15,7 +15,7 @@ Eigen::MatrixXd feature_covariance(const Eigen::MatrixXd& residuals, const Featu
 
 /// The same for weights that look for a change of the means: chaos is no normal distribution, and weights of
 /// a shrinkage of 0.4 see a third more of a change in simulations that were not seen (of the paper's damper
-/// at 104 mm with grain_grain 0.78 for 0.75, 128 simulations: signal squared 4.5 where 0.01 has 3.4).
+/// at 104 mm with grain_grain 0.78 for 0.75, 128 simulations: signal squared 4.5 where 0.003 has 3.4).
 Eigen::MatrixXd covariance_for_means(const Eigen::MatrixXd& residuals, const FeaturePlan& plan,
                                      double model_error);
 

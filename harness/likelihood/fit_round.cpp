@@ -22,10 +22,10 @@ FitRound::FitRound(const std::vector<MeasuredFeatures>& measured, const std::vec
     : measured_(measured), knobs_(knobs), emulators_(std::move(emulators)) {
   for (std::size_t r = 0; r < measured.size(); ++r) {
     const Eigen::MatrixXd& residuals = emulators_[r].residuals;
-    Eigen::MatrixXd covariance =
-        feature_covariance(residuals.topRows(residuals.rows() / 2), measured[r].plan,
-                           options.model_error * measured[r].setup.release.displacement);
-    if (measured[r].own.cols() > 0) covariance += measured[r].own * measured[r].own.transpose();
+    const Eigen::MatrixXd covariance =
+        with_own(feature_covariance(residuals.topRows(residuals.rows() / 2), measured[r].plan,
+                                    options.model_error * measured[r].setup.release.displacement),
+                 measured[r]);
     Whitened w{Eigen::LLT<Eigen::MatrixXd>(covariance), {}, covariance.diagonal().cwiseSqrt()};
     w.model = w.root.matrixL().solve(emulators_[r].coefficients.transpose());
     w.chaos =
@@ -210,11 +210,10 @@ std::vector<Eigen::MatrixXd> FitRound::covariances() const {
 
 std::vector<Eigen::MatrixXd> FitRound::for_means(double model_error) const {
   std::vector<Eigen::MatrixXd> list;
-  for (std::size_t r = 0; r < measured_.size(); ++r) {
-    list.push_back(covariance_for_means(emulators_[r].residuals, measured_[r].plan,
-                                        model_error * measured_[r].setup.release.displacement));
-    if (measured_[r].own.cols() > 0) list.back() += measured_[r].own * measured_[r].own.transpose();
-  }
+  for (std::size_t r = 0; r < measured_.size(); ++r)
+    list.push_back(with_own(covariance_for_means(emulators_[r].residuals, measured_[r].plan,
+                                                 model_error * measured_[r].setup.release.displacement),
+                            measured_[r]));
   return list;
 }
 

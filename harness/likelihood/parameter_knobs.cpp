@@ -6,6 +6,13 @@
 
 namespace shakedown {
 
+Knob exact_knob(const std::string& key, double value, double deviation) {
+  constexpr double far = 6;  // standard deviations: a bound that no camera and no balance meets
+  Knob knob{key, value, deviation, value - far * deviation, value + far * deviation, false, value, deviation};
+  knob.exact = true;
+  return knob;
+}
+
 std::vector<Knob> as_given(const Setup& setup, const std::vector<KnownValue>& known) {
   const auto knob = [&](const char* key, double value, double apart, double highest) {
     if (const KnownValue* said = find_known(known, key)) apart = std::hypot(apart, said->error);

@@ -14,6 +14,9 @@ namespace shakedown {
 /// and grain_wall more by 0.015, lies along the valley of the two.)
 constexpr double code_restitution = 0.004, code_frequency = 1e-4;
 
+/// A number that is known to an error and whose columns are known (Knob::exact), about what was said of it.
+Knob exact_knob(const std::string& key, double value, double deviation);
+
 /// What the user's restitutions are worth beforehand: it decides only along valleys that the data leave open.
 /// Restitutions of .42 and .94 imitate friction of .3 between grains of .75 and .76 to within 3 % of chi2.
 constexpr double believed_restitution = 0.1;

@@ -76,8 +76,8 @@ struct RefitOptions {
   int first_run = 1000;
   /// Of the release: what two codes of the same physics differ by where restitutions are free. Of soft
   /// contacts (0.15, 0.3 and 0.4 ms; means of 48 runs) less hard impacts (of 200), the paper's damper at 40,
-  /// 65 and 104 mm, restitutions moved by -0.013 and 0.024 at most take up all but 0.04, 0.07 and 0.1 mm, the
-  /// noise of those means.
+  /// 65 and 104 mm, restitutions moved by -0.013 and 0.024 at most leave 0.03 to 0.04, 0.04 to 0.07 and 0.07
+  /// to 0.15 mm of the box, most of it the noise of those means.
   double model_error = 5e-4;
   const Refit* judged_by = nullptr;  ///< a fit to the same measured runs; null: by itself
   /// Simulations of each different setup at the solution, which then move it to the minimum that they and the

@@ -25,50 +25,6 @@ std::vector<double> corners_of(const std::vector<SignatureLevel>& levels) {
   return corners;
 }
 
-/// Columns without what the free ones take up, in these variances.
-class Outside {
- public:
-  Outside(const Eigen::MatrixXd& free, const Eigen::ArrayXd& variance)
-      : scale_(variance.rsqrt()), free_(scale_.matrix().asDiagonal() * free) {
-    // A parameter that nothing tells of stays where it is.
-    constexpr double open = 1e-9;
-    Eigen::MatrixXd normal = free_.transpose() * free_;
-    normal.diagonal().array() += open;
-    root_.compute(normal);
-  }
-  Eigen::MatrixXd operator()(const Eigen::MatrixXd& columns) const {
-    const Eigen::MatrixXd scaled = scale_.matrix().asDiagonal() * columns;
-    if (free_.cols() == 0) return scaled;
-    return scaled - free_ * root_.solve(free_.transpose() * scaled);
-  }
-
- private:
-  Eigen::ArrayXd scale_;
-  Eigen::MatrixXd free_;
-  Eigen::LLT<Eigen::MatrixXd> root_;
-};
-
-/// As the middle half of the values has it: a few simulations lie far out, the one that was filmed rarely
-/// does.
-/// Squares per feature that count as spread: more is a mean that is off, which no spread explains. Side walls
-/// of 0.11 instead of 0.76 make it 1.33 times as much.
-constexpr double widest = 1.5;
-
-/// ln of the likelihood that the spread at a level has over that of nothing, what the change takes up left
-/// out.
-double log_likelihood_of_spread(const SignatureLevel& level, const SignatureResidual& without,
-                                const Eigen::ArrayXd& without_it, double chi2_per_feature) {
-  Eigen::MatrixXd free(level.change.size(), without.free.cols() + 1);
-  if (without.free.cols() > 0) free.leftCols(without.free.cols()) = without.free;
-  free.rightCols(1) = level.change;
-  const Eigen::ArrayXd there = level.variance.array();
-  const double of_spread = std::min(1.0, widest / std::max(1e-300, chi2_per_feature));
-  return (of_spread * (Outside(free, without_it)(without.residual).squaredNorm() -
-                       Outside(free, there)(without.residual).squaredNorm()) -
-          (there / without_it).log().sum()) /
-         2;
-}
-
 }  // namespace
 
 Signature::Signature(const std::vector<SignatureLevel>& levels, const SignatureResidual& without,
@@ -95,44 +51,11 @@ Signature::Signature(const std::vector<SignatureLevel>& levels, const SignatureR
   shapes_ = changes * of_levels.transpose();
   const Eigen::VectorXd shared = of_levels.rowwise().sum();
   const double of_nothing = exact ? 0 : without.noise;
-  const auto variance_of = [&](const Eigen::VectorXd& said) -> Eigen::ArrayXd {
-    return said.size() > 0 ? said.array() : Eigen::ArrayXd::Ones(features).eval();
-  };
-  const Eigen::ArrayXd without_it = variance_of(without.variance);
-  const Eigen::MatrixXd none(features, 0), free = without.free.cols() > 0 ? without.free : none;
-  const auto weighed_by = [&](double strength, const Eigen::ArrayXd& variance) {
-    const Outside outside(free, variance);
-    const Eigen::MatrixXd shapes = outside(shapes_), residual = outside(without.residual);
-    Weighed w{strength, shapes.transpose() * shapes, {}, shapes.transpose() * residual};
-    const auto share = [&](const Eigen::ArrayXd& of) { return (of / variance).mean(); };
-    Eigen::VectorXd noise_here(count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const Eigen::VectorXd& said = levels[static_cast<std::size_t>(k)].variance;
-      noise_here[k] = noise[k] * share(said.size() > 0 ? said.array() : without_it);
-    }
-    const double nothing_here = of_nothing * share(without_it);
-    w.noise = of_levels * noise_here.asDiagonal() * of_levels.transpose() +
-              nothing_here * shared * shared.transpose();
-    w.overlap -= nothing_here * shared;
-    if (without.simulations.rows() > 0) {
-      // Near nothing as at a level.
-      const Eigen::VectorXd change = shapes * weights(strength != 0 ? strength : levels.front().strength);
-      w.kappa = std::max(1.0, (outside(without.simulations.transpose()).transpose() * change).squaredNorm() /
-                                  static_cast<double>(without.simulations.rows()) /
-                                  std::max(1e-300, change.squaredNorm()));
-    }
-    return w;
-  };
-  weighed_.push_back(weighed_by(0, without_it));
+  square_ = shapes_.transpose() * shapes_;
+  noise_ = of_levels * noise.asDiagonal() * of_levels.transpose() + of_nothing * shared * shared.transpose();
+  overlap_ = shapes_.transpose() * without.residual - of_nothing * shared;
   chi2_per_feature_ =
-      Outside(free, without_it)(without.residual).squaredNorm() / static_cast<double>(features);
-  for (const SignatureLevel& level : levels) {
-    if (level.variance.size() == 0) continue;
-    weighed_.push_back(weighed_by(level.strength, level.variance.array()));
-    weighed_.back().spread = log_likelihood_of_spread(level, without, without_it, chi2_per_feature_);
-  }
-  std::sort(weighed_.begin(), weighed_.end(),
-            [](const Weighed& a, const Weighed& b) { return a.strength < b.strength; });
+      without.residual.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, features));
 }
 
 Eigen::VectorXd Signature::weights(double strength) const {
@@ -153,24 +76,11 @@ Eigen::VectorXd Signature::weights(double strength) const {
 
 Eigen::VectorXd Signature::change(double strength) const { return shapes_ * weights(strength); }
 
-double Signature::Weighed::log_likelihood(const Eigen::VectorXd& v, double chi2_per_feature) const {
-  const double of_noise = v.dot(noise * v), of_change = std::max(0.0, v.dot(square * v) - of_noise);
-  if (!(of_change > 0)) return spread / kappa;
-  return (spread + of_change * (overlap.dot(v) - of_change / 2) /
-                       (of_change + of_noise * std::max(1.0, chi2_per_feature))) /
-         kappa;
-}
-
 double Signature::log_likelihood(double strength) const {
   const Eigen::VectorXd v = weights(strength);
-  const auto above = std::find_if(weighed_.begin(), weighed_.end(),
-                                  [&](const Weighed& w) { return w.strength >= strength; });
-  if (above == weighed_.begin()) return above->log_likelihood(v, chi2_per_feature_);
-  const auto below = above - 1;
-  if (above == weighed_.end()) return below->log_likelihood(v, chi2_per_feature_);
-  const double along = (strength - below->strength) / (above->strength - below->strength);
-  return (1 - along) * below->log_likelihood(v, chi2_per_feature_) +
-         along * above->log_likelihood(v, chi2_per_feature_);
+  const double noise = v.dot(noise_ * v), square = std::max(0.0, v.dot(square_ * v) - noise);
+  if (!(square > 0)) return 0;
+  return square * (overlap_.dot(v) - square / 2) / (square + noise * std::max(1.0, chi2_per_feature_));
 }
 
 StrengthPosterior posterior_of(const Signature& signature, const StrengthPrior& prior) {

@@ -8,25 +8,17 @@
 
 namespace shakedown {
 
-/// Features of all runs of an experiment in coordinates in which the model without the effect has independent
-/// ones of unit variance; below them a row for each free parameter of which something is known beforehand.
+/// All features of an experiment, whitened, with what refitted parameters take up projected out.
 struct SignatureLevel {
-  double strength = 0;         ///< from the effect's absence, in its own unit; never 0
-  Eigen::VectorXd change;      ///< mean with the effect less mean without
-  double noise = 0;            ///< expected square of the change's error by the simulations with the effect
-  Eigen::VectorXd variance{};  ///< of each feature with the effect; empty: as without
+  double strength = 0;     ///< from the effect's absence, in its own unit; never 0
+  Eigen::VectorXd change;  ///< mean with the effect less mean without
+  double noise = 0;        ///< expected square of the change's error by the simulations with the effect
 };
 
 /// What the model without the effect leaves of the measured features.
 struct SignatureResidual {
   Eigen::VectorXd residual;  ///< measured less mean without the effect, as `change`
   double noise = 0;          ///< expected square of the error of that mean, which every change has too
-  Eigen::MatrixXd
-      free{};  ///< features x parameters: what the free ones do; they move along with the strength
-  Eigen::VectorXd variance{};  ///< of each feature; empty: one
-  /// What single simulations leave of their mean, camera noise in them: simulations x features. Empty:
-  /// features are independent and normal.
-  Eigen::MatrixXd simulations{};
 };
 
 /// Nothing at strength zero. Levels within a decade: a polynomial, straight with one level, a parabola with
@@ -37,15 +29,10 @@ class Signature {
   /// `exact`: the changes are arithmetic and share no error with the residual.
   Signature(const std::vector<SignatureLevel>& levels, const SignatureResidual& without, bool exact = false);
 
-  /// ln of the likelihood of the measured features at this strength over that of nothing, free parameters
-  /// moved along: by the mean, and by the spread from run to run, which an effect changes too; divided by
-  /// kappa. Mean: what is known of the change is b = D'r and a = |D|^2 (in the variances there), the
-  /// simulations' noise nu taken off both; b is normal about a where the effect is there and about 0 where it
-  /// is not, with the variance a + nu, so that l = a (b - a / 2) / (a + nu). Spread: the fall of half the sum
-  /// of squares of what nothing leaves beside D, each by its variance, and of the logarithms of the
-  /// variances. kappa: the mean square of D'x over |D|^2, x being single simulations, at least 1. Chaos is no
-  /// normal distribution of known covariance, and this is how much worse than such a one it is. Between
-  /// levels straight in the strength, beyond the strongest as there.
+  /// ln of the likelihood of the measured features at this strength over that of nothing. What is known of
+  /// the change is b = D'r and a = |D|^2, the simulations' noise nu taken off both: b is normal about a where
+  /// the effect is there and about 0 where it is not, with the variance a + nu, so that
+  /// l = a (b - a / 2) / (a + nu).
   double log_likelihood(double strength) const;
 
   /// The mean change at this strength, the noise of the simulations in it.
@@ -55,20 +42,12 @@ class Signature {
   /// Weights of the shapes at this strength.
   Eigen::VectorXd weights(double strength) const;
 
-  std::vector<double> corners_{};  ///< strengths of the levels, ascending, where it is straight between them
-  Eigen::Index order_ = 1;         ///< number of shapes
-  double unit_ = 1;                ///< strength of which powers are taken
-  Eigen::MatrixXd shapes_;         ///< features x order
-  /// By the variances of nothing, or of a level.
-  struct Weighed {
-    double strength = 0;
-    Eigen::MatrixXd square, noise;  ///< order x order: of the shapes, and of their errors
-    Eigen::VectorXd overlap;        ///< with the residual
-    double spread = 0;              ///< ln likelihood of the residual over that by the variances of nothing
-    double kappa = 1;
-    double log_likelihood(const Eigen::VectorXd& weights, double chi2_per_feature) const;
-  };
-  std::vector<Weighed> weighed_;  ///< nothing among them; ascending
+  std::vector<double> corners_{};   ///< strengths of the levels, ascending, where it is straight between them
+  Eigen::Index order_ = 1;          ///< number of shapes
+  double unit_ = 1;                 ///< strength of which powers are taken
+  Eigen::MatrixXd shapes_;          ///< features x order
+  Eigen::MatrixXd square_, noise_;  ///< order x order: of the shapes, and of their errors
+  Eigen::VectorXd overlap_;         ///< with the residual
   double chi2_per_feature_ = 1;
 };
 

@@ -118,27 +118,3 @@ TEST(Signature, WhatIsNoNumberIsNoEvidence) {
   EXPECT_TRUE(
       std::isnan(posterior_of(Signature({{1.0, shape(1), 0}}, {residual, 0}), {1, -1, 1}).log_evidence));
 }
-
-// An effect that changes nothing but the spread from run to run is seen by it, and by no mean.
-TEST(Signature, SpreadCountsAsTheDensitiesOfTwoNormalDistributions) {
-  const Eigen::VectorXd residual = noise(8, 1.1), wide = Eigen::VectorXd::Constant(features, 1.21),
-                        none = Eigen::VectorXd::Zero(features);
-  const Signature signature({{1, none, 0, wide}}, {residual, 0, {}, Eigen::VectorXd::Ones(features)}, true);
-  const double expected =
-      residual.squaredNorm() / 2 * (1 - 1 / 1.21) - static_cast<double>(features) / 2 * std::log(1.21);
-  EXPECT_NEAR(signature.log_likelihood(1), expected, 1e-10);        // seen: 1e-13
-  EXPECT_NEAR(signature.log_likelihood(0.5), expected / 2, 1e-10);  // straight between nothing and the level
-  EXPECT_NEAR(signature.log_likelihood(3), expected, 1e-10);
-  EXPECT_GT(expected, 1);
-}
-
-// What a free parameter takes up is no evidence, whatever the variances are.
-TEST(Signature, OfWhatAFreeParameterDoesIsNothing) {
-  Eigen::MatrixXd free(features, 2);
-  free << shape(2), shape(3);
-  Eigen::VectorXd variance(features);
-  for (Eigen::Index f = 0; f < features; ++f) variance[f] = 1 + 0.5 * std::sin(static_cast<double>(f));
-  const Eigen::VectorXd change = 7 * shape(2) - 4 * shape(3);
-  const Signature taken_up({{1, change, 0, variance}}, {3 * change + noise(2), 0, free, variance}, true);
-  EXPECT_NEAR(taken_up.log_likelihood(1), 0, 1e-6);  // their own precision of 1e-9; seen: 2e-7
-}
