@@ -84,7 +84,7 @@ std::vector<Knob> at_values(const Refit& fit) {
 }
 
 void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
-               double lowest) {
+               double lowest, Effort effort) {
   const Candidate& candidate = *rival.candidate;
   DiagnosisState& state = rival.state = before;
   state.setup = prepared(before.setup, candidate, tools.known());
@@ -93,20 +93,33 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
   state.camera = without(before.camera, added);
   if (std::find(state.missing.begin(), state.missing.end(), candidate.effect) == state.missing.end())
     state.missing.push_back(candidate.effect);  // else of another component
-  const bool costly = candidate.dear;
   const std::vector<Knob> knobs =
       together(together(covering_the_users_values(before.theta), state.found), state.camera);
   const std::string stage = "trying " + candidate.effect;
-  state.fit = tools.fit(state, stage, knobs, costly ? effort::attempt_when_dear : effort::attempt,
-                        &before.fit, lowest);
-  state.dear = before.dear || costly;
+  state.fit = tools.fit(state, stage, knobs, effort, &before.fit, lowest);
+  state.dear = before.dear || candidate.dear;
   rival.fitted = true;
   rival.gain = before.fit.judged_chi2 - state.fit.judged_chi2;
   rival.held_out_gain = before.fit.judged_held_out_chi2 - state.fit.judged_held_out_chi2;
   if (added.front().exact) return;  // the signature was arithmetic
-  rival.log_ratio =
-      screen.log_likelihood_ratio(tools.features(state.setup), at_values(state.fit),
-                                  state.dear ? effort::rank_when_dear.nothing : effort::rank.nothing);
+  const ScreenEffort& weighing = state.dear ? effort::rank_when_dear : effort::rank;
+  try {
+    rival.log_ratio =
+        screen.log_likelihood_ratio(tools.features(state.setup), at_values(state.fit), weighing.nothing);
+  } catch (const BudgetSpent&) {  // the signature's evidence stands, as far as the fit keeps it
+  }
+}
+
+/// Among these effects, each alone, and nothing.
+double probability_among(const std::vector<Rival>& rivals, const Rival& one) {
+  std::vector<Hypothesis> table{{{}, 0, 0}};
+  for (const Rival& rival : rivals)
+    if (std::isfinite(rival.log_odds)) table.push_back({{rival.candidate->effect}, rival.log_odds, 0});
+  weigh(table);
+  for (const Hypothesis& h : table)
+    if (h.effects == std::vector<std::string>{one.candidate->effect} && h.log_odds == one.log_odds)
+      return h.probability;
+  return 0;
 }
 
 /// The fitted strength of a rival, as the prior counts it.
@@ -234,10 +247,20 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
     const auto could_not = [&](const std::exception& error) {
       round.notes.push_back(rival.candidate->effect + " could not be tried: " + error.what());
     };
-    try {
-      fit_rival(rival, state, tools, screen, lowest);
+    const auto fit = [&](Effort effort) {
+      fit_rival(rival, state, tools, screen, lowest, effort);
       lowest = std::min(lowest, rival.state.fit.judged_chi2);
       weigh_rival(rival, all);
+    };
+    try {
+      try {
+        fit(rival.candidate->dear ? effort::attempt_when_dear : effort::attempt);
+      } catch (const BudgetSpent&) {
+        // What is sure is fitted with what was kept for the last fit.
+        if (probability_among(rivals, rival) <= rules::adds_effect) throw;
+        tools.limit_to(1);
+        fit(effort::least);
+      }
     } catch (const BudgetSpent&) {
       round.not_tried.push_back(rival.candidate->effect);
     } catch (const PhysicsError& error) {

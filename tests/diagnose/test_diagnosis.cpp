@@ -78,6 +78,24 @@ TEST(SlowDiagnosis, LimitsHoldAndWhatWasNotTriedIsSaid) {
   EXPECT_THROW(diagnose(believed(), measurement, *engine, options), InputError);
 }
 
+// The signature is sure, and simulations do not suffice for a fit as usual: it has what was kept for the
+// last.
+TEST(SlowDiagnosis, WhatIsSureIsNamedThoughSimulationsRunOut) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  const Measurement measurement = as_measured(measured({{"velocity_dependent_restitution=exponent:0.2"}}));
+  DiagnoseOptions options;
+  options.known = all_effects();
+  options.effects = {"velocity_dependent_restitution"};
+  options.threads = 2;
+  for (const int budget : {1600, 2600}) {  // named from 2800 on without it
+    options.budget = budget;
+    const Diagnosis d = diagnose(believed(), measurement, *engine, options);
+    EXPECT_LE(d.runs_simulated, budget);
+    EXPECT_EQ(d.missing, options.effects) << budget << ": " << d.sentence;
+    EXPECT_EQ(d.hypotheses.front().effects, options.effects) << budget;
+  }
+}
+
 TEST(Diagnosis, AnotherPackingIsAParameterNotAnEffect) {
   const Diagnosis d = diagnosis_of({{}, {{"release.packing", "random"}}});
   EXPECT_EQ(d.verdict, Verdict::refit) << d.sentence;
