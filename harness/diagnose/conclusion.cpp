@@ -178,16 +178,22 @@ namespace {
 
 /// Effects that there was no time for: those that are named, or all but the ones found where no round was
 /// held.
-std::vector<std::string> not_looked_at_in(const Diagnosis& d) {
-  std::vector<std::string> effects = d.not_tried;
+LeftOutEffects left_out_of(const Diagnosis& d) {
   const auto in = [](const std::vector<std::string>& list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
+  LeftOutEffects left_out;
+  for (const std::string& step : d.not_tried) {
+    const bool is_weighed = std::any_of(d.ranking.begin(), d.ranking.end(),
+                                        [&](const RankedEffect& ranked) { return ranked.effect == step; });
+    (is_weighed ? left_out.not_fitted : left_out.not_looked_at).push_back(step);
+  }
   if (in(d.not_tried, no_round_held))
     for (const Hypothesis& h : d.hypotheses)
       for (const std::string& effect : h.effects)
-        if (!in(d.missing, effect) && !in(effects, effect)) effects.push_back(effect);
-  return effects;
+        if (!in(d.missing, effect) && !in(left_out.not_fitted, effect) && !in(left_out.not_looked_at, effect))
+          left_out.not_looked_at.push_back(effect);
+  return left_out;
 }
 
 }  // namespace
@@ -197,7 +203,7 @@ void settle_hypotheses(Diagnosis& d, const Findings& findings) {
   const double something_else = findings.unlisted ? 1 / (1 + std::exp(-d.momentum.unlisted_log_odds))
                                                   : probability_of_something_else(worst_p_value(findings));
   d.hypotheses = findings.unlisted ? with_something_else(std::move(d.hypotheses), something_else, d.missing)
-                                   : with_something_else_or(not_looked_at_in(d), std::move(d.hypotheses),
+                                   : with_something_else_or(left_out_of(d), std::move(d.hypotheses),
                                                             something_else, d.missing);
   constexpr double shown = 0.99;
   double sum = 0;

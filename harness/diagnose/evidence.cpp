@@ -74,22 +74,26 @@ std::vector<Hypothesis> with_something_else(std::vector<Hypothesis> table, doubl
   return table;
 }
 
-std::vector<Hypothesis> with_something_else_or(const std::vector<std::string>& not_looked_at,
-                                               std::vector<Hypothesis> table, double probability,
-                                               std::vector<std::string> beside) {
+std::vector<Hypothesis> with_something_else_or(const LeftOutEffects& left_out, std::vector<Hypothesis> table,
+                                               double probability, std::vector<std::string> beside) {
   const double prior = rules::something_else / (1 - rules::something_else),
                odds = probability / std::max(1 - probability, 1e-300), raised = std::max(1.0, odds / prior);
-  double sum = 0;
-  for (Hypothesis& h : table) {
-    const bool asks = std::any_of(h.effects.begin(), h.effects.end(), [&](const std::string& effect) {
-      return std::find(not_looked_at.begin(), not_looked_at.end(), effect) != not_looked_at.end();
+  const auto has_one_of = [](const Hypothesis& h, const std::vector<std::string>& list) {
+    return std::any_of(h.effects.begin(), h.effects.end(), [&](const std::string& effect) {
+      return std::find(list.begin(), list.end(), effect) != list.end();
     });
-    if (asks) h.probability *= raised, h.log_odds += std::log(raised);
+  };
+  double sum = 0, something_else = 0;
+  for (Hypothesis& h : table) {
+    const bool speaks = !has_one_of(h, left_out.not_fitted);
+    something_else += h.probability * (speaks ? odds : prior);
+    if (speaks && has_one_of(h, left_out.not_looked_at))
+      h.probability *= raised, h.log_odds += std::log(raised);
     sum += h.probability;
   }
   if (!(sum > 0)) return with_something_else(std::move(table), probability, std::move(beside));
   for (Hypothesis& h : table) h.probability /= sum;
-  return with_something_else(std::move(table), odds / (sum + odds), std::move(beside));
+  return with_something_else(std::move(table), something_else / (sum + something_else), std::move(beside));
 }
 
 std::vector<Hypothesis> answer_set(const std::vector<Hypothesis>& table) {

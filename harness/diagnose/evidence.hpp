@@ -56,11 +56,18 @@ double probability_of_something_else(double p_value);
 std::vector<Hypothesis> with_something_else(std::vector<Hypothesis> table, double probability,
                                             std::vector<std::string> beside = {});
 
-/// The same, where some effects were not looked at: a p-value speaks for each of them as it does for
-/// something in no list, so that hypotheses with one of them are raised by as much.
-std::vector<Hypothesis> with_something_else_or(const std::vector<std::string>& not_looked_at,
-                                               std::vector<Hypothesis> table, double probability,
-                                               std::vector<std::string> beside = {});
+/// Effects that there was no time for.
+struct LeftOutEffects {
+  std::vector<std::string> not_looked_at;  ///< they stand in the table at their prior
+  std::vector<std::string> not_fitted;     ///< they stand in it with what their signature says
+};
+
+/// The same, where some effects were left out. A p-value is of a model without them. It speaks for what was
+/// not looked at as it does for something in no list, so that hypotheses with one of these are raised by as
+/// much. It says nothing against a hypothesis with an effect that was weighed and not fitted: beside that,
+/// something in no list is as probable as before.
+std::vector<Hypothesis> with_something_else_or(const LeftOutEffects& left_out, std::vector<Hypothesis> table,
+                                               double probability, std::vector<std::string> beside = {});
 
 /// The first hypotheses that together hold rules::answer_set; `table` is weighed.
 std::vector<Hypothesis> answer_set(const std::vector<Hypothesis>& table);

@@ -197,7 +197,7 @@ TEST(Evidence, WhatWasNotLookedAtIsRaisedWithSomethingInNoList) {
   EXPECT_NEAR(sum_of(all_looked_at), 1, 1e-12);
   EXPECT_EQ(all_looked_at.front().effects, std::vector<std::string>{unlisted_effect});
   EXPECT_GT(all_looked_at.front().probability, 0.999);
-  const std::vector<Hypothesis> half = with_something_else_or({"b", "c"}, table, certain);
+  const std::vector<Hypothesis> half = with_something_else_or({{"b", "c"}, {}}, table, certain);
   EXPECT_NEAR(sum_of(half), 1, 1e-12);
   // Among what may be, prior odds decide: 0.1 and 0.1 to 0.02 / 0.98.
   const double unlisted = 0.02 / 0.98;
@@ -209,7 +209,28 @@ TEST(Evidence, WhatWasNotLookedAtIsRaisedWithSomethingInNoList) {
                     : 0,
                 1e-6);
   // A model that holds gives nothing away.
-  EXPECT_NEAR(with_something_else_or({"b", "c"}, table, 0.02).front().probability, 0.7 * 0.98, 1e-12);
+  EXPECT_NEAR(with_something_else_or({{"b", "c"}, {}}, table, 0.02).front().probability, 0.7 * 0.98, 1e-12);
+}
+
+TEST(Evidence, APValueSaysNothingAgainstAnEffectThatWasWeighedAndNotFitted) {
+  // The signature of b holds 97 %; there was no time to fit it, so that the final model, without it, fails.
+  const std::vector<Hypothesis> table{{{"b"}, 0, 0.97}, {{}, 0, 0.02}, {{"c"}, 0, 0.01}};
+  const double fails = 0.9, prior = rules::something_else / (1 - rules::something_else);
+  const std::vector<Hypothesis> weighed = with_something_else_or({{}, {"b"}}, table, fails);
+  EXPECT_NEAR(sum_of(weighed), 1, 1e-12);
+  const double odds = 0.97 * prior + 0.03 * fails / (1 - fails);
+  EXPECT_EQ(weighed.front().effects, std::vector<std::string>{"b"});
+  EXPECT_NEAR(weighed.front().probability, 0.97 / (1 + odds), 1e-12);
+  EXPECT_NEAR(weighed[1].probability, odds / (1 + odds), 1e-12);
+  // Nor is it raised as what was not looked at is.
+  const std::vector<Hypothesis> both = with_something_else_or({{"c"}, {"b"}}, table, fails);
+  EXPECT_NEAR(sum_of(both), 1, 1e-12);
+  double of_b = 0, of_c = 0;
+  for (const Hypothesis& h : both) {
+    if (h.effects == std::vector<std::string>{"b"}) of_b = h.probability;
+    if (h.effects == std::vector<std::string>{"c"}) of_c = h.probability;
+  }
+  EXPECT_NEAR(of_c / of_b, 0.01 / 0.97 * fails / (1 - fails) / prior, 1e-9);
 }
 
 TEST(Evidence, TiesAreWhatItMayBeInstead) {
