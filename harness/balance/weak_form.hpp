@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "momentum_run.hpp"
+#include "slow_wander.hpp"
 
 namespace shakedown {
 
@@ -23,12 +24,6 @@ struct ForceSamples {
   double plateau =
       0;  ///< change of the slope of the packed layer's distance against the box length (PlateauSlope)
   double stiffness = 0;  ///< relative change of the spring's
-};
-/// A track that wanders: an error of the recorded position with a memory, exp(-|t|/time) (Ornstein and
-/// Uhlenbeck), of box and grains apart.
-struct Wander {
-  double deviation = 0;  ///< m, standard deviation; 0: none
-  double time = 0.3;     ///< s
 };
 
 /// samples += strength * added, part by part.

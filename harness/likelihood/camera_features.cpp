@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "camera_features.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -44,6 +45,57 @@ std::vector<Knob> camera_knobs(const Setup& setup, const Measurement& measuremen
     knobs.push_back(exact_knob(nuisance.key, get_number(setup, nuisance.key, known), nuisance.deviation()));
   }
   return knobs;
+}
+
+namespace {
+
+/// Sum of the weights, each by exp(sign (t - middle) / memory).
+double weighed(const FeaturePlan::Reading& reading, double middle, double memory, double sign) {
+  double sum = 0;
+  for (std::size_t i = 0; i < reading.weight.size(); ++i)
+    sum += reading.weight[i] * std::exp(sign * (reading.time[i] - middle) / memory);
+  return sum;
+}
+
+double own_variance(const FeaturePlan::Reading& reading, double memory) {
+  double sum = 0;
+  for (std::size_t i = 0; i < reading.weight.size(); ++i)
+    for (std::size_t k = 0; k < reading.weight.size(); ++k)
+      sum += reading.weight[i] * reading.weight[k] *
+             std::exp(-std::abs(reading.time[i] - reading.time[k]) / memory);
+  return sum;
+}
+
+}  // namespace
+
+Eigen::MatrixXd wander_covariance(const FeaturePlan& plan, const Wander& wander) {
+  const Eigen::Index count = std::ssize(plan.features);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
+  for (Eigen::Index a = 0; a < count; ++a) {
+    const Feature& first = plan.features[static_cast<std::size_t>(a)];
+    const FeaturePlan::Reading& of_first = plan.readings[static_cast<std::size_t>(a)];
+    covariance(a, a) = own_variance(of_first, wander.time);
+    // Frames of one bin lie before all of a later one, where exp(-(t' - t) / memory) is a product.
+    const double leaving = weighed(of_first, first.time, wander.time, 1);
+    for (Eigen::Index b = a + 1; b < count; ++b) {
+      const Feature& later = plan.features[static_cast<std::size_t>(b)];
+      if (later.observable != first.observable) break;
+      covariance(a, b) = covariance(b, a) =
+          leaving * weighed(plan.readings[static_cast<std::size_t>(b)], later.time, wander.time, -1) *
+          std::exp(-(later.time - first.time) / wander.time);
+    }
+  }
+  return wander.deviation * wander.deviation * covariance;
+}
+
+void add_wander(const Wander& wander, std::vector<MeasuredFeatures>& measured) {
+  if (!(wander.deviation > 0) || !(wander.time > 0)) return;
+  for (MeasuredFeatures& run : measured) {
+    const Eigen::MatrixXd root = wander_covariance(run.plan, wander).llt().matrixL();
+    const Eigen::Index before = run.own.cols();
+    run.own.conservativeResize(run.values.size(), before + root.cols());
+    run.own.rightCols(root.cols()) = root;
+  }
 }
 
 }  // namespace shakedown

@@ -4,6 +4,7 @@
 #pragma once
 #include "emulator.hpp"
 #include "measurement.hpp"
+#include "slow_wander.hpp"
 
 namespace shakedown {
 
@@ -15,5 +16,11 @@ std::vector<MeasuredFeatures> features_with_camera(const Measurement& measuremen
 /// A knob for everything of the one camera that is known to an error, about what the setup says.
 std::vector<Knob> camera_knobs(const Setup& setup, const Measurement& measurement,
                                std::span<const EffectRecord* const> known);
+
+/// Covariance of the features of a run whose two tracks wander so, each by itself, m^2.
+Eigen::MatrixXd wander_covariance(const FeaturePlan& plan, const Wander& wander);
+
+/// What each run has of its own, with its tracks' wander.
+void add_wander(const Wander& wander, std::vector<MeasuredFeatures>& measured);
 
 }  // namespace shakedown

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "camera_features.hpp"
 #include "features.hpp"
 
 using namespace shakedown;
@@ -64,6 +65,40 @@ TEST(Features, NoiseOfABinFallsWithItsFrames) {
   const FeaturePlan plan = plan_features(with_audit(parabolic_run(500, 0)));
   // The level of a parabola at the middle of n even frames has 9/4 of the variance of a mean.
   EXPECT_NEAR(plan.features[3].noise, 2e-4 * std::sqrt(2.25 / 50), 2e-7);  // seen: 1e-8
+}
+
+/// Every frame of one feature with every frame of another.
+double wander_covariance_of(const FeaturePlan::Reading& a, const FeaturePlan::Reading& b,
+                            const Wander& wander) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.time.size(); ++i)
+    for (std::size_t k = 0; k < b.time.size(); ++k)
+      sum += a.weight[i] * b.weight[k] * std::exp(-std::abs(a.time[i] - b.time[k]) / wander.time);
+  return wander.deviation * wander.deviation * sum;
+}
+
+TEST(Features, ATrackThatWandersMakesThemVaryTogether) {
+  const Wander wander{5e-5, 0.3};
+  for (const double rate : {500.0, 240.0}) {
+    MeasuredFeatures run;
+    run.plan = plan_features(with_audit(parabolic_run(rate, 7)));
+    run.values = Eigen::VectorXd::Zero(std::ssize(run.plan.features));
+    std::vector<MeasuredFeatures> measured{run};
+    add_wander(wander, measured);
+    const Eigen::MatrixXd covariance = measured.front().own * measured.front().own.transpose();
+    const std::vector<Feature>& features = run.plan.features;
+    for (std::size_t a = 0; a < features.size(); ++a)
+      for (std::size_t b = 0; b < features.size(); ++b) {
+        const double expected = features[a].observable == features[b].observable
+                                    ? wander_covariance_of(run.plan.readings[a], run.plan.readings[b], wander)
+                                    : 0;
+        EXPECT_NEAR(covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)), expected,
+                    2e-23);  // seen: 2e-24
+      }
+  }
+  std::vector<MeasuredFeatures> without(1);
+  add_wander({}, without);
+  EXPECT_EQ(without.front().own.size(), 0);
 }
 
 }  // namespace
