@@ -34,19 +34,23 @@ Knob knob_of(const EffectRecord& record, const SearchedStrength& strength, const
   return knob;
 }
 
-/// A polynomial through the levels is trusted up to twice the strongest.
+/// A polynomial through the levels is trusted up to twice the strongest; where there are levels of both
+/// signs, of each.
 void set_levels(Candidate& candidate, const SearchedStrength& strength, double absent) {
   constexpr double trusted = 2;
-  double strongest = 0;
+  double lowest = 0, highest = 0;
   for (const double level : strength.levels) {
     const double value = value_at_level(strength, level, absent);
     candidate.levels.push_back({value, candidate.strength_of(value)});
-    strongest = std::max(strongest, std::abs(candidate.levels.back().strength));
+    lowest = std::min(lowest, candidate.levels.back().strength);
+    highest = std::max(highest, candidate.levels.back().strength);
   }
+  if (lowest == 0) lowest = -highest;
+  if (highest == 0) highest = -lowest;
   const auto [low, high] =
       std::minmax({candidate.strength_of(strength.low), candidate.strength_of(strength.high)});
-  candidate.strengths = {candidate.prior.typical, std::max(low, -trusted * strongest),
-                         std::min(high, trusted * strongest)};
+  candidate.strengths = {candidate.prior.typical, std::max(low, trusted * lowest),
+                         std::min(high, trusted * highest)};
   if (strength.even) candidate.strengths.low = std::max(candidate.strengths.low, 0.0);
 }
 

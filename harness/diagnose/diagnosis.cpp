@@ -83,6 +83,9 @@ class Course {
       judge_empty_box(balance);
     } else {
       result_.momentum = audit_momentum(recorded_, tools_.known(), balance);
+      const MomentumAudit& found = result_.momentum;
+      tools_.set_wander(
+          {std::min(found.wander.deviation, most_wander_of_noise * found.white_noise), found.wander.time});
       judge();
     }
     result_.runs_simulated = tools_.runs();
@@ -119,7 +122,9 @@ class Course {
     DiagnosisState given = state;
     given.theta = as_given(state.setup, tools_.measurement().known);
     tools_.workshop().ensembles = tools_.options().ensembles;
-    given.fit = fit_within(share::model_as_given, given, "the model as given", effort::look);
+    given.fit = fit_within(share::model_as_given, given, "the model as given", effort::least);
+    if (!is_far_off(given.fit))
+      given.fit = fit_within(share::model_as_given, given, "the model as given", effort::look);
     tools_.workshop().ensembles = nullptr;
     tools_.limit_to(rules::for_the_search);
     result_.ladder.push_back(step_of("as given", given.fit));
@@ -242,8 +247,10 @@ class Course {
     if (std::find(list.begin(), list.end(), step) == list.end()) list.push_back(step);
   }
 
-  bool is_rejected(const Refit& fit) const {
-    return fit.p_value <= rules::holds && !(fit.scatter < rules::codes_differ);
+  /// More simulations would not make it fit.
+  static bool is_far_off(const Refit& fit) {
+    constexpr double far_off = 2;  // times the misfit of the model's own runs
+    return fit.p_value <= rules::holds && fit.scatter > far_off;
   }
 
   /// The balance weighs impulses alone. Where what it found leaves the whole motion unexplained, the sets

@@ -15,6 +15,7 @@
 #include "model_ratio.hpp"
 #include "random.hpp"
 #include "refit.hpp"
+#include "rules.hpp"
 #include "signature.hpp"
 
 namespace shakedown {
@@ -132,6 +133,28 @@ void name_look_alikes(const std::vector<Eigen::VectorXd>& changes, std::vector<S
     }
 }
 
+/// Levels of a candidate as far as they were simulated.
+struct Looked {
+  std::vector<SignatureLevel> levels{};
+  int count = 0;  ///< simulations of each level, of each different setup
+  std::string reason{};
+  bool exact = false;
+
+  bool has(double strength) const {
+    return std::any_of(levels.begin(), levels.end(),
+                       [&](const SignatureLevel& level) { return level.strength == strength; });
+  }
+  /// The mean of those before and of `more` simulations.
+  void add(const SignatureLevel& level, int more) {
+    const double before = count, all = count + more;
+    for (SignatureLevel& one : levels)
+      if (one.strength == level.strength) {
+        one.change = (before * one.change + more * level.change) / all;
+        one.noise = (before * before * one.noise + double(more) * more * level.noise) / (all * all);
+      }
+  }
+};
+
 /// The cheapest first, so that where simulations run out most have been looked at.
 std::vector<std::size_t> by_cost(const std::vector<Candidate>& candidates) {
   std::vector<std::size_t> order(candidates.size());
@@ -170,20 +193,29 @@ class EffectScreen::Simulated {
     of_runs_.model.simulations = filmed(nothing);
   }
 
-  /// The posterior of the candidate's strength, from simulations at its levels; nothing where the engine
-  /// could simulate none, with the reason.
-  std::optional<Signature> signature_of(const Candidate& candidate, int count, std::string& reason) {
-    if (candidate.fitted_knobs().front().exact) return Signature({exact_level(candidate)}, without_, true);
+  /// Simulates the candidate's levels so many times more. Those that the engine cannot simulate are left out,
+  /// with the reason.
+  void look(const Candidate& candidate, const LevelEffort& effort, Looked& looked) {
+    const bool is_first = looked.count == 0;
+    if (candidate.fitted_knobs().front().exact) {
+      if (is_first) looked = {{exact_level(candidate)}, 1, "", true};
+      return;
+    }
+    const int count = candidate.dear ? effort.dear : candidate.slow ? effort.slow : effort.plain;
     std::vector<SignatureLevel> levels;
     for (const Candidate::Level& level : candidate.levels) try {
-        levels.push_back(simulated_level(candidate, level, count));
+        if (is_first || looked.has(level.strength))
+          levels.push_back(simulated_level(candidate, level, count));
       } catch (const PhysicsError& error) {
-        reason = error.what();
+        looked.reason = error.what();
       } catch (const InputError& error) {
-        reason = error.what();
+        looked.reason = error.what();
       }
-    if (levels.empty()) return std::nullopt;
-    return Signature(levels, without_);
+    if (is_first)
+      looked.levels = std::move(levels);
+    else
+      for (const SignatureLevel& level : levels) looked.add(level, count);
+    looked.count += count;
   }
 
   Screening weigh(const std::vector<Candidate>& candidates);
@@ -341,32 +373,59 @@ double EffectScreen::log_likelihood_ratio(const std::vector<MeasuredFeatures>& o
 }
 
 Screening EffectScreen::Simulated::weigh(const std::vector<Candidate>& candidates) {
+  struct Weighed {
+    ScreenedEffect effect;
+    Looked looked;
+    Eigen::VectorXd change{};  ///< at the strength found
+  };
+  std::vector<Weighed> list;
   Screening screening;
-  std::vector<Eigen::VectorXd> changes;  // at the strength found, of each in the list
+  const auto weigh_again = [&](Weighed& one) {
+    const Candidate& candidate = candidates[one.effect.candidate];
+    const Signature signature(one.looked.levels, without_, one.looked.exact);
+    weigh_by(signature, candidate, one.effect);
+    one.change = signature.change(candidate.strength_of(one.effect.value));
+  };
   bool spent = false;
   for (const std::size_t c : by_cost(candidates)) {
     const Candidate& candidate = candidates[c];
-    ScreenedEffect effect{c, candidate.effect, 0, candidate.levels.front().value, 0, candidate.prior};
-    Eigen::VectorXd change;
+    Weighed one{{c, candidate.effect, 0, candidate.levels.front().value, 0, candidate.prior}, {}};
     if (!spent) try {
-        std::string reason;
-        const int count = candidate.dear ? effort_.dear : candidate.slow ? effort_.slow : effort_.plain;
-        const std::optional<Signature> signature = signature_of(candidate, count, reason);
-        if (!signature) {
-          screening.left_out.push_back({candidate.effect, reason});
+        look(candidate, effort_.glance, one.looked);
+        if (one.looked.levels.empty()) {
+          screening.left_out.push_back({candidate.effect, one.looked.reason});
           continue;
         }
-        weigh_by(*signature, candidate, effect);
-        change = signature->change(candidate.strength_of(effect.value));
+        weigh_again(one);
       } catch (const BudgetSpent&) {
         spent = true;
       }
-    screening.list.push_back(std::move(effect));
-    changes.push_back(std::move(change));
+    list.push_back(std::move(one));
+  }
+  std::stable_sort(list.begin(), list.end(), [](const Weighed& a, const Weighed& b) {
+    return a.effect.log_evidence > b.effect.log_evidence;
+  });
+  // Less than the odds at which a model is doubted, beside the most probable or nothing.
+  double most = 0;
+  for (const Weighed& one : list)
+    if (one.effect.weighed) most = std::max(most, one.effect.log_evidence);
+  const double left_open = most + std::log(rules::doubtful);
+  try {
+    for (Weighed& one : list)
+      if (!spent && one.effect.weighed && one.effect.log_evidence > left_open) {
+        look(candidates[one.effect.candidate], effort_.look, one.looked);
+        weigh_again(one);
+      }
+  } catch (const BudgetSpent&) {  // a glance has to do
+  }
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Weighed& a, const Weighed& b) { return a.effect.gain > b.effect.gain; });
+  std::vector<Eigen::VectorXd> changes;
+  for (Weighed& one : list) {
+    screening.list.push_back(std::move(one.effect));
+    changes.push_back(std::move(one.change));
   }
   name_look_alikes(changes, screening.list);
-  std::stable_sort(screening.list.begin(), screening.list.end(),
-                   [](const ScreenedEffect& a, const ScreenedEffect& b) { return a.gain > b.gain; });
   return screening;
 }
 

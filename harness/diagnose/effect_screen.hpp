@@ -31,11 +31,17 @@ struct Screening {
   std::vector<LeftOut> left_out;  ///< candidates that the engine could not simulate
 };
 
+/// Simulations of each different setup of a candidate at each level, by what a run costs.
+struct LevelEffort {
+  int plain, slow, dear;
+};
+
 /// Simulations of each different setup.
 struct ScreenEffort {
-  int slopes = 64;   ///< for what the fitted parameters do, beside those that fits have made
-  int nothing = 96;  ///< of the model without candidates
-  int plain = 32, slow = 16, dear = 12;  ///< of each candidate at each level, by what a run costs
+  int slopes = 64;               ///< for what the fitted parameters do, beside those that fits have made
+  int nothing = 96;              ///< of the model without candidates
+  LevelEffort glance{12, 8, 8};  ///< of every candidate
+  LevelEffort look{24, 16, 12};  ///< more, of those that a glance leaves open
 };
 
 /// Covariances of each measured run's features, m^2, as the fit of the model without candidates has them: by

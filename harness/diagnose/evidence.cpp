@@ -28,13 +28,6 @@ double prior_log_odds(double odds, double candidates) {
   return std::log(each / (1 - each));
 }
 
-double beyond_emulator_noise(double fitted_gain) { return fitted_gain - rules::emulator_noise; }
-
-double believed_gain(double linear, double fitted) {
-  const double fit = beyond_emulator_noise(fitted);
-  return fitted >= linear / 2 ? std::max(linear, fit) : fit;
-}
-
 void weigh(std::vector<Hypothesis>& table) {
   constexpr double impossible = -std::numeric_limits<double>::infinity();
   double most = impossible;

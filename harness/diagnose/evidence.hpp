@@ -32,14 +32,6 @@ double log_odds_of(const StrengthSeen& seen, double candidates);
 /// likely as a usual one.
 double prior_log_odds(double odds, double candidates);
 
-/// A gain that fits found, which differ by their emulators' noise: what is left beyond one standard
-/// deviation.
-double beyond_emulator_noise(double fitted_gain);
-
-/// The gain to believe of an effect with a signature and a fit: that of the signature (its noise is that of
-/// the data alone) where the fit keeps half of it, else what the fit shows beyond its own noise.
-double believed_gain(double linear, double fitted);
-
 /// Fills in probabilities; most probable first.
 void weigh(std::vector<Hypothesis>& table);
 

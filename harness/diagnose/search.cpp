@@ -30,6 +30,10 @@ struct Rival {
   bool attempted = false;  ///< its fit had its turn
 };
 
+/// What it does to the features is arithmetic on the recording: its signature is exact, and the gain of a
+/// fit, which chaos makes, would tell less.
+bool is_arithmetic(const Rival& rival) { return rival.candidate->fitted_knobs().front().exact; }
+
 bool is_joint(const Knob& knob) { return joined_keys(knob.key).size() > 1; }
 
 /// What moves together, each by itself.
@@ -101,12 +105,12 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
   rival.fitted = true;
   rival.gain = before.fit.judged_chi2 - state.fit.judged_chi2;
   rival.held_out_gain = before.fit.judged_held_out_chi2 - state.fit.judged_held_out_chi2;
-  if (added.front().exact) return;  // the signature was arithmetic
+  if (is_arithmetic(rival)) return;
   const ScreenEffort& weighing = state.dear ? effort::rank_when_dear : effort::rank;
   try {
     rival.log_ratio =
         screen.log_likelihood_ratio(tools.features(state.setup), at_values(state.fit), weighing.nothing);
-  } catch (const BudgetSpent&) {  // the signature's evidence stands, as far as the fit keeps it
+  } catch (const BudgetSpent&) {  // the signature's evidence stands
   }
 }
 
@@ -136,16 +140,16 @@ StrengthSeen strength_fitted(const Rival& rival) {
   return seen;
 }
 
-/// The table is of what the signatures say; a fit that keeps less than half of the gain takes it back.
+/// The table is of what the signatures say, and of fitted models where they were weighed. The chi2 of two
+/// fits differ by chaos alone as much as effects that matter do.
 void weigh_rival(Rival& rival, double candidates) {
   rival.weighed = rival.fitted || rival.screened.weighed;
   const StrengthSeen& seen = rival.screened.seen;
   rival.log_odds = prior_log_odds(seen.odds, candidates);
   if (rival.screened.weighed) rival.log_odds += rival.screened.log_evidence;
-  if (!rival.fitted) return;
+  if (!std::isfinite(rival.log_ratio)) return;
   StrengthSeen fitted = strength_fitted(rival);
-  fitted.gain =
-      std::isfinite(rival.log_ratio) ? 2 * rival.log_ratio : believed_gain(rival.screened.gain, rival.gain);
+  fitted.gain = 2 * rival.log_ratio;
   rival.log_odds = log_odds_of(fitted, candidates);
 }
 
@@ -154,7 +158,7 @@ RankedEffect ranked_as(const Rival& rival) {
                       rival.screened.value,    rival.screened.look_alikes};
   if (!rival.fitted) return ranked;
   ranked.fitted = true;
-  ranked.gain = std::isfinite(rival.log_ratio) ? 2 * rival.log_ratio : rival.gain;
+  if (std::isfinite(rival.log_ratio)) ranked.gain = 2 * rival.log_ratio;
   ranked.held_out_gain = rival.held_out_gain;
   // of a difference of two chi2 of nested models
   ranked.standard_error = 2 * std::sqrt(std::abs(rival.held_out_gain));
@@ -185,13 +189,15 @@ std::vector<Candidate> open_candidates(const DiagnosisState& state, DiagnosisToo
   return candidates;
 }
 
-/// Physics is not named where the camera explains as much.
+/// ln of the odds within which physics is not named where the camera explains as much.
+constexpr double as_much = 1;
+
 void camera_first(std::vector<Rival*>& order, DiagnosisTools& tools) {
   const auto of_camera = [&](const Rival* rival) {
     const EffectRecord* record = find_record(tools.known(), rival->candidate->effect);
     return record != nullptr && record->acts_on == ActsOn::camera;
   };
-  if (order.size() > 1 && order[1]->log_odds > order[0]->log_odds - 1 && of_camera(order[1]) &&
+  if (order.size() > 1 && order[1]->log_odds > order[0]->log_odds - as_much && of_camera(order[1]) &&
       !of_camera(order[0]))
     std::swap(order[0], order[1]);
 }
@@ -271,16 +277,19 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   };
   // Fits confirm the most probable, and what has more than a tenth of its probability; where a fit takes back
   // what a signature promised, the next has its turn.
-  const bool is_rejected = state.fit.p_value <= rules::holds;
+  const bool rejected = is_rejected(state.fit);
   for (bool more = true; more && tried < static_cast<int>(rules::most_tried);) {
     more = false;
     std::stable_sort(order.begin(), order.end(), by_odds);
     // A model that the data reject is not what is there: the best of a bad lot are fitted whatever their
     // odds.
-    const double worth_a_fit = is_rejected ? -std::numeric_limits<double>::infinity()
-                                           : std::max(worth_asking, order.front()->log_odds - std::log(10));
+    const double worth_a_fit = rejected ? -std::numeric_limits<double>::infinity()
+                                        : std::max(worth_asking, order.front()->log_odds - std::log(10));
     for (Rival* rival : order) {
-      if (rival->attempted || !rival->weighed || !(rival->log_odds > worth_a_fit)) continue;
+      // Of what is arithmetic only the fit that is to be added is needed.
+      const double least =
+          is_arithmetic(*rival) ? std::max(0.0, order.front()->log_odds - as_much) : worth_a_fit;
+      if (rival->attempted || !rival->weighed || !(rival->log_odds > least)) continue;
       attempt(*rival);
       more = true;
       break;

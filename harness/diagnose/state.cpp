@@ -52,6 +52,10 @@ DiagnosisState DiagnosisState::settled(std::span<const EffectRecord* const> know
   return at;
 }
 
+bool is_rejected(const Refit& fit) {
+  return fit.p_value <= rules::holds && !(fit.scatter < rules::codes_differ);
+}
+
 LadderStep step_of(const std::string& name, const Refit& fit) {
   return {name,
           fit.error_box(),
@@ -110,6 +114,7 @@ void DiagnosisTools::without_limit() { workshop_.ask_for = nullptr; }
 std::vector<MeasuredFeatures> DiagnosisTools::features(const Setup& setup) const {
   std::vector<MeasuredFeatures> list =
       features_with_camera(with_setup(measurement_, setup, options_.known), options_.known);
+  add_wander(wander_, list);
   add_columns(damper_errors_, damper_columns_, list);
   return list;
 }
@@ -135,6 +140,7 @@ Refit DiagnosisTools::fit(const DiagnosisState& state, const std::string& stage,
   options.rounds = effort.rounds;
   if (effort.once) options.most_rounds = effort.rounds;
   options.count = effort.count;
+  options.most_looks = effort.looks;
   options.judged_by = judged_by;
   options.confirming = effort.confirming;
   options.look_again_below = look_again_below;

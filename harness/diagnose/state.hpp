@@ -10,6 +10,7 @@
 #include "diagnosis.hpp"
 #include "effect_screen.hpp"
 #include "evidence.hpp"
+#include "slow_wander.hpp"
 
 namespace shakedown {
 
@@ -35,13 +36,14 @@ struct Effort {
   bool beside = false;  ///< a poor one looks on both sides along what is known least
   bool once = false;    ///< does not follow a solution that leaves the box
   bool whole = false;   ///< not cut where runs are dear: its intervals are the answer's
+  int looks = 2;        ///< more, where the first was misled or is poor
 };
 namespace effort {
-constexpr Effort look{1, 128, 0}, refit{2, 160, 128, true}, attempt{2, 128, 96}, attempt_when_dear{1, 72, 48},
-    conclude{1, 192, 160, false, false, true}, apart{2, 160, 128, false, false, true},
-    least{1, 64, 0, false, true};
+constexpr Effort look{1, 128, 0}, refit{2, 160, 128, true}, attempt{2, 128, 96, false, false, false, 1},
+    attempt_when_dear{1, 72, 48, false, false, false, 1}, conclude{1, 192, 160, false, false, true},
+    apart{2, 160, 128, false, false, true}, least{1, 64, 0, false, true};
 constexpr int most_when_dear = 80;
-constexpr ScreenEffort rank{}, rank_when_dear{32, 48, 12, 12, 12};
+constexpr ScreenEffort rank{}, rank_when_dear{32, 48, {8, 8, 8}, {12, 12, 12}};
 }  // namespace effort
 
 /// Of simulations and time, up to the end of a step: the search for effects is to have its part though the
@@ -81,6 +83,9 @@ class DiagnosisTools {
   /// From now on features tell what release and masses are uncertain by: knobs of what all runs share.
   std::vector<Knob> weigh_damper(const Setup& setup);
 
+  /// From now on features have tracks that wander so.
+  void set_wander(const Wander& wander) { wander_ = wander; }
+
   /// The measured runs beside this setup, with what the camera does to them.
   std::vector<MeasuredFeatures> features(const Setup& setup) const;
   Refit fit(const DiagnosisState& state, const std::string& stage, const std::vector<Knob>& knobs,
@@ -101,6 +106,7 @@ class DiagnosisTools {
   int batch_ = 0;
   std::vector<DamperError> damper_errors_;
   std::vector<FeatureColumns> damper_columns_;
+  Wander wander_;
 };
 
 /// One round of the search: what was weighed, and the state with the effect that was added (none: as before).
@@ -130,6 +136,9 @@ DiagnosisState concluded(const DiagnosisState& state, DiagnosisTools& tools, con
 /// Without the effects that the later ones have made needless.
 DiagnosisState pruned(const DiagnosisState& state, DiagnosisTools& tools,
                       const std::vector<std::string>& from_balance);
+
+/// The data reject the model by more than two codes of the same physics differ.
+bool is_rejected(const Refit& fit);
 
 /// A fit as a step of the ladder.
 LadderStep step_of(const std::string& name, const Refit& fit);

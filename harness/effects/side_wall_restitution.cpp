@@ -38,7 +38,7 @@ extern const EffectRecord side_wall_restitution{
     // Known to 0.2 of that of the end walls; below 0.05 grains stay at the wall.
     .search = {.strengths = {{.parameters = "restitution",
                               .typical = -0.2,
-                              .levels = {-0.1, -0.2, -0.4, -0.6},
+                              .levels = {-0.1, 0.15, -0.2, -0.4, -0.6},
                               .low = 0.05,
                               .high = 0.999,
                               .absent_key = "restitution.grain_wall",

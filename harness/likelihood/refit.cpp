@@ -14,7 +14,6 @@ namespace shakedown {
 
 namespace {
 
-constexpr int most_looks = 2;
 /// How far (in boxes) the regression's slopes are trusted about simulations at one point, and the share of
 /// chi2 that a step must promise to be worth simulations of its own at its end.
 constexpr double nearby = 0.5, step_gain = 0.1;
@@ -187,7 +186,8 @@ std::vector<Knob> next_look(const Refit& latest, const Refit& best, const std::v
                             const RefitOptions& options, int looks) {
   const bool nearer = misled(latest) && latest.promised_chi2 < options.look_again_below;
   const bool beside_it = best.p_value <= options.look_beside_below && best.scatter < beyond_a_valley;
-  if (options.confirming == 0 || last.empty() || looks >= most_looks || !(nearer || beside_it)) return {};
+  if (options.confirming == 0 || last.empty() || looks >= options.most_looks || !(nearer || beside_it))
+    return {};
   std::vector<Knob> knobs = last;
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     if (knobs[k].exact) continue;

@@ -73,6 +73,7 @@ struct RefitOptions {
   int count = 192;      ///< simulations of each different setup in the last round, half as many before
   int rounds = 2;       ///< re-centrings
   int most_rounds = 4;  ///< when the solution keeps leaving the box
+  int most_looks = 2;   ///< again, as look_again_below and look_beside_below ask for them
   int first_run = 1000;
   /// Of the release: what two codes of the same physics differ by where restitutions are free. Of soft
   /// contacts (0.15, 0.3 and 0.4 ms; means of 48 runs) less hard impacts (of 200), the paper's damper at 40,

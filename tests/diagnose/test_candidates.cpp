@@ -68,10 +68,10 @@ TEST(Candidates, KnobsStandWhereTheEffectIsAbsent) {
   EXPECT_EQ(friction.levels[2].strength, 0.2);
   EXPECT_EQ(friction.levels[2].value, 0.2);
   const Candidate& walls = candidate_for(list, "side_wall_restitution");
-  EXPECT_NEAR(walls.levels.at(2).value, 0.2, 1e-12);
-  EXPECT_NEAR(walls.levels.at(2).strength, -0.4, 1e-12);
+  EXPECT_NEAR(walls.levels.at(3).value, 0.2, 1e-12);
+  EXPECT_NEAR(walls.levels.at(3).strength, -0.4, 1e-12);
   EXPECT_NEAR(walls.strengths.low, 0.05 - 0.6, 1e-12);
-  EXPECT_NEAR(walls.strengths.high, 0.999 - 0.6, 1e-12);
+  EXPECT_NEAR(walls.strengths.high, 2 * 0.15, 1e-12);  // trusted up to twice a level of that side
   EXPECT_EQ(friction.knobs.at(0).key, "grain_friction.grain_grain&grain_friction.grain_wall");
   const Candidate& arc = candidate_for(list, "blade_arc");
   EXPECT_TRUE(arc.knobs.empty());

@@ -240,14 +240,4 @@ TEST(Evidence, TiesAreWhatItMayBeInstead) {
   EXPECT_TRUE(ties_of({}).empty());
 }
 
-TEST(Evidence, TheLinearGainIsBelievedWhereTheFitKeepsHalfOfIt) {
-  const double noise = rules::emulator_noise;
-  EXPECT_EQ(beyond_emulator_noise(100), 100 - noise);
-  EXPECT_EQ(believed_gain(100, 60), 100);
-  EXPECT_EQ(believed_gain(100, 140), 140 - noise);
-  EXPECT_EQ(believed_gain(100, 104), 100);
-  EXPECT_EQ(believed_gain(100, 40), 40 - noise);
-  EXPECT_EQ(believed_gain(0, 5), 0);
-}
-
 }  // namespace
