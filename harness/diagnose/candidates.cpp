@@ -74,6 +74,20 @@ Candidate candidate_of(const EffectRecord& record, const Search& search, const S
   return candidate;
 }
 
+/// The same search, once for each value of its shape. The momentum balance tells those of what acts on the
+/// box.
+std::vector<Search> shapes_of(const EffectRecord& record, const Search& search) {
+  if (!has_shapes(record)) return {search};
+  std::vector<Search> shapes;
+  for (const double value : search.shape->values) {
+    shapes.push_back(search);
+    shapes.back().odds /= static_cast<double>(search.shape->values.size());
+    for (auto& [parameter, beside] : shapes.back().besides)
+      if (parameter == search.shape->parameter) beside = value;
+  }
+  return shapes;
+}
+
 /// False where this setup cannot have it: a cubic spring without a displacement.
 bool possible_in(Setup setup, const Candidate& candidate, std::span<const EffectRecord* const> known) {
   try {
@@ -117,8 +131,10 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
       continue;
     for (const SearchedStrength& strength : search.strengths) {
       if (is_present(setup, *record, strength, known)) continue;
-      Candidate candidate = candidate_of(*record, search, strength, setup);
-      if (possible_in(setup, candidate, known)) list.push_back(std::move(candidate));
+      for (const Search& shaped : shapes_of(*record, search)) {
+        Candidate candidate = candidate_of(*record, shaped, strength, setup);
+        if (possible_in(setup, candidate, known)) list.push_back(std::move(candidate));
+      }
     }
   }
   return list;
@@ -135,6 +151,11 @@ double Candidate::value_of(double strength) const {
 double Candidate::strength_of(double value) const {
   const double absent = fitted_knobs().front().absent;
   return std::isinf(absent) ? 1 / (value * value) : value - absent;
+}
+
+bool has_shapes(const EffectRecord& record) {
+  return record.search.shape.has_value() &&
+         (record.acts_on == ActsOn::grains || record.acts_on == ActsOn::contact);
 }
 
 bool is_modelled(const Engine& engine, const EffectRecord& record) {

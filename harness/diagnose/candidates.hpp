@@ -40,6 +40,9 @@ struct Candidate {
 std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std::string>& only,
                                       std::span<const EffectRecord* const> known, const Engine& engine);
 
+/// Ensembles try each value of its shape, as candidates of their own.
+bool has_shapes(const EffectRecord& record);
+
 /// True where the engine can run the setup with this effect at its defaults.
 bool is_modelled(const Engine& engine, const EffectRecord& record);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "candidates.hpp"
 #include "errors.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
@@ -68,6 +69,22 @@ void set_parameters(const DiagnosisState& final, const DiagnosisTools& tools, Di
           {key, value.value, value.low, value.high, si_unit_of_key(key, tools.known()), ""});
       set_number(d.amended, key, value.value, tools.known());
     }
+  }
+}
+
+/// Which of the shapes that were tried an effect was fitted with: no strength tells it.
+void note_shapes(Diagnosis& d, std::span<const EffectRecord* const> known) {
+  for (const std::string& effect : d.missing) {
+    const EffectRecord* record = find_record(known, effect);
+    if (record == nullptr || !has_shapes(*record)) continue;
+    const SearchedShape& shape = *record->search.shape;
+    const std::string unit(record->find(shape.parameter)->unit);
+    const double fitted = get_number(d.amended, effect + "." + std::string(shape.parameter), known);
+    std::string others;
+    for (const double value : shape.values)
+      if (value != fitted) others += (others.empty() ? "" : ", ") + write_quantity(value, unit);
+    d.notes.push_back(effect + " was fitted with " + std::string(shape.parameter) + " = " +
+                      write_quantity(fitted, unit) + ", which explains more than " + others);
   }
 }
 
@@ -246,6 +263,7 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
     set_formula(d);
   }
   if (refitted) set_parameters(final, tools, d);
+  note_shapes(d, tools.known());
   complete_ranking(d);
   settle_hypotheses(d, findings);
   d.sentence = sentence_of(d, tools.known());

@@ -310,10 +310,12 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   camera_first(fitted, tools);
   round.added = true;
   round.next = fitted[0]->state.settled(tools.known());
-  if (fitted.size() > 1) {
-    const DiagnosisState second = fitted[1]->state.settled(tools.known());
-    round.runner_up = fitted[1]->candidate->effect;
-    round.runner_up_setup = second.setup;
+  const auto second = std::find_if(fitted.begin(), fitted.end(), [&](const Rival* rival) {
+    return rival->candidate->effect != fitted[0]->candidate->effect;
+  });
+  if (second != fitted.end()) {
+    round.runner_up = (*second)->candidate->effect;
+    round.runner_up_setup = (*second)->state.settled(tools.known()).setup;
   }
   return round;
 }

@@ -85,6 +85,22 @@ TEST(Candidates, KnobsStandWhereTheEffectIsAbsent) {
   EXPECT_FALSE(candidate_for(list, "spring_cubic").prior.one_sided);
 }
 
+TEST(Candidates, AShapeThatNoStrengthTellsMakesAlternatives) {
+  const std::vector<Candidate> list =
+      candidates_for(shakedown::Setup{}, {"grain_cohesion"}, all_effects(), *engine_named("hard"));
+  ASSERT_EQ(list.size(), 2u);
+  std::vector<double> ranges;
+  double odds = 0;
+  for (const Candidate& candidate : list) {
+    ASSERT_EQ(candidate.fixed.size(), 1u);
+    EXPECT_EQ(candidate.fixed.front().first, "grain_cohesion.range");
+    ranges.push_back(candidate.fixed.front().second);
+    odds += candidate.prior.odds;
+  }
+  EXPECT_EQ(ranges, (std::vector{2e-5, 2e-4}));
+  EXPECT_NEAR(odds, 0.135, 1e-12);  // as likely together as one
+}
+
 TEST(Candidates, LeaveOutWhatTheSetupHasAndWhatItCannotHave) {
   shakedown::Setup setup;
   set_number(setup, "spring_cubic.coefficient", 0.1, all_effects());
@@ -95,7 +111,7 @@ TEST(Candidates, LeaveOutWhatTheSetupHasAndWhatItCannotHave) {
   const std::vector<Candidate> list = candidates_for(at_rest, {}, all_effects(), *engine_named("hard"));
   EXPECT_FALSE(list.empty());
   for (const Candidate& candidate : list) EXPECT_NE(candidate.effect, "spring_cubic");
-  EXPECT_EQ(candidates_for({}, {"grain_cohesion"}, all_effects(), *engine_named("hard")).size(), 1u);
+  EXPECT_EQ(candidates_for({}, {"grain_air_drag"}, all_effects(), *engine_named("hard")).size(), 1u);
 }
 
 namespace {
