@@ -248,7 +248,7 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   findings.balance = d.momentum.test_of(d.momentum.final_fit);
   findings.left = final.fit.left();
   for (Difference& one : findings.left) one.amplitude = std::abs(user.release.displacement);
-  if (refitted) findings.left.front().as_given = given.fit.error_box();
+  if (refitted) compare_with_given(given.fit.validation(), final.fit.validation(), findings.left.front());
   d.left = findings.left;
   d.judgement = judgement_of(findings.features, findings.balance, findings.left);
   d.validation = final.fit.validation();

@@ -9,6 +9,24 @@
 
 namespace shakedown {
 
+namespace {
+
+double error_of_box(const std::vector<Validation>& rows) {
+  double square = 0, count = 0;
+  for (const Validation& row : rows)
+    if (row.observable == "box") square += row.error * row.error, ++count;
+  return std::sqrt(square / count);  // NaN without rows
+}
+
+}  // namespace
+
+void compare_with_given(const std::vector<Validation>& given, const std::vector<Validation>& fitted,
+                        Difference& box) {
+  const double before = error_of_box(given), after = error_of_box(fitted);
+  if (std::isnan(before) || std::isnan(after)) return;
+  box.as_given = before, box.error = after;
+}
+
 Verdict verdict_of(const Findings& findings) {
   const ModelJudgement judgement = judgement_of(findings.features, findings.balance, findings.left);
   if (findings.unlisted) return Verdict::unknown;

@@ -6,6 +6,12 @@
 
 namespace shakedown {
 
+/// Sets error and as_given of the whole box, m, rms of all runs, from the rows of two validations: what each
+/// run has of its own (trigger, release, a wander) at its most probable. Without that a late trigger weighs
+/// more than whatever a fit mends, and the error seems to rise. Nothing is changed where a row is missing.
+void compare_with_given(const std::vector<Validation>& given, const std::vector<Validation>& fitted,
+                        Difference& box);
+
 /// What the verdict rests on.
 struct Findings {
   bool unlisted = false;           ///< a force of no list acts on the box

@@ -104,4 +104,24 @@ TEST(Verdict, WhatStandsOutIsSortedByCertainty) {
   EXPECT_TRUE(standing_out({}).empty());
 }
 
+TEST(Verdict, ALateTriggerIsNoErrorThatRose) {
+  // Two late runs: the box is 2 mm off before and 2.4 mm after a fit, most of it the trigger's own doing.
+  const std::vector<Validation> given{{"a", "box", 9e-4, 3e-4, 0, 1e-4},
+                                      {"a", "centre", 1e-3, 1e-3, 0, 0},
+                                      {"b", "box", 7e-4, 3e-4, 0, 1e-4}},
+      fitted{{"a", "box", 3e-4, 3e-4, 0, 1e-4}, {"b", "box", 4e-4, 3e-4, 0, 1e-4}};
+  Difference box{"box", 2.4e-3, 8e-4, 2e-3};
+  ASSERT_NE(judgement_of({0.5, 1, ""}, {0.5, 1, ""}, {box}).standing, Standing::holds);
+  compare_with_given(given, fitted, box);
+  EXPECT_NEAR(box.as_given, 1e-4 * std::sqrt((81 + 49) / 2.0), 1e-12);
+  EXPECT_NEAR(box.error, 1e-4 * std::sqrt((9 + 16) / 2.0), 1e-12);
+  EXPECT_EQ(judgement_of({0.5, 1, ""}, {0.5, 1, ""}, {box}).standing, Standing::holds);
+  Difference alone = box;
+  compare_with_given({}, fitted, alone);
+  EXPECT_EQ(alone.error, box.error);
+  // It still speaks where a fit made things worse.
+  compare_with_given(fitted, {{"a", "box", 3e-3, 3e-4, 0, 1e-4}}, box);
+  EXPECT_NE(judgement_of({0.5, 1, ""}, {0.5, 1, ""}, {box}).standing, Standing::holds);
+}
+
 }  // namespace
