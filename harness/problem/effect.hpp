@@ -98,7 +98,8 @@ struct SearchedHarmonic {
 };
 
 /// A length or time that shapes the law and that no strength tells. The momentum balance takes each value as
-/// an alternative of its own and then looks between its neighbours; all else takes the value in `besides`.
+/// an alternative of its own and then looks between its neighbours; of what acts on grains or in their
+/// contacts ensembles take each; all else takes the value in `besides`.
 struct SearchedShape {
   std::string_view parameter{};
   std::vector<double> values{};  ///< SI, ascending
