@@ -84,7 +84,7 @@ void note_shapes(Diagnosis& d, std::span<const EffectRecord* const> known) {
     for (const double value : shape.values)
       if (value != fitted) others += (others.empty() ? "" : ", ") + write_quantity(value, unit);
     d.notes.push_back(effect + " was fitted with " + std::string(shape.parameter) + " = " +
-                      write_quantity(fitted, unit) + ", which explains more than " + others);
+                      write_quantity(fitted, unit) + "; it was looked for with " + others + " too");
   }
 }
 

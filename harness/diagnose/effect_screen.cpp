@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "effect_screen.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,9 +8,11 @@
 #include <utility>
 
 #include "errors.hpp"
+#include "feature_coordinates.hpp"
 #include "feature_covariance.hpp"
 #include "linear_model.hpp"
 #include "model_ratio.hpp"
+#include "outside.hpp"
 #include "random.hpp"
 #include "refit.hpp"
 #include "rules.hpp"
@@ -22,89 +22,21 @@ namespace shakedown {
 
 namespace {
 
+/// What two codes differ by in a feature of this run, m.
+double model_error_of(const MeasuredFeatures& measured) {
+  return RefitOptions{}.model_error * measured.setup.release.displacement;
+}
+
 /// Of each run's chaos, camera noise and difference of two codes.
 using CovarianceOf = Eigen::MatrixXd(const Eigen::MatrixXd&, const FeaturePlan&, double);
 std::vector<Eigen::MatrixXd> covariances_of(const std::vector<MeasuredFeatures>& measured,
                                             const std::vector<Emulator>& emulators, CovarianceOf& of) {
   std::vector<Eigen::MatrixXd> list;
   for (std::size_t r = 0; r < measured.size(); ++r)
-    list.push_back(with_own(of(emulators[r].residuals, measured[r].plan,
-                               RefitOptions{}.model_error * measured[r].setup.release.displacement),
-                            measured[r]));
+    list.push_back(
+        with_own(of(emulators[r].residuals, measured[r].plan, model_error_of(measured[r])), measured[r]));
   return list;
 }
-
-/// Coordinates of one run's features in which its metric is one and chaos from run to run has no
-/// correlations: a share of each coordinate's variance is chaos, the rest the camera's and the run's own.
-class Coordinates {
- public:
-  Coordinates(const MeasuredFeatures& measured, const Eigen::MatrixXd& covariance) {
-    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
-    const double model_error = RefitOptions{}.model_error * measured.setup.release.displacement;
-    Eigen::MatrixXd known =
-        with_own(Eigen::MatrixXd::Zero(measured.values.size(), measured.values.size()), measured);
-    for (Eigen::Index f = 0; f < known.rows(); ++f)
-      known(f, f) +=
-          std::pow(measured.plan.features[static_cast<std::size_t>(f)].noise, 2) + model_error * model_error;
-    const Eigen::MatrixXd half = root.matrixL().solve(known);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(
-        root.matrixL().solve(half.transpose()).transpose());
-    to_ = axes.eigenvectors().transpose() *
-          root.matrixL().solve(Eigen::MatrixXd::Identity(known.rows(), known.rows()));
-    chaos_ = (1 - axes.eigenvalues().array()).max(0.0).min(1.0);
-  }
-  Eigen::VectorXd operator()(const Eigen::VectorXd& features) const { return to_ * features; }
-  /// Of each coordinate where simulations have these residuals. Between them chaos is as in the metric but
-  /// for a factor in each quarter of the coordinates, by their share of chaos: some simulations tell that
-  /// well.
-  Eigen::ArrayXd variance(const Eigen::MatrixXd& residuals) const {
-    constexpr Eigen::Index parts = 4;
-    const Eigen::ArrayXd seen = (residuals * to_.transpose()).colwise().squaredNorm().transpose().array() /
-                                static_cast<double>(residuals.rows());
-    Eigen::ArrayXd variance = 1 - chaos_;
-    for (Eigen::Index part = 0; part < parts; ++part) {
-      const Eigen::Index from = part * chaos_.size() / parts,
-                         count = (part + 1) * chaos_.size() / parts - from;
-      const double expected = chaos_.segment(from, count).sum();
-      if (expected > 0)
-        variance.segment(from, count) +=
-            chaos_.segment(from, count) * (seen.segment(from, count).sum() / expected);
-    }
-    return variance;
-  }
-  /// Single simulations as a camera would have filmed them.
-  Eigen::MatrixXd filmed(const Eigen::MatrixXd& residuals, Random& random) const {
-    Eigen::MatrixXd rows = residuals * to_.transpose();
-    for (Eigen::Index f = 0; f < rows.cols(); ++f) {
-      const double noise = std::sqrt(1 - chaos_[f]);
-      for (Eigen::Index i = 0; i < rows.rows(); ++i) rows(i, f) += noise * random.normal();
-    }
-    return rows;
-  }
-  double chaos(const Eigen::MatrixXd& residuals) const {
-    return (residuals * to_.transpose()).squaredNorm() / static_cast<double>(residuals.rows());
-  }
-
- private:
-  Eigen::MatrixXd to_;
-  Eigen::ArrayXd chaos_;  ///< share of each coordinate, descending
-};
-
-/// What free parameters cannot take up of a column. Below the features stands a row for each of them: what is
-/// known of it beforehand.
-class Outside {
- public:
-  explicit Outside(const Eigen::MatrixXd& free)
-      : free_(free),
-        normal_(free.transpose() * free + 1e-9 * Eigen::MatrixXd::Identity(free.cols(), free.cols())) {}
-  Eigen::VectorXd operator()(const Eigen::VectorXd& column) const {
-    return column - free_ * normal_.solve(free_.transpose() * column);
-  }
-
- private:
-  Eigen::MatrixXd free_;
-  Eigen::LDLT<Eigen::MatrixXd> normal_;
-};
 
 std::vector<Knob> at_a_point(std::vector<Knob> knobs) {
   for (Knob& knob : knobs) knob.width = 0;
@@ -247,7 +179,7 @@ class EffectScreen::Simulated {
                  const std::vector<Emulator>& slopes, const std::vector<Emulator>& nothing) const {
     Frame frame;
     for (std::size_t r = 0; r < measured_.size(); ++r)
-      frame.coordinates.emplace_back(measured_[r], covariances[r]);
+      frame.coordinates.emplace_back(measured_[r], covariances[r], model_error_of(measured_[r]));
     const auto count = std::ssize(fitted_);
     std::vector<Eigen::VectorXd> left;
     for (std::size_t r = 0; r < measured_.size(); ++r) left.push_back(measured_[r].values - means_[r]);

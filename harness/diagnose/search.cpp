@@ -22,7 +22,7 @@ struct Rival {
   const Candidate* candidate;
   ScreenedEffect screened;
   double log_odds = 0;
-  double gain = 0, held_out_gain = 0;  ///< of chi2, fitted
+  double held_out_gain = 0;         ///< of chi2, fitted
   double log_ratio = std::nan("");  ///< ln likelihood of the fitted model over that before, means and spreads
   bool fitted = false;
   DiagnosisState state{};  ///< where it was fitted
@@ -103,7 +103,6 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
   state.fit = tools.fit(state, stage, knobs, effort, &before.fit, lowest);
   state.dear = before.dear || candidate.dear;
   rival.fitted = true;
-  rival.gain = before.fit.judged_chi2 - state.fit.judged_chi2;
   rival.held_out_gain = before.fit.judged_held_out_chi2 - state.fit.judged_held_out_chi2;
   if (is_arithmetic(rival)) return;
   const ScreenEffort& weighing = state.dear ? effort::rank_when_dear : effort::rank;
@@ -114,16 +113,16 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
   }
 }
 
-/// Among these effects, each alone, and nothing.
+/// Of this effect in any of its forms, among these, each alone, and nothing.
 double probability_among(const std::vector<Rival>& rivals, const Rival& one) {
   std::vector<Hypothesis> table{{{}, 0, 0}};
   for (const Rival& rival : rivals)
     if (std::isfinite(rival.log_odds)) table.push_back({{rival.candidate->effect}, rival.log_odds, 0});
   weigh(table);
+  double sum = 0;
   for (const Hypothesis& h : table)
-    if (h.effects == std::vector<std::string>{one.candidate->effect} && h.log_odds == one.log_odds)
-      return h.probability;
-  return 0;
+    if (h.effects == std::vector<std::string>{one.candidate->effect}) sum += h.probability;
+  return sum;
 }
 
 /// The fitted strength of a rival, as the prior counts it.
@@ -189,7 +188,8 @@ std::vector<Candidate> open_candidates(const DiagnosisState& state, DiagnosisToo
   return candidates;
 }
 
-/// ln of the odds within which physics is not named where the camera explains as much.
+/// ln of the odds within which physics is not named where the camera explains as much: an assumption, a
+/// factor of e.
 constexpr double as_much = 1;
 
 void camera_first(std::vector<Rival*>& order, DiagnosisTools& tools) {

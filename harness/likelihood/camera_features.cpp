@@ -70,19 +70,23 @@ double own_variance(const FeaturePlan::Reading& reading, double memory) {
 
 Eigen::MatrixXd wander_covariance(const FeaturePlan& plan, const Wander& wander) {
   const Eigen::Index count = std::ssize(plan.features);
+  // Frames of one bin lie before all of a later one, where exp(-(t' - t) / memory) is a product.
+  Eigen::ArrayXd leaving(count), arriving(count);
+  for (Eigen::Index f = 0; f < count; ++f) {
+    const FeaturePlan::Reading& reading = plan.readings[static_cast<std::size_t>(f)];
+    const double middle = plan.features[static_cast<std::size_t>(f)].time;
+    leaving[f] = weighed(reading, middle, wander.time, 1);
+    arriving[f] = weighed(reading, middle, wander.time, -1);
+  }
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index a = 0; a < count; ++a) {
     const Feature& first = plan.features[static_cast<std::size_t>(a)];
-    const FeaturePlan::Reading& of_first = plan.readings[static_cast<std::size_t>(a)];
-    covariance(a, a) = own_variance(of_first, wander.time);
-    // Frames of one bin lie before all of a later one, where exp(-(t' - t) / memory) is a product.
-    const double leaving = weighed(of_first, first.time, wander.time, 1);
+    covariance(a, a) = own_variance(plan.readings[static_cast<std::size_t>(a)], wander.time);
     for (Eigen::Index b = a + 1; b < count; ++b) {
       const Feature& later = plan.features[static_cast<std::size_t>(b)];
       if (later.observable != first.observable) break;
       covariance(a, b) = covariance(b, a) =
-          leaving * weighed(plan.readings[static_cast<std::size_t>(b)], later.time, wander.time, -1) *
-          std::exp(-(later.time - first.time) / wander.time);
+          leaving[a] * arriving[b] * std::exp(-(later.time - first.time) / wander.time);
     }
   }
   return wander.deviation * wander.deviation * covariance;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "model_ratio.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "outside.hpp"
 
 namespace shakedown {
 
@@ -12,28 +13,6 @@ namespace {
 /// Squares per feature that count as spread: more is a mean that is off, which no spread explains. An
 /// assumption; side walls of 0.11 instead of 0.76 make it 1.33 times as much.
 constexpr double widest = 1.5;
-
-/// Columns by the square roots of these variances, without what the free ones take up.
-class Outside {
- public:
-  Outside(const Eigen::MatrixXd& free, const Eigen::ArrayXd& variance)
-      : scale_(variance.rsqrt()), free_(scale_.matrix().asDiagonal() * free) {
-    constexpr double open = 1e-9;  // a parameter that nothing tells of stays where it is
-    Eigen::MatrixXd normal = free_.transpose() * free_;
-    normal.diagonal().array() += open;
-    root_.compute(normal);
-  }
-  Eigen::MatrixXd operator()(const Eigen::MatrixXd& columns) const {
-    const Eigen::MatrixXd scaled = scale_.matrix().asDiagonal() * columns;
-    if (free_.cols() == 0) return scaled;
-    return scaled - free_ * root_.solve(free_.transpose() * scaled);
-  }
-
- private:
-  Eigen::ArrayXd scale_;
-  Eigen::MatrixXd free_;
-  Eigen::LLT<Eigen::MatrixXd> root_;
-};
 
 double by_spread(const OtherModel& other, const FirstModel& first, double chi2_per_feature) {
   Eigen::MatrixXd free(first.residual.size(), first.free.cols() + 1);

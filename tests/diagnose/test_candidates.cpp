@@ -71,7 +71,7 @@ TEST(Candidates, KnobsStandWhereTheEffectIsAbsent) {
   EXPECT_NEAR(walls.levels.at(3).value, 0.2, 1e-12);
   EXPECT_NEAR(walls.levels.at(3).strength, -0.4, 1e-12);
   EXPECT_NEAR(walls.strengths.low, 0.05 - 0.6, 1e-12);
-  EXPECT_NEAR(walls.strengths.high, 2 * 0.15, 1e-12);  // trusted up to twice a level of that side
+  EXPECT_DOUBLE_EQ(walls.strengths.high, 2 * 0.15);  // trusted up to twice a level of that side
   EXPECT_EQ(friction.knobs.at(0).key, "grain_friction.grain_grain&grain_friction.grain_wall");
   const Candidate& arc = candidate_for(list, "blade_arc");
   EXPECT_TRUE(arc.knobs.empty());
@@ -98,7 +98,7 @@ TEST(Candidates, AShapeThatNoStrengthTellsMakesAlternatives) {
     odds += candidate.prior.odds;
   }
   EXPECT_EQ(ranges, (std::vector{2e-5, 2e-4}));
-  EXPECT_NEAR(odds, 0.135, 1e-12);  // as likely together as one
+  EXPECT_DOUBLE_EQ(odds, 0.135);  // as likely together as one
 }
 
 TEST(Candidates, LeaveOutWhatTheSetupHasAndWhatItCannotHave) {

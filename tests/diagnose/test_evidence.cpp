@@ -217,20 +217,20 @@ TEST(Evidence, APValueSaysNothingAgainstAnEffectThatWasWeighedAndNotFitted) {
   const std::vector<Hypothesis> table{{{"b"}, 0, 0.97}, {{}, 0, 0.02}, {{"c"}, 0, 0.01}};
   const double fails = 0.9, prior = rules::something_else / (1 - rules::something_else);
   const std::vector<Hypothesis> weighed = with_something_else_or({{}, {"b"}}, table, fails);
-  EXPECT_NEAR(sum_of(weighed), 1, 1e-12);
+  EXPECT_DOUBLE_EQ(sum_of(weighed), 1);
   const double odds = 0.97 * prior + 0.03 * fails / (1 - fails);
   EXPECT_EQ(weighed.front().effects, std::vector<std::string>{"b"});
-  EXPECT_NEAR(weighed.front().probability, 0.97 / (1 + odds), 1e-12);
-  EXPECT_NEAR(weighed[1].probability, odds / (1 + odds), 1e-12);
+  EXPECT_DOUBLE_EQ(weighed.front().probability, 0.97 / (1 + odds));
+  EXPECT_DOUBLE_EQ(weighed[1].probability, odds / (1 + odds));
   // Nor is it raised as what was not looked at is.
   const std::vector<Hypothesis> both = with_something_else_or({{"c"}, {"b"}}, table, fails);
-  EXPECT_NEAR(sum_of(both), 1, 1e-12);
+  EXPECT_DOUBLE_EQ(sum_of(both), 1);
   double of_b = 0, of_c = 0;
   for (const Hypothesis& h : both) {
     if (h.effects == std::vector<std::string>{"b"}) of_b = h.probability;
     if (h.effects == std::vector<std::string>{"c"}) of_c = h.probability;
   }
-  EXPECT_NEAR(of_c / of_b, 0.01 / 0.97 * fails / (1 - fails) / prior, 1e-9);
+  EXPECT_DOUBLE_EQ(of_c / of_b, 0.01 / 0.97 * fails / (1 - fails) / prior);
 }
 
 TEST(Evidence, TiesAreWhatItMayBeInstead) {

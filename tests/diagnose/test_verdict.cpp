@@ -113,8 +113,8 @@ TEST(Verdict, ALateTriggerIsNoErrorThatRose) {
   Difference box{"box", 2.4e-3, 8e-4, 2e-3};
   ASSERT_NE(judgement_of({0.5, 1, ""}, {0.5, 1, ""}, {box}).standing, Standing::holds);
   compare_with_given(given, fitted, box);
-  EXPECT_NEAR(box.as_given, 1e-4 * std::sqrt((81 + 49) / 2.0), 1e-12);
-  EXPECT_NEAR(box.error, 1e-4 * std::sqrt((9 + 16) / 2.0), 1e-12);
+  EXPECT_DOUBLE_EQ(box.as_given, 1e-4 * std::sqrt((81 + 49) / 2.0));
+  EXPECT_DOUBLE_EQ(box.error, 1e-4 * std::sqrt((9 + 16) / 2.0));
   EXPECT_EQ(judgement_of({0.5, 1, ""}, {0.5, 1, ""}, {box}).standing, Standing::holds);
   Difference alone = box;
   compare_with_given({}, fitted, alone);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "camera_features.hpp"
@@ -79,6 +80,7 @@ double wander_covariance_of(const FeaturePlan::Reading& a, const FeaturePlan::Re
 
 TEST(Features, ATrackThatWandersMakesThemVaryTogether) {
   const Wander wander{5e-5, 0.3};
+  double worst = 0;
   for (const double rate : {500.0, 240.0}) {
     MeasuredFeatures run;
     run.plan = plan_features(with_audit(parabolic_run(rate, 7)));
@@ -92,10 +94,12 @@ TEST(Features, ATrackThatWandersMakesThemVaryTogether) {
         const double expected = features[a].observable == features[b].observable
                                     ? wander_covariance_of(run.plan.readings[a], run.plan.readings[b], wander)
                                     : 0;
-        EXPECT_NEAR(covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)), expected,
-                    2e-23);  // seen: 2e-24
+        worst = std::max(
+            worst,
+            std::abs(covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) - expected));
       }
   }
+  EXPECT_LT(worst, 1e-22);  // m^2, of 2.5e-9; seen: 5.4e-24
   std::vector<MeasuredFeatures> without(1);
   add_wander({}, without);
   EXPECT_EQ(without.front().own.size(), 0);

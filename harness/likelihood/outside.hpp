@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// What free parameters cannot take up of a change of the features.
+#pragma once
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+namespace shakedown {
+
+/// Columns by the square roots of the coordinates' variances, less what the free columns take up of them
+/// (least squares). A row of the free ones below the features may say what is known of each beforehand.
+class Outside {
+ public:
+  /// `free`: coordinates x parameters; `variance`: of each coordinate, in its unit squared.
+  Outside(const Eigen::MatrixXd& free, const Eigen::ArrayXd& variance);
+  /// Every variance one.
+  explicit Outside(const Eigen::MatrixXd& free) : Outside(free, Eigen::ArrayXd::Ones(free.rows())) {}
+  Eigen::MatrixXd operator()(const Eigen::MatrixXd& columns) const;
+
+ private:
+  Eigen::ArrayXd scale_;
+  Eigen::MatrixXd free_;
+  Eigen::LLT<Eigen::MatrixXd> root_;
+};
+
+}  // namespace shakedown
