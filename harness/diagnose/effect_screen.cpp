@@ -103,26 +103,30 @@ std::vector<std::size_t> by_cost(const std::vector<Candidate>& candidates) {
 class EffectScreen::Simulated {
  public:
   Simulated(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted, const Workshop& workshop,
-            const ScreenEffort& effort, int first_run, const ScreenMetric& metric)
+            const ScreenEffort& effort, int first_run, const ScreenStart& start)
       : measured_(std::move(measured)),
         fitted_(std::move(fitted)),
         workshop_(workshop),
         effort_(effort),
         first_run_(first_run) {
+    const bool simulates = start.emulators.empty();
     const std::vector<Emulator> nothing =
-        emulate(measured_, at_a_point(fitted_), effort.nothing, next_run(), workshop);
-    const std::vector<Knob> about = straight(fitted_, 0.5);
-    const std::vector<Emulator> slopes = emulate(measured_, about, effort.slopes, next_run(), workshop);
+        simulates ? emulate(measured_, at_a_point(fitted_), effort.nothing, next_run(), workshop)
+                  : start.emulators;
+    const std::vector<Knob> about = simulates ? straight(fitted_, 0.5) : start.knobs;
+    const std::vector<Emulator> slopes =
+        simulates ? emulate(measured_, about, effort.slopes, next_run(), workshop) : start.emulators;
     for (const Emulator& e : nothing) means_.push_back(e.coefficients.row(0).transpose());
-    ScreenMetric used = metric;
+    ScreenStart used{start.for_means, start.likeliest};
     if (used.for_means.empty()) used.for_means = covariances_of(measured_, nothing, covariance_for_means);
     if (used.likeliest.empty()) used.likeliest = covariances_of(measured_, nothing, feature_covariance);
     of_means_ = frame_of(used.for_means, about, slopes, nothing);
     outside_.emplace(of_means_.model.free);
     without_ = {(*outside_)(of_means_.model.residual), of_means_.model.noise};
     of_runs_ = frame_of(used.likeliest, about, slopes, nothing);
-    of_runs_.model.variance = variances(nothing);
+    of_runs_.model.variance = variances(nothing, effort.nothing);
     of_runs_.model.simulations = filmed(nothing);
+    of_runs_.model.codes_differ = rules::codes_differ;
   }
 
   /// Simulates the candidate's levels so many times more. Those that the engine cannot simulate are left out,
@@ -134,10 +138,15 @@ class EffectScreen::Simulated {
       return;
     }
     const int count = candidate.dear ? effort.dear : candidate.slow ? effort.slow : effort.plain;
+    // Far from what is measured already where it is weak: what is stronger, of the same sign, is farther.
+    constexpr double hopeless = -100;  // ln of its likelihood over that of nothing
+    bool is_hopeless[2] = {false, false};
     std::vector<SignatureLevel> levels;
     for (const Candidate::Level& level : candidate.levels) try {
-        if (is_first || looked.has(level.strength))
-          levels.push_back(simulated_level(candidate, level, count));
+        bool& none_of_this_sign = is_hopeless[level.strength < 0];
+        if (is_first ? none_of_this_sign : !looked.has(level.strength)) continue;
+        levels.push_back(simulated_level(candidate, level, count));
+        none_of_this_sign = Signature({levels.back()}, without_).log_likelihood(level.strength) < hopeless;
       } catch (const PhysicsError& error) {
         looked.reason = error.what();
       } catch (const InputError& error) {
@@ -155,7 +164,7 @@ class EffectScreen::Simulated {
   double log_likelihood_ratio(const std::vector<MeasuredFeatures>& other, const std::vector<Knob>& values,
                               int count) {
     const std::vector<Emulator> there = emulate(other, at_a_point(values), count, next_run(), workshop_);
-    OtherModel model{change_to(there, of_runs_), chaos_of(there, of_runs_) / count, variances(there)};
+    OtherModel model{change_to(there, of_runs_), chaos_of(there, of_runs_) / count, variances(there, count)};
     // Where parameters were moved, what is known of them beforehand counts from there.
     const Eigen::Index features = model.change.size() - std::ssize(fitted_);
     for (std::size_t k = 0; k < fitted_.size(); ++k)
@@ -218,12 +227,15 @@ class EffectScreen::Simulated {
     return stacked(changes, frame);
   }
 
-  Eigen::ArrayXd variances(const std::vector<Emulator>& there) const {
+  /// Of so many simulations at most: an estimate's error is to be the same in two models that are compared.
+  Eigen::ArrayXd variances(const std::vector<Emulator>& there, int count) const {
     Eigen::Index total = std::ssize(fitted_), at = 0;
     for (const Emulator& e : there) total += e.residuals.cols();
     Eigen::ArrayXd column = Eigen::ArrayXd::Ones(total);
     for (std::size_t r = 0; r < there.size(); ++r) {
-      const Eigen::ArrayXd of_run = of_runs_.coordinates[r].variance(there[r].residuals);
+      const Eigen::MatrixXd& residuals = there[r].residuals;
+      const Eigen::ArrayXd of_run = of_runs_.coordinates[r].variance(
+          residuals.topRows(std::min<Eigen::Index>(residuals.rows(), count)));
       column.segment(at, of_run.size()) = of_run;
       at += of_run.size();
     }
@@ -289,9 +301,9 @@ class EffectScreen::Simulated {
 
 EffectScreen::EffectScreen(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted,
                            const Workshop& workshop, const ScreenEffort& effort, int first_run,
-                           const ScreenMetric& metric)
+                           const ScreenStart& start)
     : simulated_(std::make_unique<Simulated>(std::move(measured), std::move(fitted), workshop, effort,
-                                             first_run, metric)) {}
+                                             first_run, start)) {}
 
 EffectScreen::~EffectScreen() = default;
 

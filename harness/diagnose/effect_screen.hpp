@@ -44,20 +44,23 @@ struct ScreenEffort {
   LevelEffort look{24, 16, 12};  ///< more, of those that a glance leaves open
 };
 
-/// Covariances of each measured run's features, m^2, as the fit of the model without candidates has them: by
-/// which changes of the means are looked for, and by which a run is likely. Empty: of the screen's
-/// simulations.
-struct ScreenMetric {
+/// What the fit of the model without candidates has found already. Empty: the screen simulates.
+struct ScreenStart {
+  /// Covariances of each measured run's features, m^2: by which changes of the means are looked for, and by
+  /// which a run is likely.
   std::vector<Eigen::MatrixXd> for_means{}, likeliest{};
+  /// Straight emulators about the fitted values, by these knobs' widths.
+  std::vector<Emulator> emulators{};
+  std::vector<Knob> knobs{};
 };
 
 /// The model without candidates, simulated once, and what is asked of it. `fitted` stand at their fitted
-/// values. `first_run` addresses the random numbers. PhysicsError and InputError are of the model without
-/// candidates.
+/// values, in the order of the knobs that were fitted. `first_run` addresses the random numbers. PhysicsError
+/// and InputError are of the model without candidates.
 class EffectScreen {
  public:
   EffectScreen(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted, const Workshop& workshop,
-               const ScreenEffort& effort, int first_run, const ScreenMetric& metric = {});
+               const ScreenEffort& effort, int first_run, const ScreenStart& start = {});
   ~EffectScreen();
   EffectScreen(const EffectScreen&) = delete;
   EffectScreen& operator=(const EffectScreen&) = delete;

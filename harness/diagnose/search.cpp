@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "errors.hpp"
+#include "expect.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "nuisance.hpp"
@@ -85,6 +86,26 @@ std::vector<Knob> at_values(const Refit& fit) {
   for (std::size_t k = 0; k < knobs.size(); ++k)
     if (!knobs[k].exact) knobs[k].centre = fit.values[k].value;
   return knobs;
+}
+
+/// What the screen of the model at `knobs`, where this fit has put it, need not simulate again.
+ScreenStart start_from(const Refit& fit, const std::vector<Knob>& knobs) {
+  ScreenStart start{fit.for_means, fit.covariances};
+  const auto cut_off = [](const FittedValue& value) { return value.at_bound; };
+  if (fit.at_solution.empty() || knobs.size() != fit.knobs.size() ||
+      std::any_of(fit.values.begin(), fit.values.end(), cut_off))
+    return start;
+  start.knobs = at_values(fit);
+  start.emulators = fit.at_solution;
+  for (std::size_t k = 0; k < knobs.size(); ++k) {
+    EXPECT(knobs[k].key == fit.knobs[k].key);
+    // What is arithmetic on the recording stays where the recording was read.
+    if (!knobs[k].exact) continue;
+    const double moved = fit.knobs[k].z_of(fit.values[k].value);
+    for (Emulator& e : start.emulators)
+      e.coefficients.row(0) -= moved * e.coefficients.row(1 + static_cast<Eigen::Index>(k));
+  }
+  return start;
 }
 
 void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
@@ -226,7 +247,7 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   const double all = static_cast<double>(tools.known().size());
   EffectScreen screen(tools.features(state.setup), state.knobs(), tools.workshop(),
                       state.dear ? effort::rank_when_dear : effort::rank, tools.next_batch(),
-                      {state.fit.for_means, state.fit.covariances});
+                      start_from(state.fit, state.knobs()));
   const Screening screening = screen.weigh(candidates);
   std::vector<Rival> rivals;
   for (const ScreenedEffect& screened : screening.list)
@@ -278,13 +299,17 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   // Fits confirm the most probable, and what has more than a tenth of its probability; where a fit takes back
   // what a signature promised, the next has its turn.
   const bool rejected = is_rejected(state.fit);
+  const auto explains_it = [](const Rival& rival) {
+    return rival.fitted && rival.log_odds > 0 && !is_rejected(rival.state.fit);
+  };
   for (bool more = true; more && tried < static_cast<int>(rules::most_tried);) {
     more = false;
     std::stable_sort(order.begin(), order.end(), by_odds);
-    // A model that the data reject is not what is there: the best of a bad lot are fitted whatever their
-    // odds.
-    const double worth_a_fit = rejected ? -std::numeric_limits<double>::infinity()
-                                        : std::max(worth_asking, order.front()->log_odds - std::log(10));
+    // A model that the data reject is not what is there: until one that they do not reject was found, the
+    // best of a bad lot are fitted whatever their odds.
+    const bool all_bad = rejected && std::none_of(rivals.begin(), rivals.end(), explains_it);
+    const double worth_a_fit = all_bad ? -std::numeric_limits<double>::infinity()
+                                       : std::max(worth_asking, order.front()->log_odds - std::log(10));
     for (Rival* rival : order) {
       // Of what is arithmetic only the fit that is to be added is needed.
       const double least =

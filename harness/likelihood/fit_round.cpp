@@ -59,6 +59,12 @@ std::vector<Emulator> FitRound::recentred(const Eigen::VectorXd& z, std::vector<
   return there;
 }
 
+std::vector<Emulator> FitRound::moved_to(const Eigen::VectorXd& z) const {
+  std::vector<Emulator> moved = emulators_;
+  for (std::size_t r = 0; r < moved.size(); ++r) moved[r].coefficients.row(0) = model(r, z).transpose();
+  return moved;
+}
+
 Eigen::VectorXd FitRound::model(std::size_t r, const Eigen::VectorXd& z) const {
   return emulators_[r].coefficients.transpose() * regression_terms(knobs_, z);
 }

@@ -40,6 +40,8 @@ class FitRound {
   /// Linear emulators about z, of simulations made there (regressions on nothing) and this round's slopes, by
   /// one width of each knob.
   std::vector<Emulator> recentred(const Eigen::VectorXd& z, std::vector<Emulator> there) const;
+  /// These straight emulators about z instead of where they stand.
+  std::vector<Emulator> moved_to(const Eigen::VectorXd& z) const;
   Eigen::VectorXd model(std::size_t r, const Eigen::VectorXd& z) const;
 
   /// The smallest sum over pseudo-experiments: the model at z, a simulation that the covariance has not seen

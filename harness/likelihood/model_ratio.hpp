@@ -15,6 +15,9 @@ struct FirstModel {
   Eigen::ArrayXd variance;   ///< of each feature
   /// What single simulations leave of their mean, camera noise in them: simulations x features.
   Eigen::MatrixXd simulations;
+  /// Squares per feature, over those expected, that codes of one physics differ by: their likelihood falls
+  /// from 1 as a normal distribution of which this is two standard deviations away.
+  double codes_differ = 1;
 };
 
 struct OtherModel {
@@ -29,7 +32,9 @@ struct OtherModel {
 /// normal about a by the other and about 0 by the first, with the variance a + nu, so that it is
 /// a (b - a / 2) / (a + nu).
 /// Spread: the fall of half the sum of squares of r beside D, each by its variance, and of the logarithms of
-/// the variances; where the squares are more than 1.5 a feature they are scaled down to it. kappa: the mean
+/// the variances; where the squares are more than 1.5 a feature they are scaled down to it. All variances of
+/// a model may be larger by one factor, at the cost that `codes_differ` says, so that what is too wide
+/// everywhere says little. kappa: the mean
 /// square of D'x over |D|^2, x being single simulations, at least 1: chaos is no normal distribution of known
 /// covariance, and this is how much worse than such a one it is.
 double log_likelihood_ratio(const OtherModel& other, const FirstModel& first);

@@ -109,6 +109,7 @@ void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& meas
     set_value(best.about[k], best.about[k].at(solution[static_cast<Eigen::Index>(k)]), result.values[k]);
   result.covariances = best.round.covariances();
   result.for_means = best.round.for_means(options.model_error);
+  result.at_solution = best.round.moved_to(solution);
   const std::vector<Rule> rules = best.round.rules_of(options.judged_by);
   result.judged_chi2 = 0;
   for (std::size_t r = 0; r < measured.size(); ++r)

@@ -43,6 +43,9 @@ struct Refit {
   std::vector<Eigen::MatrixXd>
       covariances;  ///< m^2, of each measured run's features: chaos, camera noise and model error
   std::vector<Eigen::MatrixXd> for_means;  ///< covariance_for_means() of the same
+  /// Straight emulators of each measured run about the values, by one width of each knob, with the chaos of
+  /// simulations made there; empty where none were.
+  std::vector<Emulator> at_solution;
   std::vector<FittedValue> values;
   Eigen::MatrixXd covariance;  ///< of the values, in their units
   double chi2 = 0, degrees = 0;

@@ -74,6 +74,35 @@ TEST(ModelRatio, AMeanThatIsOffIsNoSpread) {
   EXPECT_LT(gain(3), 0.5 * 1.5 * features * (1 - 1 / 1.3));
 }
 
+// Two codes of one physics differ: what is wider everywhere says no more than how rarely they differ so much.
+TEST(ModelRatio, WiderEverywhereIsWhatCodesDifferBy) {
+  FirstModel first = first_with(noise(8, std::sqrt(1.25)));
+  const OtherModel wider{Eigen::VectorXd::Zero(features), 0, Eigen::ArrayXd::Constant(features, 1.2)};
+  EXPECT_GT(log_likelihood_ratio(wider, first), 3);
+  first.codes_differ = 1.4;
+  const auto away = [&](double variance) { return first.residual.squaredNorm() / features / variance - 1; };
+  ASSERT_GT(away(1.2), 0);
+  EXPECT_NEAR(log_likelihood_ratio(wider, first),
+              (std::pow(away(1) / 0.2, 2) - std::pow(away(1.2) / 0.2, 2)) / 2, 1e-12);  // seen: 0
+}
+
+// Where it is wider and where narrower does say something: the closed form of two halves.
+TEST(ModelRatio, ASpreadOfAnotherShapeCountsWhateverCodesDifferBy) {
+  constexpr double larger = 1.6, smaller = 0.8;
+  Eigen::ArrayXd variance(features);
+  variance << Eigen::ArrayXd::Constant(features / 2, larger), Eigen::ArrayXd::Constant(features / 2, smaller);
+  FirstModel first = first_with((noise(8, 1).array() * variance.sqrt()).matrix());
+  first.codes_differ = 1.4;
+  const double n = features, by_first = first.residual.squaredNorm() / n,
+               by_other = (first.residual.array().square() / variance).sum() / n;
+  ASSERT_GT(by_other, 1);
+  const double expected = (n * (std::log(by_first / by_other) - (std::log(larger) + std::log(smaller)) / 2) +
+                           std::pow((by_first - 1) / 0.2, 2) - std::pow((by_other - 1) / 0.2, 2)) /
+                          2;
+  EXPECT_NEAR(log_likelihood_ratio({Eigen::VectorXd::Zero(features), 0, variance}, first), expected, 1e-12);
+  EXPECT_GT(expected, 10);
+}
+
 // What a free parameter takes up is no evidence, whatever the variances are.
 TEST(ModelRatio, OfWhatAFreeParameterDoesIsNothing) {
   const Eigen::VectorXd change = 7 * shape(2) - 4 * shape(3);

@@ -369,6 +369,21 @@ TEST(Refit, SimulationsAtTheSolutionMoveItToTheMinimum) {
   EXPECT_GT(fits.confirmed.p_value, 0.01);
 }
 
+TEST(Refit, KeepsWhatSimulationsAtItsSolutionTold) {
+  const Bent curve(0.75, 0.12);
+  const TwoFits fits(curve, 0.85);
+  const Refit& fit = fits.confirmed;
+  EXPECT_TRUE(fits.promised.at_solution.empty());
+  ASSERT_EQ(fit.at_solution.size(), fits.measured.size());
+  for (std::size_t r = 0; r < fits.measured.size(); ++r) {
+    const Emulator& emulator = fit.at_solution[r];
+    ASSERT_EQ(emulator.coefficients.rows(), 1 + std::ssize(fit.knobs));
+    EXPECT_EQ(emulator.residuals.rows(), 96);
+    const Eigen::VectorXd mean = fits.measured[r].values - fit.runs[r].residual;
+    EXPECT_EQ((emulator.coefficients.row(0).transpose() - mean).norm(), 0);
+  }
+}
+
 TEST(EnsembleCache, ChangesNoAnswerAndSimulatesOnce) {
   const DampedOscillation engine;
   Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
