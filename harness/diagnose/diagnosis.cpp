@@ -141,12 +141,16 @@ class Course {
     DiagnosisState refitted = refit_of(state);
     result_.ladder.push_back(step_of(
         step_name(refitted.missing) + (balance.unlisted ? " + the force of the formula" : ""), refitted.fit));
+    // Beside a force that is known by its trace alone nothing else can be told for sure.
+    DiagnosisState final = refitted;
+    if (balance.unlisted)
+      final = beside(refitted);
+    else
+      final = search(refitted);
     if (refitted.missing.empty() && !balance.unlisted) note_failures(refitted.fit, result_);
     // A fit may end along the valley of the restitutions where fresh simulations find nothing gained: effects
     // are to beat the better of the two.
     const bool no_better = accepted && refitted.missing.empty() && given.fit.p_value > refitted.fit.p_value;
-    // Beside a force that is known by its trace alone nothing else can be told for sure.
-    DiagnosisState final = balance.unlisted ? refitted : search(refitted);
     if (final.missing.empty() && accepted) return conclude(user_, given, given, false, tools_, result_);
     if (!final.missing.empty() && final.missing != refitted.missing &&
         !explains(final.fit.p_value, final.fit.scatter, refitted.fit.scatter, final.fit.error_box(),
@@ -291,8 +295,31 @@ class Course {
     return best;
   }
 
-  /// Effects one after the other, while something more is probably missing.
-  DiagnosisState search(DiagnosisState state) {
+  /// The fit of parameters may have ended at the wrong place of a valley. The state with the better fit; the
+  /// ladder follows.
+  DiagnosisState& beside(DiagnosisState& refitted) {
+    if (refitted.fit.p_value > rules::doubtful) return refitted;
+    try {
+      refitted.fit = tools_.look_beside(refitted, "looking beside the fitted parameters");
+    } catch (const PhysicsError&) {  // the model cannot be simulated there: the fit stands
+      return refitted;
+    }
+    refitted = refitted.settled(tools_.known());
+    result_.ladder.back() = step_of(result_.ladder.back().step, refitted.fit);
+    return refitted;
+  }
+
+  /// So probable that no better fit of the model without it would take it back.
+  static bool is_sure(const SearchRound& round) {
+    return round.added && std::any_of(round.table.begin(), round.table.end(), [](const Hypothesis& h) {
+             return !h.effects.empty() && h.log_odds > rules::emulator_noise;
+           });
+  }
+
+  /// Effects one after the other, while something more is probably missing. `refitted`, without any of them,
+  /// is looked beside where it is doubtful and nothing was found that is sure.
+  DiagnosisState search(DiagnosisState& refitted) {
+    DiagnosisState state = refitted;
     const std::vector<std::string> from_balance = effects_of(result_.momentum);
     // A model that is accepted is searched once: chi2 of hundreds of features does not see what a single
     // effect would take away.
@@ -305,6 +332,14 @@ class Course {
         leave_out(no_round_held);
         keep_priors(state);
         break;
+      }
+      if (!searched && state.fit.p_value <= rules::doubtful && !is_sure(round)) {
+        const double before = state.fit.judged_chi2;
+        state = beside(refitted);
+        if (round.added && state.fit.judged_chi2 < before - rules::emulator_noise) try {
+            round = search_round(state, tools_, result_.momentum.seen);
+          } catch (const BudgetSpent&) {  // what was found beside the poorer fit stands
+          }
       }
       for (const std::string& effect : round.not_tried) leave_out(effect);
       for (const RankedEffect& ranked : round.ranking) keep_ranked(ranked);

@@ -389,7 +389,7 @@ DiagnosisState pruned(const DiagnosisState& state, DiagnosisTools& tools,
                   [&](const EffectChoice& choice) { return choice.record->name == effect; });
     std::erase_if(less.found, [&](const Knob& knob) { return effect_of(knob.key) == effect; });
     less.missing.erase(less.missing.begin() + static_cast<std::ptrdiff_t>(i));
-    less.fit = tools.fit(less, "is " + effect + " still needed?", less.knobs(), effort::refit);
+    less.fit = tools.fit(less, "is " + effect + " still needed?", less.knobs(), effort::beside);
     if (less.fit.p_value <= rules::holds &&
         (less.fit.scatter - state.fit.scatter) * state.fit.degrees > rules::emulator_noise)
       continue;

@@ -129,10 +129,7 @@ std::vector<Knob> DiagnosisTools::weigh_damper(const Setup& setup) {
   return knobs_of(damper_errors_, setup);
 }
 
-Refit DiagnosisTools::fit(const DiagnosisState& state, const std::string& stage,
-                          const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by,
-                          double look_again_below) {
-  stage_ = stage;
+RefitOptions DiagnosisTools::options_of(const DiagnosisState& state, Effort effort) {
   if (state.dear && !effort.whole)
     effort.count = std::min(effort.count, effort::most_when_dear),
     effort.confirming = std::min(effort.confirming, effort::most_when_dear);
@@ -141,12 +138,26 @@ Refit DiagnosisTools::fit(const DiagnosisState& state, const std::string& stage,
   if (effort.once) options.most_rounds = effort.rounds;
   options.count = effort.count;
   options.most_looks = effort.looks;
-  options.judged_by = judged_by;
   options.confirming = effort.confirming;
-  options.look_again_below = look_again_below;
   if (effort.beside) options.look_beside_below = rules::doubtful;
   options.first_run = next_batch();
+  return options;
+}
+
+Refit DiagnosisTools::fit(const DiagnosisState& state, const std::string& stage,
+                          const std::vector<Knob>& knobs, Effort effort, const Refit* judged_by,
+                          double look_again_below) {
+  stage_ = stage;
+  RefitOptions options = options_of(state, effort);
+  options.judged_by = judged_by;
+  options.look_again_below = look_again_below;
   return refit(features(state.setup), knobs, workshop_, options);
+}
+
+Refit DiagnosisTools::look_beside(const DiagnosisState& state, const std::string& stage) {
+  stage_ = stage;
+  return shakedown::look_beside(state.fit, features(state.setup), workshop_,
+                                options_of(state, effort::beside));
 }
 
 namespace {

@@ -39,7 +39,7 @@ struct Effort {
   int looks = 2;        ///< more, where the first was misled or is poor
 };
 namespace effort {
-constexpr Effort look{1, 128, 0}, refit{2, 160, 128, true},
+constexpr Effort look{1, 128, 0}, refit{2, 160, 128}, beside{2, 160, 128, true},
     attempt{.rounds = 2, .count = 128, .confirming = 96, .looks = 1},
     attempt_when_dear{.rounds = 1, .count = 72, .confirming = 48, .looks = 1},
     conclude{1, 192, 160, false, false, true}, apart{2, 160, 128, false, false, true},
@@ -93,11 +93,14 @@ class DiagnosisTools {
   Refit fit(const DiagnosisState& state, const std::string& stage, const std::vector<Knob>& knobs,
             Effort effort, const Refit* judged_by = nullptr,
             double look_again_below = std::numeric_limits<double>::infinity());
+  /// Beside the state's own fit, where that is doubtful: the better of both.
+  Refit look_beside(const DiagnosisState& state, const std::string& stage);
 
  private:
   const Measurement& measurement_;
   const DiagnoseOptions& options_;
   double share_of_time() const;
+  RefitOptions options_of(const DiagnosisState& state, Effort effort);
 
   std::int64_t budget_, runs_ = 0;
   std::chrono::steady_clock::time_point start_;

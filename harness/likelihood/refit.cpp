@@ -201,7 +201,7 @@ std::vector<Knob> next_look(const Refit& latest, const Refit& best, const std::v
 }
 
 /// Rounds about better and better places; `best` is kept up to date, so that it stands where simulations are
-/// refused.
+/// refused. Where there is one already, these are looks beside it.
 Refit refit_by_rounds(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs,
                       const Workshop& workshop, const RefitOptions& options, std::optional<Refit>& best) {
   const std::vector<Knob> first = knobs;
@@ -211,7 +211,11 @@ Refit refit_by_rounds(const std::vector<MeasuredFeatures>& measured, std::vector
   const bool nothing_to_scatter =
       std::all_of(knobs.begin(), knobs.end(), [](const Knob& knob) { return knob.exact; });
   int looks = 0;
-  for (int number = 1;; ++number) {
+  if (best) {
+    knobs = next_look(*best, *best, knobs, options, looks++);
+    if (knobs.empty()) return *best;
+  }
+  for (int number = best ? options.rounds : 1;; ++number) {
     const std::vector<Knob> here = knobs;
     // Rounds that only find the way, or look again where many were made, need fewer simulations than the one
     // that judges.
@@ -286,6 +290,16 @@ Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> kno
     return refit_by_rounds(measured, std::move(knobs), workshop, options, best);
   } catch (const BudgetSpent&) {
     if (!best) throw;
+    return *best;
+  }
+}
+
+Refit look_beside(const Refit& fit, const std::vector<MeasuredFeatures>& measured, const Workshop& workshop,
+                  const RefitOptions& options) {
+  std::optional<Refit> best = fit;
+  try {
+    return refit_by_rounds(measured, fit.knobs, workshop, options, best);
+  } catch (const BudgetSpent&) {
     return *best;
   }
 }

@@ -103,6 +103,11 @@ struct RefitOptions {
 Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs, const Workshop& workshop,
             const RefitOptions& options);
 
+/// A fit of the same runs that was made without looking beside it: does what RefitOptions::look_beside_below
+/// asks, and keeps the best.
+Refit look_beside(const Refit& fit, const std::vector<MeasuredFeatures>& measured, const Workshop& workshop,
+                  const RefitOptions& options);
+
 /// The same measured runs (or others) against the model with the knobs at the given values, nothing fitted.
 Refit compare_at(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
                  const Workshop& workshop, const RefitOptions& options);

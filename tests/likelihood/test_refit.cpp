@@ -384,6 +384,24 @@ TEST(Refit, KeepsWhatSimulationsAtItsSolutionTold) {
   }
 }
 
+TEST(Refit, LooksBesideADoubtfulFitAndKeepsTheBetter) {
+  const Bent curve(0.75, 0.12);
+  const TwoFits fits(curve, 0.85);
+  RefitOptions options = fits.confirming;
+  options.first_run = 70000;
+  options.most_looks = 2;
+  std::int64_t runs = 0;
+  Workshop counting = fits.workshop;
+  counting.runs = &runs;
+  const Refit kept = look_beside(fits.confirmed, fits.measured, counting, options);
+  EXPECT_EQ(runs, 0);  // nobody doubts it
+  EXPECT_EQ(kept.values[0].value, fits.confirmed.values[0].value);
+  options.look_beside_below = 1;
+  const Refit better = look_beside(fits.confirmed, fits.measured, counting, options);
+  EXPECT_GT(runs, 0);
+  EXPECT_LE(better.scatter, fits.confirmed.scatter);
+}
+
 TEST(EnsembleCache, ChangesNoAnswerAndSimulatesOnce) {
   const DampedOscillation engine;
   Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
