@@ -299,15 +299,13 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   // Fits confirm the most probable, and what has more than a tenth of its probability; where a fit takes back
   // what a signature promised, the next has its turn.
   const bool rejected = is_rejected(state.fit);
-  const auto explains_it = [](const Rival& rival) {
-    return rival.fitted && rival.log_odds > 0 && !is_rejected(rival.state.fit);
-  };
+  const auto is_found = [](const Rival& rival) { return rival.fitted && rival.log_odds > 0; };
   for (bool more = true; more && tried < static_cast<int>(rules::most_tried);) {
     more = false;
     std::stable_sort(order.begin(), order.end(), by_odds);
-    // A model that the data reject is not what is there: until one that they do not reject was found, the
-    // best of a bad lot are fitted whatever their odds.
-    const bool all_bad = rejected && std::none_of(rivals.begin(), rivals.end(), explains_it);
+    // A model that the data reject is not what is there: while nothing was found, the best of a bad lot are
+    // fitted whatever their odds.
+    const bool all_bad = rejected && std::none_of(rivals.begin(), rivals.end(), is_found);
     const double worth_a_fit = all_bad ? -std::numeric_limits<double>::infinity()
                                        : std::max(worth_asking, order.front()->log_odds - std::log(10));
     for (Rival* rival : order) {
@@ -329,7 +327,7 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   if (probability_of_something(round.table) <= rules::adds_effect) return round;
   std::vector<Rival*> fitted;
   for (Rival* rival : order)
-    if (rival->fitted && rival->log_odds > 0) fitted.push_back(rival);
+    if (is_found(*rival)) fitted.push_back(rival);
   if (fitted.empty()) return round;
   std::stable_sort(fitted.begin(), fitted.end(), by_odds);
   camera_first(fitted, tools);

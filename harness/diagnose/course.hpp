@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The course of a diagnosis: every step makes a new state from the one before.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "conclusion.hpp"
+#include "errors.hpp"
+#include "state.hpp"
+
+namespace shakedown {
+
+class Course {
+ public:
+  /// `recorded`: as the films show it; `measurement`: each run from where simulations of it begin. All must
+  /// outlive it.
+  Course(const Setup& user, const Measurement& recorded, const Measurement& measurement, const Engine& engine,
+         const DiagnoseOptions& options)
+      : user_(user), recorded_(recorded), tools_(measurement, engine, options) {}
+
+  /// Once. InputError, PhysicsError and Interrupted pass.
+  Diagnosis run();
+
+ private:
+  /// Formulas are looked for where no law of the list explains the waveform.
+  void judge_empty_box(const MomentumOptions& whole);
+  void judge();
+  DiagnosisState with_packing();
+  /// Parameters free, and these strengths that the balance found.
+  DiagnosisState with_terms(DiagnosisState state, const std::vector<FoundTerm>& terms, double frequency);
+  DiagnosisState refit_of(const DiagnosisState& before);
+  /// A fit that an answer cannot do without, in this share of simulations and time: with less effort where
+  /// they do not suffice.
+  Refit fit_within(double share, const DiagnosisState& state, const std::string& stage, Effort effort);
+  /// What `step` makes of a state, or the state as it is where simulations or time do not suffice.
+  template <typename Step>
+  DiagnosisState unless_spent(const std::string& name, const DiagnosisState& otherwise, Step&& step) {
+    try {
+      return step();
+    } catch (const BudgetSpent&) {
+      leave_out(name);
+    } catch (const PhysicsError& error) {
+      result_.notes.push_back(name + ": could not be simulated: " + error.what());
+    }
+    return otherwise;
+  }
+  void leave_out(const std::string& step);
+  /// The balance weighs impulses alone. Where what it found leaves the whole motion unexplained, the sets
+  /// that it could not rule out are tried, and the most probable one with the motion counted in is kept.
+  DiagnosisState settled_by_ensembles(const DiagnosisState& before, const DiagnosisState& found);
+  /// The fit of parameters may have ended at the wrong place of a valley. The state with the better fit; the
+  /// ladder follows.
+  DiagnosisState& beside(DiagnosisState& refitted);
+  /// Effects one after the other, while something more is probably missing. `refitted`, without any of them,
+  /// is looked beside where it is doubtful and nothing was found that is sure.
+  DiagnosisState search(DiagnosisState& refitted);
+  DiagnosisState with_full_effort(DiagnosisState state);
+  void keep_ranked(const RankedEffect& ranked);
+  /// What was not looked at stays as probable as it was.
+  void keep_priors(const DiagnosisState& state);
+
+  const Setup& user_;
+  const Measurement& recorded_;
+  DiagnosisTools tools_;
+  Diagnosis result_;
+  RunnerUp runner_up_;
+  std::vector<std::string> wholly_fitted_;  ///< effects beside which the last fit was made already
+};
+
+/// No run has grains, whether the setup says so or the runs do.
+bool is_empty(const Setup& setup, const Measurement& measurement);
+
+/// Of the ladder.
+std::string step_name(const std::vector<std::string>& effects);
+
+}  // namespace shakedown

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// The search of a diagnosis: rounds beside the refitted model, and what their fits leave.
+#include <algorithm>
+
+#include "course.hpp"
+#include "from_balance.hpp"
+#include "rules.hpp"
+
+namespace shakedown {
+
+namespace {
+
+constexpr const char* last_refit = "the last refit";
+
+/// So probable that no better fit of the model without it would take it back.
+bool is_sure(const SearchRound& round) {
+  return round.added && std::any_of(round.table.begin(), round.table.end(), [](const Hypothesis& h) {
+           return !h.effects.empty() && h.log_odds > rules::emulator_noise;
+         });
+}
+
+}  // namespace
+
+DiagnosisState& Course::beside(DiagnosisState& refitted) {
+  if (refitted.fit.p_value > rules::doubtful) return refitted;
+  try {
+    refitted.fit = tools_.look_beside(refitted, "looking beside the fitted parameters");
+  } catch (const PhysicsError&) {  // the model cannot be simulated there: the fit stands
+    return refitted;
+  }
+  refitted = refitted.settled(tools_.known());
+  result_.ladder.back() = step_of(result_.ladder.back().step, refitted.fit);
+  return refitted;
+}
+
+DiagnosisState Course::search(DiagnosisState& refitted) {
+  DiagnosisState state = refitted;
+  const std::vector<std::string> from_balance = effects_of(result_.momentum);
+  // A model that is accepted is searched once: chi2 of hundreds of features does not see what a single
+  // effect would take away.
+  for (bool searched = false; !searched || state.fit.p_value <= rules::doubtful; searched = true) {
+    if (static_cast<double>(state.missing.size()) >= rules::most_effects) break;
+    SearchRound round;
+    try {
+      round = search_round(state, tools_, result_.momentum.seen);
+    } catch (const BudgetSpent&) {
+      leave_out(no_round_held);
+      keep_priors(state);
+      break;
+    }
+    if (!searched && state.fit.p_value <= rules::doubtful && !is_sure(round)) {
+      const double before = state.fit.judged_chi2;
+      state = beside(refitted);
+      if (round.added && state.fit.judged_chi2 < before - rules::emulator_noise) try {
+          round = search_round(state, tools_, result_.momentum.seen);
+        } catch (const BudgetSpent&) {  // what was found beside the poorer fit stands
+        }
+    }
+    for (const std::string& effect : round.not_tried) leave_out(effect);
+    for (const RankedEffect& ranked : round.ranking) keep_ranked(ranked);
+    result_.notes.insert(result_.notes.end(), round.notes.begin(), round.notes.end());
+    result_.hypotheses = combined(result_.hypotheses, round.table);
+    if (!round.added) break;
+    state = round.next;
+    runner_up_ = {round.next.missing.back(), round.runner_up, round.runner_up_setup};
+    result_.ladder.push_back(step_of(step_name(state.missing), state.fit));
+    const std::vector<std::string> before = state.missing;
+    state = unless_spent("which effects are still needed", state,
+                         [&] { return pruned(state, tools_, from_balance); });
+    for (const std::string& effect : before)
+      if (std::find(state.missing.begin(), state.missing.end(), effect) == state.missing.end())
+        result_.hypotheses = taken_back(result_.hypotheses, effect,
+                                        prior_log_odds(1, static_cast<double>(tools_.known().size())));
+    // The fit that is made in the end anyway, where it may spare a round.
+    if (state.fit.p_value <= rules::doubtful) state = with_full_effort(state).settled(tools_.known());
+  }
+  result_.runner_up = runner_up_;
+  return state;
+}
+
+DiagnosisState Course::with_full_effort(DiagnosisState state) {
+  state = unless_spent(last_refit, state, [&] {
+    DiagnosisState whole = concluded(state, tools_, "refitting with what was found");
+    wholly_fitted_ = state.missing;
+    std::erase(result_.not_tried, last_refit);
+    return whole;
+  });
+  if (result_.ladder.back().step == step_name(state.missing)) result_.ladder.pop_back();
+  result_.ladder.push_back(step_of(step_name(state.missing), state.fit));
+  return state;
+}
+
+void Course::leave_out(const std::string& step) {
+  std::vector<std::string>& list = result_.not_tried;
+  if (std::find(list.begin(), list.end(), step) == list.end()) list.push_back(step);
+}
+
+void Course::keep_ranked(const RankedEffect& ranked) {
+  const auto same = std::find_if(result_.ranking.begin(), result_.ranking.end(),
+                                 [&](const RankedEffect& r) { return r.effect == ranked.effect; });
+  if (same == result_.ranking.end())
+    result_.ranking.push_back(ranked);
+  else if (ranked.fitted && !same->fitted)
+    *same = ranked;
+}
+
+void Course::keep_priors(const DiagnosisState& state) {
+  result_.hypotheses = combined(result_.hypotheses, not_looked_at(state, tools_, result_.momentum.seen));
+}
+
+}  // namespace shakedown
