@@ -36,9 +36,9 @@ DiagnosisState& Course::beside(DiagnosisState& refitted) {
 DiagnosisState Course::search(DiagnosisState& refitted) {
   DiagnosisState state = refitted;
   const std::vector<std::string> from_balance = effects_of(result_.momentum);
-  // A model that is accepted is searched once: chi2 of hundreds of features does not see what a single
-  // effect would take away.
-  for (bool searched = false; !searched || state.fit.p_value <= rules::doubtful; searched = true) {
+  // Until nothing is added, though the data accept the model: chi2 of hundreds of features does not see what a
+  // single effect would take away.
+  for (bool searched = false;; searched = true) {
     if (static_cast<double>(state.missing.size()) >= rules::most_effects) break;
     SearchRound round;
     try {

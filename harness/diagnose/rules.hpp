@@ -38,7 +38,8 @@ constexpr Rule emulator_noise{
     "cases): what two fits differ by for no reason"};
 constexpr Rule doubtful{
     "doubtful", 0.05, "p-value",
-    "a model above is searched for an effect once and no further; one right model in twenty lies below"};
+    "a model as given above needs no refit to be accepted, a fit below is looked beside, and made with full "
+    "effort before more is searched; one right model in twenty lies below"};
 constexpr Rule holds_well{"holds_well", 0.3, "p-value",
                           "a model as given above is not refitted: seven right models in ten pass"};
 constexpr Rule holds{"holds", features_rejected, "p-value",
