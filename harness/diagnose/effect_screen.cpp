@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -65,10 +66,17 @@ void name_look_alikes(const std::vector<Eigen::VectorXd>& changes, std::vector<S
     }
 }
 
+/// Where a level is simulated.
+struct LevelPoint {
+  std::vector<Knob> fitted;  ///< the fitted parameters, moved to where they go beside it
+  Knob knob;                 ///< of the candidate
+};
+
 /// Levels of a candidate as far as they were simulated.
 struct Looked {
   std::vector<SignatureLevel> levels{};
-  int count = 0;  ///< simulations of each level, of each different setup
+  std::map<double, LevelPoint> points{};  ///< by strength
+  int count = 0;                          ///< simulations of each level, of each different setup
   std::string reason{};
   bool exact = false;
 
@@ -113,17 +121,17 @@ class EffectScreen::Simulated {
     const std::vector<Emulator> nothing =
         simulates ? emulate(measured_, at_a_point(fitted_), effort.nothing, next_run(), workshop)
                   : start.emulators;
-    const std::vector<Knob> about = simulates ? straight(fitted_, 0.5) : start.knobs;
+    about_ = simulates ? straight(fitted_, 0.5) : start.knobs;
     const std::vector<Emulator> slopes =
-        simulates ? emulate(measured_, about, effort.slopes, next_run(), workshop) : start.emulators;
+        simulates ? emulate(measured_, about_, effort.slopes, next_run(), workshop) : start.emulators;
     for (const Emulator& e : nothing) means_.push_back(e.coefficients.row(0).transpose());
     ScreenStart used{start.for_means, start.likeliest};
     if (used.for_means.empty()) used.for_means = covariances_of(measured_, nothing, covariance_for_means);
     if (used.likeliest.empty()) used.likeliest = covariances_of(measured_, nothing, feature_covariance);
-    of_means_ = frame_of(used.for_means, about, slopes, nothing);
+    of_means_ = frame_of(used.for_means, about_, slopes, nothing);
     outside_.emplace(of_means_.model.free);
     without_ = {(*outside_)(of_means_.model.residual), of_means_.model.noise};
-    of_runs_ = frame_of(used.likeliest, about, slopes, nothing);
+    of_runs_ = frame_of(used.likeliest, about_, slopes, nothing);
     of_runs_.model.variance = variances(nothing, effort.nothing);
     of_runs_.model.simulations = filmed(nothing);
     of_runs_.model.codes_differ = rules::codes_differ;
@@ -134,7 +142,7 @@ class EffectScreen::Simulated {
   void look(const Candidate& candidate, const LevelEffort& effort, Looked& looked) {
     const bool is_first = looked.count == 0;
     if (candidate.fitted_knobs().front().exact) {
-      if (is_first) looked = {{exact_level(candidate)}, 1, "", true};
+      if (is_first) looked.levels = {exact_level(candidate)}, looked.count = 1, looked.exact = true;
       return;
     }
     const int count = candidate.dear ? effort.dear : candidate.slow ? effort.slow : effort.plain;
@@ -145,7 +153,7 @@ class EffectScreen::Simulated {
     for (const Candidate::Level& level : candidate.levels) try {
         bool& none_of_this_sign = is_hopeless[level.strength < 0];
         if (is_first ? none_of_this_sign : !looked.has(level.strength)) continue;
-        levels.push_back(simulated_level(candidate, level, count));
+        levels.push_back(simulated_level(candidate, level, count, looked));
         none_of_this_sign = Signature({levels.back()}, without_).log_likelihood(level.strength) < hopeless;
       } catch (const PhysicsError& error) {
         looked.reason = error.what();
@@ -164,14 +172,9 @@ class EffectScreen::Simulated {
   double log_likelihood_ratio(const std::vector<MeasuredFeatures>& other, const std::vector<Knob>& values,
                               int count) {
     const std::vector<Emulator> there = emulate(other, at_a_point(values), count, next_run(), workshop_);
-    OtherModel model{change_to(there, of_runs_), chaos_of(there, of_runs_) / count, variances(there, count)};
     // Where parameters were moved, what is known of them beforehand counts from there.
-    const Eigen::Index features = model.change.size() - std::ssize(fitted_);
-    for (std::size_t k = 0; k < fitted_.size(); ++k)
-      for (const Knob& value : values)
-        if (value.key == fitted_[k].key && !value.exact && fitted_[k].believed_error > 0)
-          model.change[features + static_cast<Eigen::Index>(k)] =
-              (value.centre - fitted_[k].centre) / fitted_[k].believed_error;
+    const OtherModel model{change_at(there, values, of_runs_), chaos_of(there, of_runs_) / count,
+                           variances(there, count)};
     return shakedown::log_likelihood_ratio(model, of_runs_.model);
   }
 
@@ -267,17 +270,67 @@ class EffectScreen::Simulated {
     return sum;
   }
 
-  SignatureLevel simulated_level(const Candidate& candidate, const Candidate::Level& level, int count) {
+  /// Of the means, all fitted parameters at these points; below them, where these are from what is known.
+  Eigen::VectorXd change_at(const std::vector<Emulator>& there, const std::vector<Knob>& fitted,
+                            const Frame& frame) const {
+    Eigen::VectorXd change = change_to(there, frame);
+    const Eigen::Index features = change.size() - std::ssize(fitted_);
+    for (std::size_t k = 0; k < fitted_.size(); ++k)
+      for (const Knob& moved : fitted)
+        if (moved.key == fitted_[k].key && !moved.exact && fitted_[k].believed_error > 0)
+          change[features + static_cast<Eigen::Index>(k)] =
+              (moved.centre - fitted_[k].centre) / fitted_[k].believed_error;
+    return change;
+  }
+
+  std::vector<Emulator> simulated_at(const Candidate& candidate, const LevelPoint& point, int count) {
     std::vector<MeasuredFeatures> with =
         candidate.slow || candidate.dear ? kicked_rarely(measured_) : measured_;
-    Knob knob = candidate.fitted_knobs().front();
-    knob.centre = level.value;
     for (MeasuredFeatures& m : with) {
       m.setup = prepared(m.setup, candidate, workshop_.known);
-      set_knob(m.setup, knob, workshop_.known);
+      set_knob(m.setup, point.knob, workshop_.known);
     }
-    const std::vector<Emulator> there = emulate(with, at_a_point(fitted_), count, next_run(), workshop_);
-    return {level.strength, (*outside_)(change_to(there, of_means_)), chaos_of(there, of_means_) / count};
+    return emulate(with, at_a_point(point.fitted), count, next_run(), workshop_);
+  }
+
+  /// The fitted parameters where their slopes see the best fit beside this change of the features, and the
+  /// candidate as strong beside them; none where they hardly move.
+  std::optional<LevelPoint> moved_along(const Eigen::VectorXd& change, LevelPoint point) const {
+    constexpr double beyond = 0.25;  // widths of the box whose slopes they are: a line errs by its square
+    const Eigen::VectorXd z = outside_->taken_of(-change);
+    bool far = false;
+    for (std::size_t k = 0; k < fitted_.size(); ++k) {
+      if (fitted_[k].exact) continue;
+      const double by = z[static_cast<Eigen::Index>(k)] * about_[k].width;
+      far = far || std::abs(z[static_cast<Eigen::Index>(k)]) > beyond;
+      Knob& moved = point.fitted[k];
+      moved.centre = std::clamp(moved.centre + by, moved.low, moved.high);
+      if (moved.key == point.knob.absent_key)
+        point.knob.centre =
+            std::clamp(point.knob.centre + moved.centre - fitted_[k].centre, point.knob.low, point.knob.high);
+    }
+    if (!far) return std::nullopt;
+    return point;
+  }
+
+  /// Beside an effect that restitutions imitate they lie elsewhere, farther than a line tells: the level is
+  /// simulated again there.
+  SignatureLevel simulated_level(const Candidate& candidate, const Candidate::Level& level, int count,
+                                 Looked& looked) {
+    const bool is_first = !looked.points.contains(level.strength);
+    LevelPoint& point = looked.points[level.strength];
+    if (is_first) {
+      point = {fitted_, candidate.fitted_knobs().front()};
+      point.knob.centre = level.value;
+    }
+    std::vector<Emulator> there = simulated_at(candidate, point, count);
+    Eigen::VectorXd change = change_at(there, point.fitted, of_means_);
+    if (const auto moved = is_first ? moved_along(change, point) : std::nullopt) {
+      there = simulated_at(candidate, *moved, count);
+      point = *moved;
+      change = change_at(there, point.fitted, of_means_);
+    }
+    return {level.strength, (*outside_)(change), chaos_of(there, of_means_) / count};
   }
 
   /// A camera's error is arithmetic on the recording.
@@ -289,7 +342,7 @@ class EffectScreen::Simulated {
   }
 
   std::vector<MeasuredFeatures> measured_;
-  std::vector<Knob> fitted_;
+  std::vector<Knob> fitted_, about_;  ///< at their values; those whose slopes are known
   const Workshop& workshop_;
   ScreenEffort effort_;
   int first_run_, batches_ = 0;

@@ -17,4 +17,9 @@ Eigen::MatrixXd Outside::operator()(const Eigen::MatrixXd& columns) const {
   return scaled - free_ * root_.solve(free_.transpose() * scaled);
 }
 
+Eigen::VectorXd Outside::taken_of(const Eigen::VectorXd& column) const {
+  if (free_.cols() == 0) return Eigen::VectorXd(0);
+  return root_.solve(free_.transpose() * (scale_.matrix().asDiagonal() * column));
+}
+
 }  // namespace shakedown

@@ -15,6 +15,8 @@ class Outside {
   /// Every variance one.
   explicit Outside(const Eigen::MatrixXd& free) : Outside(free, Eigen::ArrayXd::Ones(free.rows())) {}
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& columns) const;
+  /// What the free parameters take of a column: one number for each, in the unit of its free column.
+  Eigen::VectorXd taken_of(const Eigen::VectorXd& column) const;
 
  private:
   Eigen::ArrayXd scale_;
