@@ -110,6 +110,14 @@ std::string sentence_of(const BounceReading& reading) {
   const Estimate scatter = best.posterior.spread(&SpreadNode::scatter);
   if (answer.scatter_odds > surely)
     text += fmt::format("; it scatters by {} from impact to impact", with_interval(scatter, 4));
+  if (best.model.air == AirModel::free) {
+    const Estimate first = reading.as_timed.restitution_at(answer.slowest),
+                   last = reading.as_timed.restitution_at(answer.fastest);
+    text += fmt::format(
+        "; as timed, with what the air takes, flights follow each other by {:.3f} at {:.2f} m/s and {:.3f} "
+        "at {:.2f} m/s",
+        first.value, answer.slowest, last.value, answer.fastest);
+  }
   return text + ".";
 }
 

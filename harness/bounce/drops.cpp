@@ -15,22 +15,29 @@ namespace {
 /// Ratios of neighbouring intervals differ from the usual one by less than this share unless something is
 /// wrong that is no matter of noise: an edge that was hit, an impact that was not heard.
 constexpr double gross = 0.14;
+constexpr double longer_than_one = 1.3;
 
 struct Usual {
-  double ratio = 0, deviation = 0;
-  bool far(double ratio_seen) const {
-    return std::abs(ratio_seen / ratio - 1) > std::max(gross, 8 * deviation / ratio);
+  double ratio = 0, deviation = 0;  ///< of intervals to those before
+  double absolute = 0;              ///< s, deviation of an interval from what that ratio foretells
+  bool far(double seen, double foretold) const {
+    const double off = std::abs(seen - foretold);
+    return off > std::max(gross, 8 * deviation / ratio) * foretold && off > 8 * absolute;
   }
 };
 
-/// Of the ratios in one drop, or of all where a drop has few.
+/// Of all pairs of neighbours.
 Usual usual_ratio(const std::vector<Drop>& drops) {
-  std::vector<double> ratios;
-  for (const Drop& drop : drops)
-    for (std::size_t i = 1; i < drop.interval.size(); ++i)
-      ratios.push_back(drop.interval[i] / drop.interval[i - 1]);
+  std::vector<double> ratios, off;
+  const auto each_pair = [&](const auto& take) {
+    for (const Drop& drop : drops)
+      for (std::size_t i = 1; i < drop.interval.size(); ++i) take(drop.interval[i - 1], drop.interval[i]);
+  };
+  each_pair([&](double before, double after) { ratios.push_back(after / before); });
   if (ratios.size() < 3) return {};
-  return {median(ratios), robust_deviation(ratios)};
+  const double ratio = median(ratios);
+  each_pair([&](double before, double after) { off.push_back(after - ratio * before); });
+  return {ratio, robust_deviation(ratios), robust_deviation(off)};
 }
 
 bool cut_at(const std::vector<Outlier>& outliers, std::size_t drop, int impact, OutlierKind kind) {
@@ -39,31 +46,33 @@ bool cut_at(const std::vector<Outlier>& outliers, std::size_t drop, int impact, 
   });
 }
 
-/// The ratio that this interval has to what its neighbours foretell of it; NaN without any.
-double to_foretold(const Drop& drop, std::size_t i, double ratio) {
+/// What its neighbours foretell of this interval; NaN without any.
+double foretold_by_neighbours(const Drop& drop, std::size_t i, double ratio) {
   std::vector<double> foretold;
   if (i > 0) foretold.push_back(drop.interval[i - 1] * ratio);
   if (i + 1 < drop.interval.size()) foretold.push_back(drop.interval[i + 1] / ratio);
-  return foretold.empty() ? not_said : drop.interval[i] / median(foretold);
+  return foretold.empty() ? not_said : median(foretold);
 }
 
 /// An interval that holds two flights: it is as long as one and its follower.
 bool holds_two(const Drop& drop, std::size_t i, const Usual& usual) {
-  const double e = usual.ratio, two = 1 + e;
-  const bool before = i == 0 || !usual.far(drop.interval[i] / (drop.interval[i - 1] * two));
-  const bool after =
-      i + 1 == drop.interval.size() || !usual.far(drop.interval[i + 1] * two / (drop.interval[i] * e));
-  return before && after && drop.interval.size() > 1;
+  const auto& x = drop.interval;
+  const double e = usual.ratio, foretold = foretold_by_neighbours(drop, i, e);
+  if (!std::isfinite(foretold) || x[i] < longer_than_one * foretold || !usual.far(x[i], foretold))
+    return false;
+  const bool before = i == 0 || !usual.far(x[i], x[i - 1] * e * (1 + e));
+  const bool after = i + 1 == x.size() || !usual.far(x[i + 1], x[i] * e * e / (1 + e));
+  return before && after;
 }
 
 /// Two intervals that are one flight.
 bool are_one(const Drop& drop, std::size_t i, const Usual& usual) {
-  if (i + 1 >= drop.interval.size() || drop.interval.size() < 3) return false;
-  const double sum = drop.interval[i] + drop.interval[i + 1];
-  const bool before = i == 0 || !usual.far(sum / drop.interval[i - 1]);
-  const bool after = i + 2 >= drop.interval.size() || !usual.far(drop.interval[i + 2] / sum);
-  return before && after && (i > 0 || i + 2 < drop.interval.size()) &&
-         usual.far(drop.interval[i + 1] / drop.interval[i]);
+  const auto& x = drop.interval;
+  if (i + 1 >= x.size() || x.size() < 3 || !usual.far(x[i + 1], x[i] * usual.ratio)) return false;
+  const double sum = x[i] + x[i + 1];
+  const bool before = i == 0 || !usual.far(sum, x[i - 1] * usual.ratio);
+  const bool after = i + 2 >= x.size() || !usual.far(x[i + 2], sum * usual.ratio);
+  return before && after && (i > 0 || i + 2 < x.size());
 }
 
 }  // namespace
@@ -75,15 +84,15 @@ std::vector<Outlier> gross_outliers(const std::vector<Drop>& drops) {
   for (std::size_t d = 0; d < drops.size(); ++d) {
     const Drop& drop = drops[d];
     for (std::size_t i = 0; i < drop.interval.size(); ++i) {
-      const double foretold = to_foretold(drop, i, usual.ratio);
-      if (std::isfinite(foretold) && foretold > 1.3 && holds_two(drop, i, usual)) {
+      if (holds_two(drop, i, usual)) {
         found.push_back({d, drop.impact[i], OutlierKind::missed, drop.interval[i],
-                         drop.interval[i] / foretold, 0, "an impact was missed: the interval holds two"});
+                         foretold_by_neighbours(drop, i, usual.ratio), 0,
+                         "an impact was missed: the interval holds two"});
       } else if (are_one(drop, i, usual)) {
         found.push_back({d, drop.impact[i + 1], OutlierKind::extra, drop.interval[i], not_said, 0,
                          "an instant too many: it parts one flight in two"});
         ++i;
-      } else if (i > 0 && usual.far(drop.interval[i] / drop.interval[i - 1]) &&
+      } else if (i > 0 && usual.far(drop.interval[i], drop.interval[i - 1] * usual.ratio) &&
                  !cut_at(found, d, drop.impact[i - 1], OutlierKind::missed) &&
                  !cut_at(found, d, drop.impact[i - 1], OutlierKind::extra)) {
         const double e = drop.interval[i] / drop.interval[i - 1];

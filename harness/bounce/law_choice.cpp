@@ -14,8 +14,8 @@ namespace {
 constexpr double odds_of_free_air = 0.5;  // size and mass were not said
 constexpr int most_rounds = 6;
 constexpr double called_odd = 0.01;  // impacts of a recording that chance calls odd
-constexpr double suspected = 2;      // and that are looked at more closely
-constexpr std::size_t most_suspects = 3;
+constexpr double suspected = 0.3;    // and that are looked at more closely
+constexpr std::size_t most_suspects = 12;
 constexpr std::size_t least_rows = 8;           // impacts without which nothing is called odd
 constexpr std::size_t most_outliers_share = 4;  // of the impacts one in so many at most
 
@@ -76,38 +76,49 @@ void weigh(std::vector<LawFit>& laws, const std::vector<double>& priors) {
                    [](const LawFit& a, const LawFit& b) { return a.probability > b.probability; });
 }
 
-/// The impact that stands out most from a smooth curve, measured by the spreads of the others without it
-/// (else it would widen what it is measured by); empty: none does.
-std::vector<Outlier> oddest(const std::vector<Drop>& drops, const BounceModel& curve,
+/// The impact that stands out most, measured by the spreads of the others without any that is suspected (they
+/// would widen what they are measured by); empty: none does.
+std::vector<Outlier> oddest(const std::vector<Drop>& drops, const BounceModel& model,
                             const TimingKnown& timing, const BounceAnswer& answer) {
-  const LawFit fit = fit_law(answer.flights, curve, timing);
+  const LawFit fit = fit_law(answer.flights, model, timing);
+  std::vector<Outlier> suspects = odd_ones(fit, suspected);
+  suspects.resize(std::min({suspects.size(), most_suspects, fit.at.rows.size() / most_outliers_share}));
+  if (suspects.empty()) return {};
+  std::vector<Outlier> cut = answer.outliers;
+  cut.insert(cut.end(), suspects.begin(), suspects.end());
+  const LawFit without = fit_law(usable_flights(drops, cut), model, timing);
   std::vector<Outlier> worst;
-  std::vector<Outlier> suspects = odd_ones(fit, fit, suspected);
-  suspects.resize(std::min(suspects.size(), most_suspects));
-  for (const Outlier& suspect : suspects) {
-    std::vector<Outlier> cut = answer.outliers;
-    cut.push_back(suspect);
-    const LawFit others = fit_law(usable_flights(drops, cut), curve, timing);
-    for (const Outlier& odd : odd_ones(fit, others, called_odd))
-      if (odd.drop == suspect.drop && odd.impact == suspect.impact && odd.kind == suspect.kind &&
-          (worst.empty() || std::abs(odd.sigmas) > std::abs(worst[0].sigmas)))
-        worst = {odd};
-  }
+  double least = called_odd;
+  for (const Outlier& suspect : suspects)
+    if (const double chance = chance_of(suspect, fit, without); chance < least)
+      least = chance, worst = {suspect};
   return worst;
 }
 
 /// Cuts out odd impacts one after the other.
-void find_odd_ones(const std::vector<Drop>& drops, const BounceModel& curve, const TimingKnown& timing,
+void find_odd_ones(const std::vector<Drop>& drops, const BounceModel& model, const TimingKnown& timing,
                    BounceAnswer& answer) {
   while (true) {
     answer.flights = usable_flights(drops, answer.outliers);
     std::size_t rows = 0;
     for (const Flights& flights : answer.flights) rows += flights.interval.size() - 1;
     if (rows < least_rows || answer.outliers.size() * most_outliers_share >= rows) return;
-    const std::vector<Outlier> odd = oddest(drops, curve, timing, answer);
+    const std::vector<Outlier> odd = oddest(drops, model, timing, answer);
     if (odd.empty()) return;
     answer.outliers.push_back(odd.front());
   }
+}
+
+/// The law that explains all impacts best, odd ones with them: they are found beside it.
+LawKind likeliest_law(const std::vector<Flights>& flights, BounceModel model, const TimingKnown& timing) {
+  double most = -1e300;
+  LawKind best = LawKind::curve;
+  for (const RestitutionLaw& law : restitution_laws()) {
+    model.law = law.kind;
+    const double evidence = fit_law(flights, model, timing).posterior.log_evidence;
+    if (evidence > most) most = evidence, best = law.kind;
+  }
+  return best;
 }
 
 void expect_enough(const std::vector<Drop>& drops, const std::vector<Flights>& flights) {
@@ -189,7 +200,7 @@ BounceAnswer choose_law(const std::vector<Drop>& drops, const BounceOptions& opt
   const Speeds speeds = speeds_of(answer.flights, model);
   answer.slowest = speeds.slowest, answer.fastest = speeds.fastest;
   model.reference = answer.reference = options.reference > 0 ? options.reference : two_digits(speeds.middle);
-  model.law = LawKind::curve;
+  model.law = likeliest_law(answer.flights, model, options.timing);
   find_odd_ones(drops, model, options.timing, answer);
   std::vector<double> priors;
   for (const RestitutionLaw& law : restitution_laws()) {

@@ -62,10 +62,13 @@ BounceAnswer choose_law(const std::vector<Drop>& drops, const BounceOptions& opt
 /// One law fitted to flights; `start` may be empty.
 LawFit fit_law(const std::vector<Flights>& flights, const BounceModel& model, const TimingKnown& timing);
 
-/// Impacts and instants that differ by more than chance allows from what a fit says; the worst first.
-/// `spreads`: a fit, perhaps without the impact in question, whose spreads say what is usual. `by_chance`:
-/// how many of them chance alone makes.
-std::vector<Outlier> odd_ones(const LawFit& fit, const LawFit& spreads, double by_chance);
+/// Impacts and instants that a fit did not expect, the worst first: candidates, of which chance alone makes
+/// `by_chance`.
+std::vector<Outlier> odd_ones(const LawFit& fit, double by_chance);
+
+/// Probability that chance makes one this odd, by the spreads of a fit without it, averaged over what that
+/// fit leaves open; for all impacts and instants together (Bonferroni).
+double chance_of(const Outlier& odd, const LawFit& fit, const LawFit& without);
 
 LawTest test_of(const LawFit& fit, const TimingKnown& timing);
 

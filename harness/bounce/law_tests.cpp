@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "distributions.hpp"
 #include "fisher_tail.hpp"
@@ -16,6 +17,7 @@ namespace shakedown {
 namespace {
 
 constexpr int most_bends = 4;
+constexpr std::size_t most_nodes = 200;       // of the grid that an outlier is weighed with
 constexpr double median_of_squares = 0.4549;  // of standard normal deviates
 constexpr double widened = 0.7;               // below this share of a deviation no chance brings half of them
 
@@ -90,46 +92,81 @@ double gain_of(const Eigen::MatrixXd& products) {
   return b.dot(a.ldlt().solve(b));
 }
 
+/// Each column as the only thing that the law lacks: its size, and that over its error.
+struct Jumps {
+  Eigen::VectorXd size, sigmas;
+};
+
+Jumps jumps_of(const Linearised& at, const Eigen::MatrixXd& candidates, const SpreadNode& node) {
+  const Eigen::Index own = at.slope.cols(), all = candidates.cols();
+  Eigen::MatrixXd columns(at.residual.size(), 1 + own + all);
+  columns << at.residual, at.slope, candidates;
+  const Eigen::MatrixXd products = whitened(at, columns, node).products;
+  Eigen::MatrixXd curvature = products.block(1, 1, own, own);
+  curvature.diagonal() *= 1 + 1e-9;
+  const Eigen::LDLT<Eigen::MatrixXd> fitted(curvature);
+  const Eigen::VectorXd pulls = products.col(0).segment(1, own), pulled = fitted.solve(pulls);
+  Jumps jumps{Eigen::VectorXd::Zero(all), Eigen::VectorXd::Zero(all)};
+  for (Eigen::Index k = 0; k < all; ++k) {
+    const Eigen::VectorXd beside = products.col(1 + own + k).segment(1, own);
+    const double alone = products(1 + own + k, 1 + own + k), left = alone - beside.dot(fitted.solve(beside));
+    if (left < 1e-6 * alone) continue;
+    jumps.size[k] = (products(0, 1 + own + k) - beside.dot(pulled)) / left;
+    jumps.sigmas[k] = jumps.size[k] * std::sqrt(left);
+  }
+  return jumps;
+}
+
 }  // namespace
 
-std::vector<Outlier> odd_ones(const LawFit& fit, const LawFit& spreads, double by_chance) {
+std::vector<Outlier> odd_ones(const LawFit& fit, double by_chance) {
   const Candidates candidates = candidates_of(fit.at);
-  const Eigen::Index own = fit.at.slope.cols(), all = candidates.columns.cols();
-  Eigen::MatrixXd columns(fit.at.residual.size(), 1 + own + all);
-  columns << fit.at.residual, fit.at.slope, candidates.columns;
-  const Whitened white = whitened(fit.at, columns, likeliest(spreads.posterior));
-  const Eigen::LDLT<Eigen::MatrixXd> fitted(white.products.block(1, 1, own, own));
-  const Eigen::VectorXd pulls = white.products.col(0).segment(1, own), pulled = fitted.solve(pulls);
-  std::vector<double> size(static_cast<std::size_t>(all)), z(size.size());
-  for (Eigen::Index k = 0; k < all; ++k) {
-    const Eigen::VectorXd beside = white.products.col(1 + own + k).segment(1, own);
-    const double left = white.products(1 + own + k, 1 + own + k) - beside.dot(fitted.solve(beside));
-    const double pull = white.products(0, 1 + own + k) - beside.dot(pulled);
-    const bool seen = left > 1e-6 * white.products(1 + own + k, 1 + own + k);
-    size[static_cast<std::size_t>(k)] = seen ? pull / left : 0;
-    z[static_cast<std::size_t>(k)] = seen ? pull / std::sqrt(left) : 0;
-  }
+  const Jumps jumps = jumps_of(fit.at, candidates.columns, likeliest(fit.posterior));
+  const Eigen::Index count = fit.at.residual.size();
   // Several outliers widen the spread that they are measured by: then the middle of the others is taken.
   std::vector<double> squares;
-  for (std::size_t k = 0; k < z.size() / 2; ++k) squares.push_back(z[k] * z[k]);
+  for (Eigen::Index k = 0; k < count; ++k) squares.push_back(jumps.sigmas[k] * jumps.sigmas[k]);
   const double usual = std::sqrt(median(squares) / median_of_squares);
   const double scale = usual < widened ? std::max(usual, 0.5) : 1;
-  const double degrees = std::max(1.0, static_cast<double>(fit.at.residual.size() - own - 1));
+  const double degrees = std::max(1.0, static_cast<double>(count - fit.at.slope.cols() - 1));
   std::vector<Outlier> found;
-  for (std::size_t k = 0; k < z.size(); ++k) {
-    const double sigmas = z[k] / scale;
-    if (student_two_sided_tail(std::abs(sigmas), degrees) * static_cast<double>(z.size()) > by_chance)
+  for (Eigen::Index k = 0; k < jumps.sigmas.size(); ++k) {
+    const double sigmas = jumps.sigmas[k] / scale, size = jumps.size[k];
+    if (student_two_sided_tail(std::abs(sigmas), degrees) * static_cast<double>(2 * count) > by_chance)
       continue;
-    const ImpactRow& row = fit.at.rows[candidates.row[k]];
-    const bool instant = candidates.kind[k] == OutlierKind::instant;
-    const double expected = instant ? 0 : row.restitution - size[k];
-    found.push_back({row.drop, row.impact, candidates.kind[k], instant ? size[k] : row.restitution, expected,
-                     sigmas, sentence(row, candidates.kind[k], size[k], expected)});
+    const std::size_t at = static_cast<std::size_t>(k);
+    const ImpactRow& row = fit.at.rows[candidates.row[at]];
+    const bool instant = candidates.kind[at] == OutlierKind::instant;
+    const double expected = instant ? 0 : row.restitution - size;
+    found.push_back({row.drop, row.impact, candidates.kind[at], instant ? size : row.restitution, expected,
+                     sigmas, sentence(row, candidates.kind[at], size, expected)});
   }
   std::stable_sort(found.begin(), found.end(), [](const Outlier& a, const Outlier& b) {
     return std::abs(a.sigmas) > std::abs(b.sigmas);
   });
   return found;
+}
+
+double chance_of(const Outlier& odd, const LawFit& fit, const LawFit& without) {
+  const Candidates all = candidates_of(fit.at);
+  Eigen::Index column = -1;
+  for (std::size_t k = 0; k < all.row.size(); ++k)
+    if (const ImpactRow& row = fit.at.rows[all.row[k]];
+        row.drop == odd.drop && row.impact == odd.impact && all.kind[k] == odd.kind)
+      column = static_cast<Eigen::Index>(k);
+  if (column < 0) return 1;
+  std::vector<const SpreadNode*> nodes;
+  for (const SpreadNode& node : without.posterior.nodes) nodes.push_back(&node);
+  std::sort(nodes.begin(), nodes.end(),
+            [](const SpreadNode* a, const SpreadNode* b) { return a->weight > b->weight; });
+  nodes.resize(std::min(nodes.size(), most_nodes));
+  double sum = 0, weight = 0;
+  for (const SpreadNode* node : nodes) {
+    const Jumps jump = jumps_of(fit.at, all.columns.col(column), *node);
+    sum += node->weight * std::erfc(std::abs(jump.sigmas[0]) / std::numbers::sqrt2);
+    weight += node->weight;
+  }
+  return sum / weight * static_cast<double>(all.row.size());
 }
 
 LawTest test_of(const LawFit& fit, const TimingKnown& timing) {

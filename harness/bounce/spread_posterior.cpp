@@ -13,8 +13,9 @@ namespace shakedown {
 
 namespace {
 
-constexpr double share_from = -8, share_to = 8, share_step = 0.5;  // ln(f/(1-f))
+constexpr double share_from = -6, share_to = 6, share_step = 0.5;  // ln(f/(1-f))
 constexpr double drops_from = -7, drops_to = 2, drops_step = 1;    // ln w
+constexpr double no_scatter = 0.25;  // probability before the data: most real impacts do scatter
 constexpr std::size_t least_drops = 3;
 constexpr double timing_known_to = 0.1;
 // Of V about its best value, in deviations of ln V: Student's tails reach far up.
@@ -97,10 +98,10 @@ class Grid {
   }
 
   SpreadPosterior sum() {
-    add_share(0, 0.5);
+    add_share(0, no_scatter);
     const int shares = static_cast<int>((share_to - share_from) / share_step) + 1;
     for (int i = 0; i < shares; ++i)
-      add_share(1 / (1 + std::exp(-(share_from + i * share_step))), 0.5 / shares);
+      add_share(1 / (1 + std::exp(-(share_from + i * share_step))), (1 - no_scatter) / shares);
     return weighed();
   }
 
@@ -276,8 +277,9 @@ Estimate SpreadPosterior::estimate(double value, const Eigen::VectorXd& slope, c
              std::clamp((normal_below((x - part.mean) / part.deviation) - part.least) / part.share, 0.0, 1.0);
     return sum / all;
   };
-  return {where(below_value, 0.5, from, to), where(below_value, tail, from, to),
-          where(below_value, 1 - tail, from, to)};
+  const double rounding = 1e-12 * (std::abs(value) + 1);  // where the law leaves no freedom
+  return {where(below_value, 0.5, from, to), where(below_value, tail, from, to) - rounding,
+          where(below_value, 1 - tail, from, to) + rounding};
 }
 
 Estimate SpreadPosterior::spread(double SpreadNode::*deviation) const {
