@@ -10,6 +10,7 @@ std::vector<Command> add_commands(CLI::App& program) {
       add_sweep_command(program),
       add_merge_command(program),
       add_import_command(program),
+      add_bounce_command(program),
       add_compare_command(program),
       add_fit_command(program),
       add_study_command(program, "paper", "what of the paper holds, statement by statement"),

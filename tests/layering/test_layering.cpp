@@ -55,6 +55,7 @@ const std::map<std::string, std::set<std::string>> headers_of_others{
     {"PkgConfig::BULLET64", {"Bullet", "bullet/", "LinearMath/", "bt"}},
     {"PkgConfig::NLOPT", {"nlopt"}},
     {"SQLite::SQLite3", {"sqlite3"}},
+    {"PkgConfig::SNDFILE", {"sndfile.h"}},
     {"ZLIB::ZLIB", {"zlib.h"}},
     {"CLI11::CLI11", {"CLI/"}},
     {"Threads::Threads", {}},

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Belief in the numbers of a law when timing noise, scatter from impact to impact and scatter from drop to
+// drop are unknown. Residuals are normal with covariance V ((1 - f) K_t + f K_s + w K_d): timing noise of
+// white instants, scatter of e of each impact, scatter of e of each drop. K_t and K_s have a mean of 1 on the
+// diagonal. Before the data ln V is uniform, f = 0 has probability 1/2 (no scatter) and ln(f/(1-f)) is else
+// uniform from -8 to 8; w = 0 has 1/2, ln w is else uniform from -7 to 2 (drops less than three: w = 0).
+// On a grid of V, f and w the law's numbers are normal and are integrated in closed form; the grid is summed.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "drop_residuals.hpp"
+#include "interval.hpp"
+
+namespace shakedown {
+
+/// One point of the grid.
+struct SpreadNode {
+  double weight = 0;                     ///< of all, they sum to 1
+  double timing = 0;                     ///< s, deviation of an instant
+  double scatter = 0, drop_scatter = 0;  ///< deviations of e
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+};
+
+struct SpreadPosterior {
+  double log_evidence = 0;
+  double scatter_odds = 0;        ///< probability that e scatters from impact to impact
+  double drop_scatter_odds = 0;   ///< that it does from drop to drop
+  double log_evidence_still = 0;  ///< evidence with f = 0 only
+  std::vector<SpreadNode> nodes;
+
+  Eigen::VectorXd mean() const;
+  Eigen::MatrixXd covariance() const;  ///< between nodes too
+  /// Median and 95 % interval of value + slope . (parameters - at), cut off at the bounds.
+  Estimate estimate(double value, const Eigen::VectorXd& slope, const Eigen::VectorXd& at, double low,
+                    double high) const;
+  /// Median and 95 % interval of a deviation, of the nodes that have one; NaN: none does.
+  Estimate spread(double SpreadNode::*deviation) const;
+};
+
+/// What is known of the timing beforehand; NaN: nothing.
+struct TimingKnown {
+  double deviation = not_said;  ///< s, of an instant, to 10 %
+  double resolution = 0;        ///< s: the noise is no less than resolution/sqrt(12)
+};
+
+/// `usual_variance`: about V, s^2, which weighs the errors of heights.
+SpreadPosterior spread_posterior(const Linearised& at, const std::vector<LawParameter>& parameters,
+                                 const TimingKnown& timing, double usual_variance);
+
+/// Columns with the inverse of the covariance of one node.
+struct Whitened {
+  Eigen::MatrixXd products;  ///< (columns)^T C^-1 (columns)
+  Eigen::MatrixXd solved;    ///< C^-1 columns
+};
+Whitened whitened(const Linearised& at, const Eigen::MatrixXd& columns, const SpreadNode& node);
+
+}  // namespace shakedown
