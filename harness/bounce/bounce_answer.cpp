@@ -136,10 +136,14 @@ std::string bounce_text(const BounceReading& reading) {
   if (best.model.air == AirModel::free)
     text += fmt::format("  size and mass were not said (--diameter, --mass): the flights want {}\n",
                         drag_in_words(best.values[law_of(best.model.law).parameters.size()].value));
-  text += "\n  restitution by the law, and the ratio of flights as timed (with what the air takes)\n";
+  text +=
+      "\n  restitution by that law, averaged over the laws, and the ratio of flights as timed (with what the "
+      "air takes)\n";
   for (const double speed : speeds_told(answer))
-    text += fmt::format("    {:6.3f} m/s  {}   {}\n", speed, with_interval(best.restitution_at(speed), 4),
-                        with_interval(reading.as_timed.restitution_at(speed), 4));
+    text +=
+        fmt::format("    {:6.3f} m/s  {}   {}   {}\n", speed, with_interval(best.restitution_at(speed), 4),
+                    with_interval(answer.averaged_at(speed), 4),
+                    with_interval(reading.as_timed.restitution_at(speed), 4));
   text += "\n";
   text +=
       spread_text("timing noise of an instant", best.posterior.spread(&SpreadNode::timing), 1e3, " ms", 1);
@@ -172,13 +176,14 @@ std::string effect_lines(const BounceReading& reading) {
 
 std::string known_lines(const BounceReading& reading, const std::string& contact) {
   const BounceAnswer& answer = reading.answer;
-  const Estimate value = answer.best().restitution_at(answer.reference);
+  const Estimate value = answer.averaged_at(answer.reference);
   const auto rounded = [](double number) { return std::round(number * 1e5) / 1e5; };
   const KnownValue known{
       "restitution." + contact, rounded(value.value), std::max(1e-5, rounded(value.standard_error())), {}};
   std::string text = "# " + sentence_of(reading) + "\n";
-  text += fmt::format("# Measured from {:.3g} to {:.3g} m/s; the value is that at {:.3g} m/s.\n",
-                      answer.slowest, answer.fastest, answer.reference);
+  text += fmt::format(
+      "# Measured from {:.3g} to {:.3g} m/s; the value is that at {:.3g} m/s, averaged over the laws.\n",
+      answer.slowest, answer.fastest, answer.reference);
   text += "[known]\n" + known_line(known) + "\n";
   const std::string law = effect_lines(reading);
   if (law.empty()) return text;

@@ -90,6 +90,7 @@ Json bounce_json(const BounceReading& reading) {
   for (const double speed : speeds_told(answer))
     curve.push_back({{"speed_m_per_s", speed},
                      {"restitution", json_of(best.restitution_at(speed))},
+                     {"averaged", json_of(answer.averaged_at(speed))},
                      {"ratio_as_timed", json_of(reading.as_timed.restitution_at(speed))}});
   return {{"schema_version", 1},
           {"sentence", sentence_of(reading)},
@@ -101,6 +102,7 @@ Json bounce_json(const BounceReading& reading) {
           {"slowest_m_per_s", answer.slowest},
           {"fastest_m_per_s", answer.fastest},
           {"restitution_at_reference", json_of(best.restitution_at(answer.reference))},
+          {"averaged_at_reference", json_of(answer.averaged_at(answer.reference))},
           {"restitution", curve},
           {"laws", laws_json(answer)},
           {"scatter", json_of(best.posterior.spread(&SpreadNode::scatter))},

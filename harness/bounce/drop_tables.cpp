@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <regex>
+#include <sstream>
 
 #include "column_reading.hpp"
 #include "robust_statistics.hpp"
@@ -91,6 +94,39 @@ void note_falls(const std::vector<Drop>& drops, ReadDrops& read) {
 }
 
 }  // namespace
+
+Table parse_bounce_table(const std::string& text, const std::string& name) {
+  Table table = parse_table(text, name);
+  if (table.delimiter != ',' || table.columns.size() != 2 || table.columns[1].name != "column 2")
+    return table;
+  // "0,254" in each line and no number with a point: of a counter and whole milliseconds the first would
+  // count.
+  std::string points;
+  std::istringstream lines(text);
+  static const std::regex commas(R"re(\s*"?(\d+),(\d+)"?\s*)re");
+  double last = not_said;
+  int counts = 0, all = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch found;
+    if (std::regex_match(line, found, commas)) {
+      const double whole = std::stod(found[1]);
+      counts += whole == last + 1;
+      last = whole, ++all;
+      line = found[1].str() + "." + found[2].str();
+    }
+    points += line + "\n";
+  }
+  return all < static_cast<int>(table.rows()) || 2 * counts > all ? table : parse_table(points, name);
+}
+
+Table read_bounce_table(const std::string& file) {
+  Table table = read_table(file);
+  if (table.delimiter != ',' || table.columns.size() != 2) return table;
+  std::ifstream input(file, std::ios::binary);
+  std::stringstream text;
+  text << input.rdbuf();
+  return parse_bounce_table(text.str(), file);
+}
 
 ReadDrops drops_of_table(const Table& table, const DropReading& reading) {
   if (!table.violations.empty()) throw InputError(table.violations);

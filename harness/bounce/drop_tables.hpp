@@ -37,6 +37,10 @@ struct ReadDrops {
 /// Throws InputError where the table holds no drop.
 ReadDrops drops_of_table(const Table& table, const DropReading& reading);
 
+/// As read_table(); a single column with decimal commas is not taken for two columns of whole numbers.
+Table read_bounce_table(const std::string& file);
+Table parse_bounce_table(const std::string& text, const std::string& name);
+
 /// From a file of any kind: sound (WAV, FLAC, OGG) by its first bytes, else a table. Throws FileError,
 /// InputError.
 ReadDrops read_drops(const std::string& file, const DropReading& reading);

@@ -49,7 +49,7 @@ const std::vector<Vocabulary>& vocabulary() {
        {"bounce", "impact", "hit", "rimbalz", "rebond", "rebote", "aufprall", "sto\xc3\x9f", "stoss",
         "numero", "num\xc3\xa9r"}},
       {Topic::height,
-       {"h", "y", "z", "drop"},
+       {"h", "y", "z"},
        {"height", "h\xc3\xb6he", "hoehe", "hauteur", "altez", "altura", "quota", "fallh", "pos", "y"}},
       {Topic::instant,
        {"t", "s", "ms"},

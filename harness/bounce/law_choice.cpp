@@ -50,9 +50,15 @@ Eigen::VectorXd start_of(const std::vector<Flights>& flights, const BounceModel&
   Eigen::VectorXd value(std::ssize(parameters));
   for (std::size_t k = 0; k < parameters.size(); ++k)
     value[static_cast<Eigen::Index>(k)] = parameters[k].start;
-  std::vector<double> seen;
-  for (const ImpactRow& row : linearised(flights, model, value).rows) seen.push_back(row.restitution);
-  value[0] = std::clamp(median(seen), 0.01, 0.9999);
+  // A power law is cut off at its most: impacts there say nothing of its restitution at the reference speed.
+  const double exponent = model.law == LawKind::plastic ? 0.25 : model.law == LawKind::power ? value[1] : 0;
+  std::vector<double> all, below_most;
+  for (const ImpactRow& row : linearised(flights, model, value).rows) {
+    const double at_reference = row.restitution * std::pow(row.speed / model.reference, exponent);
+    all.push_back(at_reference);
+    if (row.restitution < 0.97) below_most.push_back(at_reference);
+  }
+  value[0] = std::clamp(median(below_most.empty() ? all : below_most), 0.01, 0.9999);
   return value;
 }
 
@@ -138,7 +144,9 @@ std::string LawFit::name() const {
   return std::string(law_of(model.law).name) + (model.air == AirModel::free ? " and air" : "");
 }
 
-Estimate LawFit::restitution_at(double speed) const {
+Estimate LawFit::restitution_at(double speed) const { return posterior.estimate(linear_at(speed)); }
+
+LinearValue LawFit::linear_at(double speed) const {
   const std::size_t own = law_of(model.law).parameters.size();
   const auto value = [&](const Eigen::VectorXd& of) {
     return restitution(model.law, {of.data(), own}, speed, model.reference);
@@ -150,11 +158,19 @@ Estimate LawFit::restitution_at(double speed) const {
     low[k] = std::max(p.low, low[k] - 1e-4), high[k] = std::min(p.high, high[k] + 1e-4);
     slope[k] = (value(high) - value(low)) / (high[k] - low[k]);
   }
-  return posterior.estimate(value(at.value), slope, at.value, 0, model.law == LawKind::curve ? 2 : 1);
+  return {value(at.value), slope, at.value, 0, model.law == LawKind::curve ? 2.0 : 1.0};
 }
 
 bool BounceAnswer::holds() const {
   return best().model.law != LawKind::curve && !(test.p_value <= holds_above);
+}
+
+Estimate BounceAnswer::averaged_at(double speed) const {
+  constexpr double negligible = 1e-4;
+  std::vector<NormalPart> parts;
+  for (const LawFit& law : laws)
+    if (law.probability > negligible) law.posterior.add_to(parts, law.linear_at(speed), law.probability);
+  return estimate_of(parts);
 }
 
 LawFit fit_law(const std::vector<Flights>& flights, const BounceModel& model, const TimingKnown& timing) {
@@ -178,8 +194,8 @@ LawFit fit_law(const std::vector<Flights>& flights, const BounceModel& model, co
   fit.at = linearised(flights, model, value);
   for (Eigen::Index k = 0; k < value.size(); ++k) {
     const LawParameter& p = fit.parameters[static_cast<std::size_t>(k)];
-    fit.values.push_back(
-        fit.posterior.estimate(value[k], Eigen::VectorXd::Unit(value.size(), k), value, p.low, p.high));
+    fit.values.push_back(fit.posterior.estimate(
+        LinearValue{value[k], Eigen::VectorXd::Unit(value.size(), k), value, p.low, p.high}));
   }
   return fit;
 }

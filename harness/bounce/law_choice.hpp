@@ -29,6 +29,7 @@ struct LawFit {
   std::string name() const;  ///< "power", "power and air"
   /// Restitution of the law at a speed, with its 95 % interval.
   Estimate restitution_at(double speed) const;
+  LinearValue linear_at(double speed) const;
 };
 
 /// What one law leaves beside free curves through the same impacts.
@@ -53,6 +54,8 @@ struct BounceAnswer {
   double holds_above = 0.01;                       ///< p-value
   const LawFit& best() const { return laws.front(); }
   bool holds() const;
+  /// Restitution at a speed averaged over the laws, each with its probability.
+  Estimate averaged_at(double speed) const;
 };
 
 /// Needs three intervals in a row, or two after a known height, in one drop at least; throws InputError

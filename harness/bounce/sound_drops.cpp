@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "errors.hpp"
 #include "sound.hpp"
@@ -14,9 +15,13 @@ namespace {
 
 constexpr double shortest = 0.03, longest = 2.5;  // s, of a flight
 constexpr double least_ratio = 0.3, most_ratio = 0.995;
-constexpr double first_tolerance = 0.06;  // of an interval, by which it may miss what the last two foretell
-constexpr double loud_enough = 30;        // dB; more does not make a sound more likely an impact
-constexpr double price_of_missing = 25, price_of_change = 15;  // dB; the second for a change by the tolerance
+constexpr double ratio_changes =
+    0.025;                          // deviation of an interval from what the last two foretell, its share
+constexpr double placed_to = 5e-4;  // s, and besides
+constexpr double furthest = 3;      // deviations
+constexpr double price_of_missing = 2.3;
+constexpr double quieter = 2, loudness_changes = 5;  // dB from impact to impact, and deviation
+constexpr double least_evidence = 1;                 // of the first drop of a file
 constexpr std::size_t most_onsets = 160;
 constexpr std::size_t least_impacts = 4;
 /// dB: in fainter sounds the noise reaches the share of the peak that places them.
@@ -26,8 +31,6 @@ struct Chain {
   std::vector<std::size_t> members;
   double score = 0;
 };
-
-double worth(const Onset& onset) { return std::min(onset.strength, loud_enough); }
 
 /// The onset nearest to a time, within a tolerance; nothing else than an index.
 std::size_t nearest(const std::vector<Onset>& onsets, double time, double within) {
@@ -41,21 +44,32 @@ std::size_t nearest(const std::vector<Onset>& onsets, double time, double within
   return best;
 }
 
-/// Follows a drop from its first two impacts and a ratio; the ratio follows what is found.
-Chain followed(const std::vector<Onset>& onsets, std::size_t a, std::size_t b, double ratio) {
-  Chain chain{{a, b}, worth(onsets[a]) + worth(onsets[b])};
+/// ln of how much likelier an onset is as the next impact of a drop than by chance, `density` onsets a
+/// second.
+double evidence(const Onset& before, const Onset& onset, double off, double deviation, double density) {
+  const double unusual = (before.strength - onset.strength - quieter) / loudness_changes;
+  return -std::log(density * std::sqrt(2 * std::numbers::pi) * deviation) - off * off / 2 +
+         std::max(-2.0, 0.5 - unusual * unusual / 2);
+}
+
+/// Follows a drop from its first two impacts and a ratio; the ratio follows what is found. The third impact
+/// gave the ratio and counts nothing.
+Chain followed(const std::vector<Onset>& onsets, std::size_t a, std::size_t b, double ratio, double density) {
+  Chain chain{{a, b}, 0};
   double interval = onsets[b].time - onsets[a].time, at = onsets[b].time;
   int missing = 0;
   while (interval * ratio > shortest) {
-    const double next = interval * ratio;
-    const std::size_t found = nearest(onsets, at + next, first_tolerance * next);
+    const double next = interval * ratio, deviation = ratio_changes * next + placed_to;
+    const std::size_t found = nearest(onsets, at + next, furthest * deviation);
     if (found == onsets.size() || found <= chain.members.back()) {
       if (++missing > 1) break;
       at += next, interval = next;
       continue;
     }
-    const double off = (onsets[found].time - at - next) / (first_tolerance * next);
-    chain.score += worth(onsets[found]) - price_of_change * off * off - missing * price_of_missing;
+    const double off = (onsets[found].time - at - next) / deviation;
+    if (chain.members.size() > 2)
+      chain.score += evidence(onsets[chain.members.back()], onsets[found], off, deviation, density) -
+                     missing * price_of_missing;
     const double seen = (onsets[found].time - at) / interval;
     if (missing == 0) ratio = std::clamp(0.5 * ratio + 0.5 * seen, least_ratio, most_ratio);
     interval = onsets[found].time - at;
@@ -94,11 +108,15 @@ SoundShown shown(const Sound& sound, const std::string& file) {
 
 }  // namespace
 
-std::vector<std::size_t> chain_of(const std::vector<Onset>& all) {
+std::vector<std::size_t> chain_of(const std::vector<Onset>& all, bool first) {
   const std::vector<std::size_t> kept = strongest(all);
   std::vector<Onset> onsets;
   for (const std::size_t i : kept) onsets.push_back(all[i]);
+  if (onsets.size() < least_impacts) return {};
+  const double density =
+      static_cast<double>(onsets.size()) / std::max(1.0, onsets.back().time - onsets.front().time);
   Chain best;
+  double tried = 1;
   for (std::size_t a = 0; a < onsets.size(); ++a)
     for (std::size_t b = a + 1; b < onsets.size(); ++b) {
       const double interval = onsets[b].time - onsets[a].time;
@@ -108,10 +126,12 @@ std::vector<std::size_t> chain_of(const std::vector<Onset>& all) {
         const double ratio = (onsets[c].time - onsets[b].time) / interval;
         if (ratio < least_ratio) continue;
         if (ratio > most_ratio) break;
-        Chain chain = followed(onsets, a, b, ratio);
+        ++tried;
+        Chain chain = followed(onsets, a, b, ratio, density);
         if (chain.members.size() >= least_impacts && chain.score > best.score) best = std::move(chain);
       }
     }
+  if (best.score < (first ? least_evidence : std::log(tried))) return {};
   std::vector<std::size_t> members;
   for (const std::size_t i : best.members) members.push_back(kept[i]);
   return members;
@@ -122,7 +142,7 @@ ReadDrops drops_of_sound(const Sound& sound, const std::string& file, const Drop
   ReadDrops read;
   SoundShown picture = shown(sound, file);
   std::vector<Onset> left = onsets;
-  for (std::vector<std::size_t> chain; !(chain = chain_of(left)).empty();) {
+  for (std::vector<std::size_t> chain; !(chain = chain_of(left, read.drops.empty())).empty();) {
     const double from = left[chain.front()].time - 0.05, to = left[chain.back()].time + 0.05;
     std::size_t used = std::min(least_impacts, chain.size());
     while (used < chain.size() && left[chain[used]].strength >= placed_well) ++used;
@@ -169,7 +189,7 @@ ReadDrops drops_of_sound(const Sound& sound, const std::string& file, const Drop
 ReadDrops read_drops(const std::string& file, const DropReading& reading) {
   if (reading.as == "sound" || (reading.as.empty() && is_sound(file)))
     return drops_of_sound(read_sound(file), file, reading);
-  return drops_of_table(read_table(file), reading);
+  return drops_of_table(read_bounce_table(file), reading);
 }
 
 }  // namespace shakedown

@@ -13,9 +13,10 @@ namespace shakedown {
 
 namespace {
 
-constexpr double share_from = -6, share_to = 6, share_step = 0.5;  // ln(f/(1-f))
+constexpr double share_from = -3, share_to = 8, share_step = 0.5;  // ln(f/(1-f))
 constexpr double drops_from = -7, drops_to = 2, drops_step = 1;    // ln w
-constexpr double no_scatter = 0.25;  // probability before the data: most real impacts do scatter
+// Probabilities before the data; intervals of drops drawn with and without scatter then hold the truth alike.
+constexpr double no_scatter = 0.6, no_drop_scatter = 0.75;
 constexpr std::size_t least_drops = 3;
 constexpr double timing_known_to = 0.1;
 // Of V about its best value, in deviations of ln V: Student's tails reach far up.
@@ -111,11 +112,12 @@ class Grid {
                                  1 / usual_};
     const ByDrop parts = by_drop(covariance_, variances, columns_);
     const bool many = parts.inner.size() >= least_drops;
-    add_volumes(parts.with(0), share, 0, prior * (many ? 0.5 : 1));
+    add_volumes(parts.with(0), share, 0, prior * (many ? no_drop_scatter : 1));
     const int steps = static_cast<int>((drops_to - drops_from) / drops_step) + 1;
     for (int i = 0; many && i < steps; ++i) {
       const double weight = std::exp(drops_from + i * drops_step);
-      add_volumes(parts.with(weight / covariance_.mean_scatter()), share, weight, prior * 0.5 / steps);
+      add_volumes(parts.with(weight / covariance_.mean_scatter()), share, weight,
+                  prior * (1 - no_drop_scatter) / steps);
     }
   }
 
@@ -218,7 +220,7 @@ class Grid {
 /// The value below which a growing function of it is `target`.
 template <class Function>
 double where(Function below_value, double target, double low, double high) {
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 45; ++i) {
     const double middle = (low + high) / 2;
     (below_value(middle) < target ? low : high) = middle;
   }
@@ -253,31 +255,37 @@ Eigen::MatrixXd SpreadPosterior::covariance() const {
   return sum / weight;
 }
 
-Estimate SpreadPosterior::estimate(double value, const Eigen::VectorXd& slope, const Eigen::VectorXd& at,
-                                   double low, double high) const {
-  struct Part {
-    double weight, mean, deviation, least, share;
-  };
-  std::vector<Part> parts;
+void SpreadPosterior::add_to(std::vector<NormalPart>& parts, const LinearValue& value, double weight) const {
+  for (const SpreadNode& node : nodes)
+    parts.push_back({weight * node.weight, value.value + value.slope.dot(node.mean - value.at),
+                     std::sqrt(std::max(1e-30, value.slope.dot(node.covariance * value.slope))), value.low,
+                     value.high});
+}
+
+Estimate SpreadPosterior::estimate(const LinearValue& value) const {
+  std::vector<NormalPart> parts;
+  add_to(parts, value, 1);
+  return estimate_of(parts);
+}
+
+Estimate estimate_of(const std::vector<NormalPart>& parts) {
   double from = 1e300, to = -1e300, all = 0;
-  for (const SpreadNode& node : nodes) {
-    Part part{node.weight, value + slope.dot(node.mean - at),
-              std::sqrt(std::max(1e-30, slope.dot(node.covariance * slope))), 0, 1};
-    part.least = normal_below((low - part.mean) / part.deviation);
-    part.share = within(part.mean, part.deviation, low, high);
-    from = std::min(from, std::max(low, part.mean - 9 * part.deviation));
-    to = std::max(to, std::min(high, part.mean + 9 * part.deviation));
+  for (const NormalPart& part : parts) {
+    from = std::min(from, std::max(part.low, part.mean - 9 * part.deviation));
+    to = std::max(to, std::min(part.high, part.mean + 9 * part.deviation));
     all += part.weight;
-    parts.push_back(part);
   }
   const auto below_value = [&](double x) {
     double sum = 0;
-    for (const Part& part : parts)
+    for (const NormalPart& part : parts) {
+      const double least = normal_below((part.low - part.mean) / part.deviation);
+      const double share = within(part.mean, part.deviation, part.low, part.high);
       sum += part.weight *
-             std::clamp((normal_below((x - part.mean) / part.deviation) - part.least) / part.share, 0.0, 1.0);
+             std::clamp((normal_below((x - part.mean) / part.deviation) - least) / share, 0.0, 1.0);
+    }
     return sum / all;
   };
-  const double rounding = 1e-12 * (std::abs(value) + 1);  // where the law leaves no freedom
+  const double rounding = 1e-12 * (std::abs(to) + 1);  // where the law leaves no freedom
   return {where(below_value, 0.5, from, to), where(below_value, tail, from, to) - rounding,
           where(below_value, 1 - tail, from, to) + rounding};
 }

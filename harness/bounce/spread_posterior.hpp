@@ -2,8 +2,8 @@
 // Belief in the numbers of a law when timing noise, scatter from impact to impact and scatter from drop to
 // drop are unknown. Residuals are normal with covariance V ((1 - f) K_t + f K_s + w K_d): timing noise of
 // white instants, scatter of e of each impact, scatter of e of each drop. K_t and K_s have a mean of 1 on the
-// diagonal. Before the data ln V is uniform, f = 0 has probability 1/2 (no scatter) and ln(f/(1-f)) is else
-// uniform from -8 to 8; w = 0 has 1/2, ln w is else uniform from -7 to 2 (drops less than three: w = 0).
+// diagonal. Before the data ln V is uniform, f = 0 has probability 0.6 (no scatter) and ln(f/(1-f)) is else
+// uniform from -3 to 8; w = 0 has 0.75, ln w is else uniform from -7 to 2 (drops less than three: w = 0).
 // On a grid of V, f and w the law's numbers are normal and are integrated in closed form; the grid is summed.
 #pragma once
 #include <Eigen/Core>
@@ -23,6 +23,20 @@ struct SpreadNode {
   Eigen::MatrixXd covariance;
 };
 
+/// A normal distribution within bounds, with a weight.
+struct NormalPart {
+  double weight = 0, mean = 0, deviation = 0, low = 0, high = 1;
+};
+/// Median and 95 % interval of a sum of them.
+Estimate estimate_of(const std::vector<NormalPart>& parts);
+
+/// A function of the parameters, to first order, and the bounds of its values.
+struct LinearValue {
+  double value = 0;
+  Eigen::VectorXd slope, at;
+  double low = 0, high = 1;
+};
+
 struct SpreadPosterior {
   double log_evidence = 0;
   double scatter_odds = 0;        ///< probability that e scatters from impact to impact
@@ -32,9 +46,11 @@ struct SpreadPosterior {
 
   Eigen::VectorXd mean() const;
   Eigen::MatrixXd covariance() const;  ///< between nodes too
-  /// Median and 95 % interval of value + slope . (parameters - at), cut off at the bounds.
-  Estimate estimate(double value, const Eigen::VectorXd& slope, const Eigen::VectorXd& at, double low,
-                    double high) const;
+  /// value + slope . (parameters - at), cut off at the bounds: adds its normal distributions, each with its
+  /// weight times `weight`.
+  void add_to(std::vector<NormalPart>& parts, const LinearValue& value, double weight) const;
+  /// Median and 95 % interval of it.
+  Estimate estimate(const LinearValue& value) const;
   /// Median and 95 % interval of a deviation, of the nodes that have one; NaN: none does.
   Estimate spread(double SpreadNode::*deviation) const;
 };

@@ -15,6 +15,8 @@ namespace shakedown {
 namespace {
 
 constexpr double said_in_header = 0.25;  // a word in the header counts as much as a quarter of the numbers
+constexpr double of_all_numbers = 0.3;   // for a layout that uses every number of the table
+constexpr double most_for_unlike = 0.2;
 constexpr double least_score = 0.5;
 
 std::vector<double> numbers_of(const std::vector<double>& values) {
@@ -71,7 +73,9 @@ double like_flights(const std::vector<std::vector<double>>& series, TimesKind ki
   }
   if (all < 2 || ratios.empty()) return 0;
   const double middle = median(ratios);
-  return middle < 0.998 ? good / all : 0;  // equal steps are a clock or a counter
+  if (middle >= 0.998) return 0;  // equal steps are a clock or a counter
+  // Rows and columns may both fall: of one ball the ratios are alike.
+  return good / all - std::min(most_for_unlike, robust_deviation(ratios) / middle);
 }
 
 double word_for(Topic topic, TimesKind kind) {
@@ -121,7 +125,19 @@ class LayoutSearch {
     return word_for(topic_of(column.name), kind) + unit_score(unit_of(column));
   }
 
+  /// Numbers that could be times of this kind.
+  double possible(TimesKind kind) const {
+    double count = 0;
+    for (const TableColumn* column : usable_)
+      if (!is_counting(column->value) && !is_label(*column) && from_header(*column, kind) > -0.5)
+        count += static_cast<double>(numbers_of(column->value).size());
+    return count;
+  }
+
   void take(Layout layout) {
+    double used = 0;
+    for (const Layout::Series& one : layout.series) used += static_cast<double>(numbers_of(one.times).size());
+    layout.score += of_all_numbers * std::min(1.0, used / std::max(1.0, possible(layout.kind)));
     if (layout.score > best_.score + 1e-9) best_ = std::move(layout);
   }
 
@@ -212,7 +228,7 @@ class LayoutSearch {
           one.height = column.value[row], one.height_unit = unit_of(column);
       layout.series.push_back(std::move(one));
     }
-    layout.score = score(layout) + from_header(*times[0], kind) / 2;
+    layout.score = score(layout) + from_header(*times[0], kind);
     take(std::move(layout));
   }
 
@@ -261,14 +277,19 @@ Layout layout_of(const Table& table, const DropReading& reading) {
 
 namespace {
 
-/// Turns from falling to rising, of values that are smooth but for them.
-bool bounces(const std::vector<double>& y) {
-  int turns = 0, steps = 0;
-  for (std::size_t i = 2; i < y.size(); ++i) {
-    const double a = y[i - 1] - y[i - 2], b = y[i] - y[i - 1];
-    turns += (a < 0) != (b < 0);
-    ++steps;
+/// Turns from falling to rising, of values that are smooth but for them; means of some frames where there are
+/// many.
+bool bounces(const std::vector<double>& frames) {
+  constexpr std::size_t points = 250;
+  const std::size_t block = std::max<std::size_t>(1, frames.size() / points);
+  std::vector<double> y;
+  for (std::size_t i = 0; i + block <= frames.size(); i += block) {
+    double sum = 0;
+    for (std::size_t j = i; j < i + block; ++j) sum += frames[j];
+    y.push_back(sum / static_cast<double>(block));
   }
+  int turns = 0, steps = 0;
+  for (std::size_t i = 2; i < y.size(); ++i, ++steps) turns += (y[i] < y[i - 1]) != (y[i - 1] < y[i - 2]);
   return turns >= 4 && turns * 4 < steps;
 }
 

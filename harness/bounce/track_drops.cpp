@@ -23,23 +23,35 @@ struct Parabola {
   std::size_t first = 0, last = 0;  ///< frames used
 };
 
-/// Frames in which the ball is lowest between falling and rising.
-std::vector<std::size_t> lowest_frames(const std::vector<double>& y) {
+/// Bends of the track over this time, s, tell an impact from the top of a flight.
+constexpr double bend_time = 0.012;
+
+/// Differences of second order over k frames on either side; the first and last k are 0.
+std::vector<double> bends_of(const std::vector<double>& y, std::size_t k) {
+  std::vector<double> bends(y.size(), 0);
+  for (std::size_t i = k; i + k < y.size(); ++i) bends[i] = y[i + k] - 2 * y[i] + y[i - k];
+  return bends;
+}
+
+std::size_t frames_of_a_bend(const std::vector<double>& t) {
+  const double step = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+  return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(bend_time / step)));
+}
+
+/// Frames in which the ball is lowest between falling and rising: where the track bends upwards by more than
+/// noise does, and more than gravity bends it downwards.
+std::vector<std::size_t> lowest_frames(const std::vector<double>& t, const std::vector<double>& y) {
+  const std::size_t k = frames_of_a_bend(t);
+  const std::vector<double> bends = bends_of(y, k);
+  const double least = std::max(5 * robust_deviation(bends), 3 * std::abs(median(bends)));
   std::vector<std::size_t> found;
-  const auto [least, most] = std::minmax_element(y.begin(), y.end());
-  const double tiny = 0.003 * (*most - *least);
-  for (std::size_t i = 1; i + 1 < y.size(); ++i) {
-    if (!(y[i] <= y[i - 1] && y[i] < y[i + 1])) continue;
-    // A turn in the noise near the highest point is shallow on both sides.
-    const std::size_t from = i >= 2 ? i - 2 : 0, to = std::min(i + 2, y.size() - 1);
-    if (y[from] - y[i] < tiny && y[to] - y[i] < tiny) continue;
-    const double before = y[i] - y[from], after = y[to] - y[i];
-    if (!(before < 0 && after > 0)) continue;
-    if (!found.empty() && i - found.back() <= 2) {
-      if (y[i] < y[found.back()]) found.back() = i;
-      continue;
-    }
-    found.push_back(i);
+  for (std::size_t i = k; i + k < y.size(); ++i) {
+    const auto at = [&](std::size_t j) { return bends.begin() + static_cast<std::ptrdiff_t>(j); };
+    if (bends[i] < least || std::max_element(at(i - k), at(i + k + 1)) != at(i)) continue;
+    const auto low = std::min_element(y.begin() + static_cast<std::ptrdiff_t>(i - k),
+                                      y.begin() + static_cast<std::ptrdiff_t>(i + k + 1));
+    const std::size_t lowest = static_cast<std::size_t>(low - y.begin());
+    if (found.empty() || lowest > found.back() + 1) found.push_back(lowest);
   }
   return found;
 }
@@ -118,11 +130,10 @@ double clock_size(const Table& table, const TableColumn& column, const DropReadi
 }  // namespace
 
 TrackImpacts impacts_of_track(std::vector<double> t, std::vector<double> y, double gravity) {
-  std::vector<double> bends;
-  for (std::size_t i = 2; i < y.size(); ++i) bends.push_back(y[i] - 2 * y[i - 1] + y[i - 2]);
-  if (median(bends) > 0)  // pixels are counted downwards: in flight the curve bends down
+  if (median(bends_of(y, frames_of_a_bend(t))) >
+      0)  // pixels are counted downwards: in flight the curve bends down
     for (double& one : y) one = -one;
-  const std::vector<std::size_t> lowest = lowest_frames(y);
+  const std::vector<std::size_t> lowest = lowest_frames(t, y);
   const auto flights = flights_between(lowest, y.size());
   std::vector<std::pair<double, double>> curvatures;
   for (std::size_t k = 1; k + 1 < flights.size(); ++k)

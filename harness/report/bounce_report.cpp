@@ -121,12 +121,13 @@ ReportSection laws_section(const BounceReading& reading) {
 ReportTable speeds_table(const BounceReading& reading) {
   ReportTable table{"Restitution at some speeds",
                     "As timed: the ratio of flights without any law, what the air takes in it.",
-                    {"speed, m/s", "restitution", "as timed"},
+                    {"speed, m/s", "by the law", "averaged over the laws", "as timed"},
                     {},
                     false};
   const auto cell = [](const Estimate& e) { return with_interval(e.value, e.low, e.high); };
   for (const double speed : speeds_told(reading.answer))
     table.rows.push_back({for_people(speed), cell(reading.answer.best().restitution_at(speed)),
+                          cell(reading.answer.averaged_at(speed)),
                           cell(reading.as_timed.restitution_at(speed))});
   return table;
 }
@@ -148,20 +149,17 @@ ReportSection outliers_section(const BounceReading& reading) {
 ReportPlot sound_plot(const SoundShown& sound) {
   ReportPlot plot;
   plot.title = sound.file;
-  plot.caption = "Highest level in each interval. Crosses below: onsets that belong to the drop, and others.";
+  plot.caption =
+      "Highest level in each interval. Points: impacts of the drop. Dashed lines: other sudden sounds.";
   plot.x_label = "time in the recording, s";
   plot.y_label = "level, dB of full scale";
   plot.x = sound.time;
-  std::vector<double> impacts(plot.x.size(), std::nan("")), others = impacts;
-  const auto put = [&](const std::vector<double>& times, std::vector<double>& on) {
-    for (const double t : times) {
-      const auto after = std::lower_bound(plot.x.begin(), plot.x.end(), t);
-      const std::size_t i = std::min(static_cast<std::size_t>(after - plot.x.begin()), plot.x.size() - 1);
-      on[i] = sound.level[i];
-    }
-  };
-  put(sound.impacts, impacts);
-  put(sound.others, others);
+  std::vector<double> impacts(plot.x.size(), std::nan(""));
+  for (const double t : sound.impacts) {
+    const auto after = std::lower_bound(plot.x.begin(), plot.x.end(), t);
+    const std::size_t i = std::min(static_cast<std::size_t>(after - plot.x.begin()), plot.x.size() - 1);
+    impacts[i] = sound.level[i];
+  }
   plot.curves = {{"level", CurveRole::other, sound.level},
                  {"impacts of the drop", CurveRole::points, impacts}};
   for (const double t : sound.others) plot.marks.push_back({t, ""});

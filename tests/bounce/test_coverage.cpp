@@ -49,7 +49,7 @@ struct Count {
 };
 
 struct Coverage {
-  Count restitution, second, slow, fast, chosen, scatter, timing;
+  Count restitution, second, slow, fast, averaged, scatter, timing;
   int named = 0, in_answer = 0, all = 0, false_outliers = 0, impacts = 0;
 };
 
@@ -76,7 +76,7 @@ void add_case(const Drawn& one, std::uint64_t seed, std::uint64_t run, Coverage&
     coverage.timing.add(law.posterior.spread(&SpreadNode::timing), one.ball.timing);
     if (one.ball.scatter > 0)
       coverage.scatter.add(law.posterior.spread(&SpreadNode::scatter), one.ball.scatter);
-    coverage.chosen.add(answer.best().restitution_at(answer.reference), truth(answer.reference));
+    coverage.averaged.add(answer.averaged_at(answer.reference), truth(answer.reference));
   }
   coverage.named += answer.best().model.law == one.ball.law && answer.best().model.air == AirModel::none;
   coverage.in_answer += within;
@@ -97,12 +97,13 @@ Coverage measured(LawKind law, bool scattering, int cases, std::uint64_t seed) {
 std::string described(const char* name, const Coverage& c) {
   const auto percent = [](const Count& count) { return 100 * count.share(); };
   return fmt::format(
-      "{:<14} {:4} cases: restitution {:.1f} %, exponent {:.1f}, slowest {:.1f}, fastest {:.1f}, by the law "
-      "chosen {:.1f}, scatter {:.1f}, timing {:.1f}; named {:.1f} %, in the 95 % set {:.1f}; false outliers "
+      "{:<14} {:4} cases: restitution {:.1f} %, exponent {:.1f}, slowest {:.1f}, fastest {:.1f}, averaged "
+      "over the laws {:.1f}, scatter {:.1f}, timing {:.1f}; named {:.1f} %, in the 95 % set {:.1f}; false "
+      "outliers "
       "{} "
       "of {} impacts",
       name, c.all, percent(c.restitution), percent(c.second), percent(c.slow), percent(c.fast),
-      percent(c.chosen), percent(c.scatter), percent(c.timing), 100.0 * c.named / c.all,
+      percent(c.averaged), percent(c.scatter), percent(c.timing), 100.0 * c.named / c.all,
       100.0 * c.in_answer / c.all, c.false_outliers, c.impacts);
 }
 

@@ -9,6 +9,7 @@
 
 #include "drop_tables.hpp"
 #include "errors.hpp"
+#include "random.hpp"
 
 using namespace shakedown;
 
@@ -114,6 +115,47 @@ TEST(DropTables, CountsOfAClock) {
   DropReading reading;
   reading.rate = 48000;
   expect_three(text, 2.2e-5, reading);  // seen: 2.0e-5, the sample
+}
+
+TEST(DropTables, OneColumnOfDecimalCommas) {
+  const auto count = [](const std::string& text) {
+    return drops_of_table(parse_bounce_table(text, "a.csv"), {}).drops.at(0).interval.size();
+  };
+  EXPECT_EQ(count("Zeit in s\n0,800\n0,640\n0,512\n0,410\n0,328\n"), 5u);
+  EXPECT_EQ(count("0,75\n0,60\n0,48\n0,38\n"), 4u);
+  EXPECT_EQ(count("1,754\n2,603\n3,483\n4,386\n"), 4u);  // a counter and milliseconds
+}
+
+TEST(DropTables, RowsBehindWords) {
+  const ReadDrops read = drops_of_table(parse_table("ball,surface,trial,dt1,dt2,dt3,dt4\n"
+                                                    "golf,wood,1,0.75,0.60,0.48,0.38\n"
+                                                    "golf,wood,2,0.74,0.59,0.47,0.38\n"
+                                                    "golf,tile,1,0.60,0.48,0.38,0.31\n",
+                                                    "a.csv"),
+                                        {});
+  ASSERT_EQ(read.drops.size(), 3u);
+  EXPECT_EQ(read.drops[2].name, "ball golf, surface tile, trial 1");
+  EXPECT_EQ(read.drops[2].interval.size(), 4u);
+}
+
+TEST(DropTables, ANoisyTrackGivesImpacts) {
+  const std::vector<double> t = instants(flights(0.7, 0.8, 6), 0.35);
+  for (const double rate : {60.0, 240.0, 1000.0}) {
+    std::string text = "t (s);y (m)\n";
+    Random random(5, 1, Stream::camera);
+    for (int f = 0; f < static_cast<int>(2.6 * rate); ++f) {
+      const double now = f / rate;
+      double height = now < t[0] ? 9.81 / 2 * (t[0] * t[0] - now * now) : 0;
+      for (std::size_t i = 0; i + 1 < t.size(); ++i)
+        if (now >= t[i] && now < t[i + 1]) height = 9.81 / 2 * (now - t[i]) * (t[i + 1] - now);
+      text += fmt::format("{:.5f};{:.5f}\n", now, height + 1e-3 * random.normal());
+    }
+    const ReadDrops read = drops_of_table(parse_table(text, "track.csv"), {});
+    ASSERT_EQ(read.drops.size(), 1u) << rate;
+    ASSERT_GE(read.drops[0].interval.size(), 5u) << rate;
+    for (std::size_t i = 1; i < 5; ++i)
+      EXPECT_NEAR(read.drops[0].interval[i], t[i] - t[i - 1], 1.5e-3) << rate << " " << i;
+  }
 }
 
 TEST(DropTables, AFallFromRestIsNoFlight) {
