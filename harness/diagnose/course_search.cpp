@@ -36,8 +36,8 @@ DiagnosisState& Course::beside(DiagnosisState& refitted) {
 DiagnosisState Course::search(DiagnosisState& refitted) {
   DiagnosisState state = refitted;
   const std::vector<std::string> from_balance = effects_of(result_.momentum);
-  // Until nothing is added, though the data accept the model: chi2 of hundreds of features does not see what a
-  // single effect would take away. Where runs cost several times a plain one, only while they do not.
+  // Until nothing is added, though the data accept the model: chi2 of hundreds of features does not see what
+  // a single effect would take away. Where runs cost several times a plain one, only while they do not.
   for (bool searched = false;; searched = true) {
     if (static_cast<double>(state.missing.size()) >= rules::most_effects) break;
     if (searched && state.dear && state.fit.p_value > rules::doubtful) break;
