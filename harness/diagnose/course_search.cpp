@@ -82,6 +82,8 @@ DiagnosisState Course::search(DiagnosisState& refitted) {
 DiagnosisState Course::with_full_effort(DiagnosisState state) {
   state = unless_spent(last_refit, state, [&] {
     DiagnosisState whole = concluded(state, tools_, "refitting with what was found");
+    // A model that is far off may send it astray.
+    if ((whole.fit.scatter - state.fit.scatter) * state.fit.degrees > rules::emulator_noise) whole = state;
     wholly_fitted_ = state.missing;
     std::erase(result_.not_tried, last_refit);
     return whole;
