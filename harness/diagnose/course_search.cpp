@@ -36,10 +36,11 @@ DiagnosisState& Course::beside(DiagnosisState& refitted) {
 DiagnosisState Course::search(DiagnosisState& refitted) {
   DiagnosisState state = refitted;
   const std::vector<std::string> from_balance = effects_of(result_.momentum);
-  // Until nothing is added, though the data accept the model: chi2 of hundreds of features does not see what a
-  // single effect would take away.
+  // Until nothing is added, though the data accept the model: chi2 of hundreds of features does not see what
+  // a single effect would take away. Where runs cost several times a plain one, only while they do not.
   for (bool searched = false;; searched = true) {
     if (static_cast<double>(state.missing.size()) >= rules::most_effects) break;
+    if (searched && state.dear && state.fit.p_value > rules::doubtful) break;
     SearchRound round;
     try {
       round = search_round(state, tools_, result_.momentum.seen);
@@ -81,6 +82,8 @@ DiagnosisState Course::search(DiagnosisState& refitted) {
 DiagnosisState Course::with_full_effort(DiagnosisState state) {
   state = unless_spent(last_refit, state, [&] {
     DiagnosisState whole = concluded(state, tools_, "refitting with what was found");
+    // A model that is far off may send it astray.
+    if ((whole.fit.scatter - state.fit.scatter) * state.fit.degrees > rules::emulator_noise) whole = state;
     wholly_fitted_ = state.missing;
     std::erase(result_.not_tried, last_refit);
     return whole;

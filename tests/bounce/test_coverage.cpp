@@ -114,14 +114,15 @@ class SlowCoverage : public testing::TestWithParam<std::tuple<const char*, LawKi
 TEST_P(SlowCoverage, IntervalsHoldTheTruth) {
   const auto& [name, law, scattering] = GetParam();
   const char* asked = std::getenv("SHAKEDOWN_CASES");
-  const int cases = asked ? std::atoi(asked) : 200;
+  const int cases = asked ? std::atoi(asked) : 40;
   const Coverage coverage = measured(law, scattering, cases, 20260901);
   fmt::print("{}\n", described(name, coverage));
-  // 200 cases: two deviations of a share of 95 % are 3 %
+  // Three deviations of a share of 95 %.
+  const double least = 0.95 - 3 * std::sqrt(0.95 * 0.05 / cases);
   for (const Count* count : {&coverage.restitution, &coverage.slow, &coverage.fast})
-    EXPECT_GE(count->share(), 0.915);
+    EXPECT_GE(count->share(), least);
   if (coverage.second.all > 0) {
-    EXPECT_GE(coverage.second.share(), 0.915);
+    EXPECT_GE(coverage.second.share(), least);
   }
 }
 

@@ -61,7 +61,7 @@ TEST_F(SlowInterruption, DiagnosisGoesOnWithWhatItHasSimulated) {
   };
   const Outcome whole = shakedown_program(diagnosis);
   EXPECT_EQ(whole.code, 1) << whole.err;
-  const Outcome cut = interrupted_program(with({"--out", in_folder("out")}), " %");
+  const Outcome cut = interrupted_program(with({"--out", in_folder("out")}), "the model as given");
   EXPECT_EQ(cut.code, 130) << cut.err;
   EXPECT_NE(cut.err.find("--resume goes on"), std::string::npos) << cut.err;
   const auto journal = folder / "out/simulations.journal";
