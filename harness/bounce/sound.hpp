@@ -32,7 +32,7 @@ std::vector<Onset> onsets_of(const Sound& sound);
 /// The onsets that are impacts of one ball: intervals fall by a ratio from 0.3 to 1 that changes by some per
 /// cent, one impact may be missing between two, and each is some dB quieter. Indices of the chain that is
 /// most unlikely by chance; empty below four, and where it is no likelier than chance makes one among all
-/// that were tried (of the first drop of a file, which somebody says is in it: no likelier than one).
+/// that were tried (of the first drop of a file, which somebody says is in it, e^-2 of that).
 std::vector<std::size_t> chain_of(const std::vector<Onset>& onsets, bool first = true);
 
 /// All drops of a recording.

@@ -20,8 +20,8 @@ constexpr double ratio_changes =
 constexpr double placed_to = 5e-4;  // s, and besides
 constexpr double furthest = 3;      // deviations
 constexpr double price_of_missing = 2.3;
-constexpr double quieter = 2, loudness_changes = 5;  // dB from impact to impact, and deviation
-constexpr double least_evidence = 1;                 // of the first drop of a file
+constexpr double quieter = 2, loudness_changes = 5;         // dB from impact to impact, and deviation
+constexpr double least_evidence = 1, said_to_be_there = 2;  // of a drop, and of the first of a file
 constexpr std::size_t most_onsets = 160;
 constexpr std::size_t least_impacts = 4;
 /// dB: in fainter sounds the noise reaches the share of the peak that places them.
@@ -131,7 +131,7 @@ std::vector<std::size_t> chain_of(const std::vector<Onset>& all, bool first) {
         if (chain.members.size() >= least_impacts && chain.score > best.score) best = std::move(chain);
       }
     }
-  if (best.score < (first ? least_evidence : std::log(tried))) return {};
+  if (best.score < std::max(least_evidence, std::log(tried) - (first ? said_to_be_there : 0))) return {};
   std::vector<std::size_t> members;
   for (const std::size_t i : best.members) members.push_back(kept[i]);
   return members;
