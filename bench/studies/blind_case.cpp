@@ -116,7 +116,7 @@ void Draw::hide(Random& random, const Hideable& hideable, double signal, std::ve
   const double strength = grown * std::min(law.strength_for(signal, noise), hideable.strongest);
   // Not faster: the balance's windows would see much less of it than of the one that the law was measured
   // with.
-  Tone tone{between(random, 0.5, 3), between(random, 0, 6)};
+  DrawnTone tone{between(random, 0.5, 3), between(random, 0, 6)};
   for (double& height : tone.table) height = between(random, -1, 1);
   for (Override& override : at_strength(hideable, strength, drawn.trial.hidden.believed, tone))
     truth.push_back(std::move(override));

@@ -313,12 +313,12 @@ Estimate SpreadPosterior::spread(double SpreadNode::*deviation) const {
   return {at(0.5), at(tail), at(1 - tail)};
 }
 
-Whitened whitened(const Linearised& at, const Eigen::MatrixXd& columns, const SpreadNode& node) {
+WhitenedColumns whitened(const Linearised& at, const Eigen::MatrixXd& columns, const SpreadNode& node) {
   const RowCovariance covariance(at.rows);
   const RowVariances variances{node.timing * node.timing, node.scatter * node.scatter};
   const double of_drop = node.drop_scatter * node.drop_scatter;
   const auto& drops = covariance.drops();
-  Whitened found;
+  WhitenedColumns found;
   const auto solved = [&](const Eigen::MatrixXd& right) -> Eigen::MatrixXd {
     return covariance.divided_back(variances, covariance.divided(variances, right).columns);
   };

@@ -66,10 +66,10 @@ SpreadPosterior spread_posterior(const Linearised& at, const std::vector<LawPara
                                  const TimingKnown& timing, double usual_variance);
 
 /// Columns with the inverse of the covariance of one node.
-struct Whitened {
+struct WhitenedColumns {
   Eigen::MatrixXd products;  ///< (columns)^T C^-1 (columns)
   Eigen::MatrixXd solved;    ///< C^-1 columns
 };
-Whitened whitened(const Linearised& at, const Eigen::MatrixXd& columns, const SpreadNode& node);
+WhitenedColumns whitened(const Linearised& at, const Eigen::MatrixXd& columns, const SpreadNode& node);
 
 }  // namespace shakedown

@@ -93,7 +93,7 @@ std::string key_of_kind(const EffectRecord& record, ParameterKind kind) {
   return "";
 }
 
-std::vector<Override> force_at(const Hideable& force, double strength, const Tone& tone) {
+std::vector<Override> force_at(const Hideable& force, double strength, const DrawnTone& tone) {
   std::string more = force.constants.empty() ? "" : ", " + std::string(force.constants);
   for (std::size_t i = 0; force.takes_table && i < tone.table.size(); ++i)
     more += ", a" + std::to_string(i) + " = " + toml_of(tone.table[i], "");
@@ -122,7 +122,7 @@ const Hideable* find_hideable(std::string_view id) {
 }
 
 std::vector<Override> at_strength(const Hideable& hideable, double strength, const Setup& setup,
-                                  const Tone& tone) {
+                                  const DrawnTone& tone) {
   if (!hideable.formula.empty()) return force_at(hideable, strength, tone);
   const double typical = hideable.strength.typical;
   const double level = hideable.strength.inverse ? typical / strength : typical * strength;

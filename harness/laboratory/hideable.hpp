@@ -37,14 +37,14 @@ const Hideable* find_hideable(std::string_view id);
 
 /// What is drawn beside a strength: frequency and phase of what oscillates, heights of a force that is a
 /// table.
-struct Tone {
+struct DrawnTone {
   double frequency = 2.3, phase = 0.7;
   std::array<double, 7> table{0.6, -0.8, 0.3, 0.9, -0.5, 0.7, -0.4};  ///< in units of its strength
 };
 
 /// Overrides that put it into this setup.
 std::vector<Override> at_strength(const Hideable& hideable, double strength, const Setup& setup = {},
-                                  const Tone& tone = {});
+                                  const DrawnTone& tone = {});
 
 /// The setup with overrides on top.
 Setup changed(const Setup& setup, const std::vector<Override>& overrides,

@@ -110,7 +110,7 @@ void FitRound::calibrate(const Eigen::VectorXd& z, double observed, Refit& resul
   result.cells = judge_cells(cells, residuals, spreads, cell_rows);
 }
 
-void FitRound::hold_out(Refit& result, const std::vector<Rule>& rules) const {
+void FitRound::hold_out(Refit& result, const std::vector<JudgingRule>& rules) const {
   std::vector<double> lengths;
   for (const MeasuredFeatures& m : measured_)
     if (std::find(lengths.begin(), lengths.end(), m.setup.box.length) == lengths.end())
@@ -189,7 +189,7 @@ Eigen::MatrixXd FitRound::emulator_scatter(const Eigen::VectorXd& z) const {
   return apart.transpose() * apart * static_cast<double>(blocks - 1) / static_cast<double>(blocks);
 }
 
-double FitRound::judged_chi2(std::size_t r, const Eigen::VectorXd& z, const Rule& rule) const {
+double FitRound::judged_chi2(std::size_t r, const Eigen::VectorXd& z, const JudgingRule& rule) const {
   const Eigen::VectorXd phi = regression_terms(knobs_, z);
   const double error =
       phi.dot(emulators_[r].inverse_normal * phi) / static_cast<double>(emulators_[r].residuals.rows());
@@ -198,10 +198,10 @@ double FitRound::judged_chi2(std::size_t r, const Eigen::VectorXd& z, const Rule
          (rule.expected + wrong);
 }
 
-std::vector<Rule> FitRound::rules_of(const Refit* other) const {
-  std::vector<Rule> rules;
+std::vector<JudgingRule> FitRound::rules_of(const Refit* other) const {
+  std::vector<JudgingRule> rules;
   for (std::size_t r = 0; r < measured_.size(); ++r) {
-    Rule rule{whitened_[r].root, whitened_[r].expected};
+    JudgingRule rule{whitened_[r].root, whitened_[r].expected};
     if (other != nullptr) rule.root = Eigen::LLT<Eigen::MatrixXd>(other->covariances[r]);
     rules.push_back(std::move(rule));
   }

@@ -24,7 +24,7 @@ struct Whitened {
 };
 
 /// By which covariance a run's residual is judged.
-struct Rule {
+struct JudgingRule {
   Eigen::LLT<Eigen::MatrixXd> root;
   double expected = 0;  ///< of the whitened sum
 };
@@ -49,7 +49,7 @@ class FitRound {
   void calibrate(const Eigen::VectorXd& z, double observed, Refit& result) const;
 
   /// Predicts each box length from the others, with the same simulations.
-  void hold_out(Refit& result, const std::vector<Rule>& rules) const;
+  void hold_out(Refit& result, const std::vector<JudgingRule>& rules) const;
 
   /// Covariance of the fitted z, the sandwich A^-1 B A^-1. A: the sensitivities' square less what the
   /// emulator's error adds to it (second derivatives times residuals are mostly noise of the emulator). B:
@@ -64,10 +64,10 @@ class FitRound {
   Eigen::MatrixXd emulator_scatter(const Eigen::VectorXd& z) const;
 
   /// A run's chi2 by another fit's rule, the emulator's own error taken off.
-  double judged_chi2(std::size_t r, const Eigen::VectorXd& z, const Rule& rule) const;
+  double judged_chi2(std::size_t r, const Eigen::VectorXd& z, const JudgingRule& rule) const;
 
   /// The rules of `other`, or of this round where there is none.
-  std::vector<Rule> rules_of(const Refit* other) const;
+  std::vector<JudgingRule> rules_of(const Refit* other) const;
 
   std::vector<Eigen::MatrixXd> covariances() const;
   /// covariance_for_means() of all simulations, with what each run has of its own.

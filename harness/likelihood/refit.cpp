@@ -110,7 +110,7 @@ void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& meas
   result.covariances = best.round.covariances();
   result.for_means = best.round.for_means(options.model_error);
   result.at_solution = best.round.moved_to(solution);
-  const std::vector<Rule> rules = best.round.rules_of(options.judged_by);
+  const std::vector<JudgingRule> rules = best.round.rules_of(options.judged_by);
   result.judged_chi2 = 0;
   for (std::size_t r = 0; r < measured.size(); ++r)
     result.judged_chi2 += best.round.judged_chi2(r, solution, rules[r]);
@@ -151,7 +151,7 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
           axes.eigenvectors()(k, least) * std::sqrt(std::max(0.0, axes.eigenvalues()[least])) *
           knobs[static_cast<std::size_t>(open[static_cast<std::size_t>(k)])].width;
   }
-  const std::vector<Rule> own = round.rules_of(options.judged_by);
+  const std::vector<JudgingRule> own = round.rules_of(options.judged_by);
   for (std::size_t r = 0; r < measured.size(); ++r)
     result.judged_chi2 += round.judged_chi2(r, minimum.z, own[r]);
   result.covariances = round.covariances();
