@@ -14,7 +14,7 @@
 #include "json_output.hpp"
 #include "missing_numbers.hpp"
 #include "output_file.hpp"
-#include "quantity.hpp"
+#include "quantity_option.hpp"
 #include "report_output.hpp"
 
 namespace shakedown {
@@ -29,21 +29,15 @@ struct BounceArguments {
   ReportOutput report;
 };
 
-/// A quantity of an option in SI; `none` where the option is not given.
+/// A quantity of an option in SI, more than 0; `none` where the option is not given.
 double quantity_of(const char* option, const std::string& text, const char* unit, double none) {
-  if (text.empty()) return none;
-  const auto refuse = [&](const std::string& problem) {
-    throw InputError({{{}, option, problem, fmt::format("write a number and a unit, e.g. \"1 {}\"", unit)}});
-  };
-  const ValueOrReason<Quantity> read = parse_quantity(text);
-  const ValueOrReason<Unit> wanted = parse_unit(unit);
-  if (const std::string* reason = std::get_if<std::string>(&read)) refuse("'" + text + "' " + *reason);
-  const Quantity& quantity = std::get<Quantity>(read);
-  const Dimension& dimension = std::get<Unit>(wanted).dimension;
-  if (quantity.dimension != dimension)
-    refuse("'" + text + "' is " + describe(quantity.dimension) + ", not " + describe(dimension));
-  if (!(quantity.si > 0)) refuse("'" + text + "' must be more than 0");
-  return quantity.si;
+  const double value = quantity_option(option, text, unit, none);
+  if (!text.empty() && !(value > 0))
+    throw InputError({{{},
+                       option,
+                       "'" + text + "' must be more than 0",
+                       fmt::format("write a number with its unit, e.g. {} \"1 {}\"", option, unit)}});
+  return value;
 }
 
 /// "2.5 m" or "2.5 m +- 5 mm".

@@ -7,7 +7,7 @@
 #include "command.hpp"
 #include "effects.hpp"
 #include "export_run.hpp"
-#include "quantity.hpp"
+#include "quantity_option.hpp"
 
 namespace shakedown {
 
@@ -17,26 +17,13 @@ struct ExportArguments {
   std::string run, format = "xyz", rate, from, to, folder;
 };
 
-/// A quantity in SI with the dimension of `unit`.
-double quantity_or(const std::string& text, const char* option, std::string_view unit, double otherwise) {
-  if (text.empty()) return otherwise;
-  const ValueOrReason<Quantity> read = parse_quantity(text);
-  const std::string remedy =
-      fmt::format("write a number with its unit, e.g. {} {}{}", option, unit == "Hz" ? "10k" : "3.2", unit);
-  if (const auto* reason = std::get_if<std::string>(&read)) throw InputError({{{}, option, *reason, remedy}});
-  const Quantity& quantity = std::get<Quantity>(read);
-  if (quantity.dimension != std::get<Unit>(parse_unit(unit)).dimension)
-    throw InputError({{{}, option, fmt::format("\"{}\" has the wrong unit", text), remedy}});
-  return quantity.si;
-}
-
 int export_stored(const ExportArguments& arguments) {
   const ExportFormat format = export_format_named(arguments.format);
   const StoredRun run = read_collision_log(arguments.run, all_effects());
   FrameTimes times;
-  times.rate = quantity_or(arguments.rate, "--rate", "Hz", run.setup.run.sample_rate);
-  times.from = quantity_or(arguments.from, "--from", "s", times.from);
-  times.to = quantity_or(arguments.to, "--to", "s", times.to);
+  times.rate = quantity_option("--rate", arguments.rate, "Hz", run.setup.run.sample_rate, "1000");
+  times.from = quantity_option("--from", arguments.from, "s", times.from);
+  times.to = quantity_option("--to", arguments.to, "s", times.to);
   std::filesystem::path folder = arguments.folder;
   if (folder.empty())
     folder = std::filesystem::is_directory(arguments.run) ? std::filesystem::path(arguments.run) / "export"
