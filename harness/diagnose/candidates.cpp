@@ -45,6 +45,11 @@ void set_levels(Candidate& candidate, const SearchedStrength& strength, double a
     lowest = std::min(lowest, candidate.levels.back().strength);
     highest = std::max(highest, candidate.levels.back().strength);
   }
+  // Weakest first: what is hopeless there need not be simulated stronger.
+  std::stable_sort(candidate.levels.begin(), candidate.levels.end(),
+                   [](const Candidate::Level& a, const Candidate::Level& b) {
+                     return std::abs(a.strength) < std::abs(b.strength);
+                   });
   if (lowest == 0) lowest = -highest;
   if (highest == 0) highest = -lowest;
   const auto [low, high] =

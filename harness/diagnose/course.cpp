@@ -37,11 +37,7 @@ Setup emptied(Setup setup) {
 }
 
 /// More simulations would not make it fit.
-bool is_far_off(const Refit& fit) {
-  // Times the misfit of the model's own runs: 64 simulations have shown 1.8 where 128 show 1.3 (seen).
-  constexpr double far_off = 2;
-  return fit.p_value <= rules::holds && fit.scatter > far_off;
-}
+bool is_far_off(const Refit& fit) { return fit.p_value <= rules::holds && fit.scatter > effort::far_off; }
 
 }  // namespace
 

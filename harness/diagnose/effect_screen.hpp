@@ -54,6 +54,8 @@ struct ScreenStart {
   std::vector<Knob> knobs{};
 };
 
+class ScreenSimulations;
+
 /// The model without candidates, simulated once, and what is asked of it. `fitted` stand at their fitted
 /// values, in the order of the knobs that were fitted. `first_run` addresses the random numbers. PhysicsError
 /// and InputError are of the model without candidates.
@@ -74,8 +76,8 @@ class EffectScreen {
                               int count);
 
  private:
-  class Simulated;
-  std::unique_ptr<Simulated> simulated_;
+  std::unique_ptr<ScreenSimulations> simulations_;
+  ScreenEffort effort_;
 };
 
 }  // namespace shakedown

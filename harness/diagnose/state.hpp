@@ -8,7 +8,7 @@
 
 #include "damper_errors.hpp"
 #include "diagnosis.hpp"
-#include "effect_screen.hpp"
+#include "effort.hpp"
 #include "evidence.hpp"
 #include "slow_wander.hpp"
 
@@ -28,32 +28,6 @@ struct DiagnosisState {
   /// The same, its knobs at the values of its fit.
   DiagnosisState settled(std::span<const EffectRecord* const> known) const;
 };
-
-/// How closely to look: re-centrings, simulations of each different setup in a fit's last round and at its
-/// solution.
-struct Effort {
-  int rounds, count, confirming;
-  bool beside = false;  ///< a poor one looks on both sides along what is known least
-  bool once = false;    ///< does not follow a solution that leaves the box
-  bool whole = false;   ///< not cut where runs are dear: its intervals are the answer's
-  int looks = 2;        ///< more, where the first was misled or is poor
-};
-namespace effort {
-constexpr Effort look{1, 128, 0}, refit{2, 160, 128}, beside{2, 160, 128, true},
-    attempt{.rounds = 2, .count = 128, .confirming = 96, .looks = 1},
-    attempt_when_dear{.rounds = 1, .count = 72, .confirming = 48, .looks = 1},
-    conclude{1, 192, 160, false, false, true}, apart{2, 160, 128, false, false, true},
-    least{1, 64, 0, false, true};
-constexpr int most_when_dear = 80;
-constexpr ScreenEffort rank{}, rank_when_dear{32, 48, {8, 8, 8}, {12, 12, 12}};
-}  // namespace effort
-
-/// Of simulations and time, up to the end of a step: the search for effects is to have its part though the
-/// model without them is dear (its restitutions take up what is missing, and low ones cost several times a
-/// plain run). What decides that nothing is left for it is rules::for_the_search.
-namespace share {
-constexpr double model_as_given = 0.2, first_refit = 0.45;
-}
 
 /// Step of the course that may be left out.
 constexpr const char* damper_weighed = "what release and masses are uncertain by";

@@ -57,7 +57,7 @@ TEST(LawChoice, FindsAConstantExactly) {
   ball.timing = 1e-7;
   const BounceAnswer answer = answer_of(ball, 1);
   EXPECT_EQ(answer.best().model.law, LawKind::constant);
-  EXPECT_NEAR(answer.best().values[0].value, 0.85, 2e-7);
+  EXPECT_NEAR(answer.best().values[0].value, 0.85, 2e-7);  // seen: 1.0e-8
   EXPECT_TRUE(answer.outliers.empty());
 }
 
@@ -87,7 +87,7 @@ TEST(LawChoice, TheAirIsTakenOff) {
   options.reference = 2;
   const BounceAnswer answer = answer_of(ball, 4, options);
   EXPECT_EQ(answer.best().model.law, LawKind::viscoelastic);
-  EXPECT_NEAR(answer.best().values[0].value, 0.93, 0.004);
+  EXPECT_NEAR(answer.best().values[0].value, 0.93, 6e-4);  // seen: 3.0e-5
   EXPECT_TRUE(answer.best().values[0].low < 0.93 && 0.93 < answer.best().values[0].high);
 }
 
@@ -115,7 +115,7 @@ TEST(LawChoice, AKnownHeightAddsAnImpact) {
   drops[0].height = 1;
   const BounceAnswer answer = choose_law(drops, {});
   EXPECT_EQ(answer.best().at.rows.size(), 2u);
-  EXPECT_NEAR(answer.fastest, 4.43, 0.01);
+  EXPECT_NEAR(answer.fastest, 4.43, 0.01);  // seen: 5.5e-4
 }
 
 TEST(LawChoice, MissedAndExtraInstantsAreNamed) {

@@ -68,8 +68,8 @@ TEST(Sound, FindsImpactsAmongOtherSoundsAndNoise) {
       ASSERT_EQ(read.drops.size(), 1u);
       ASSERT_EQ(read.drops[0].interval.size(), 8u) << rate;
       for (std::size_t i = 0; i < 8; ++i)
-        EXPECT_NEAR(read.drops[0].interval[i], t[i + 1] - t[i], 1.5e-3) << rate << " " << i;
-      EXPECT_NEAR(read.sounds[0].impacts[0], t[0], 1e-3);
+        EXPECT_NEAR(read.drops[0].interval[i], t[i + 1] - t[i], 7e-4) << rate << " " << i;  // seen: 3.7e-5
+      EXPECT_NEAR(read.sounds[0].impacts[0], t[0], 1e-3);                                   // seen: 6.2e-5
       EXPECT_EQ(read.sounds[0].impacts.size(), 9u);
     }
 }

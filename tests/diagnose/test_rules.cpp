@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "effort.hpp"
 #include "rules.hpp"
 
 using namespace shakedown;
@@ -49,11 +50,13 @@ TEST(Rules, EveryOneIsInTheList) {
 
 TEST(Rules, AreThoseOfTheDocument) {
   const std::string document = text_of("diagnose/README.md");
-  for (const Rule& rule : diagnosis_rules()) {
-    std::ostringstream row;
-    row << "| `" << rule.name << "` | " << rule.value << " | " << rule.unit << " | " << rule.source << " |";
-    EXPECT_NE(document.find(row.str()), std::string::npos) << row.str();
-  }
+  EXPECT_EQ(count_of(text_of("diagnose/effort.hpp"), "\nconstexpr Rule "), effort_rules().size());
+  for (const std::span<const Rule> list : {diagnosis_rules(), effort_rules()})
+    for (const Rule& rule : list) {
+      std::ostringstream row;
+      row << "| `" << rule.name << "` | " << rule.value << " | " << rule.unit << " | " << rule.source << " |";
+      EXPECT_NE(document.find(row.str()), std::string::npos) << row.str();
+    }
 }
 
 // A number of the balance has its reason in the comment right above it.

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include "effort.hpp"
+
+#include <array>
+
+namespace shakedown {
+
+std::span<const Rule> effort_rules() {
+  using namespace effort;
+  static constexpr std::array all{far_off, glance_sees, hopeless, moves_along};
+  return all;
+}
+
+}  // namespace shakedown

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Where the simulations and the time of a diagnosis go. What decides here spares work; what decides between
+// hypotheses stands in rules.hpp.
+#pragma once
+#include <span>
+
+#include "effect_screen.hpp"
+#include "rules.hpp"
+
+namespace shakedown {
+
+/// How closely to look: re-centrings, simulations of each different setup in a fit's last round and at its
+/// solution.
+struct Effort {
+  int rounds, count, confirming;
+  bool beside = false;  ///< a poor one looks on both sides along what is known least
+  bool once = false;    ///< does not follow a solution that leaves the box
+  bool whole = false;   ///< not cut where runs are dear: its intervals are the answer's
+  int looks = 2;        ///< more, where the first was misled or is poor
+};
+namespace effort {
+constexpr Effort look{1, 128, 0}, refit{2, 160, 128}, beside{2, 160, 128, true},
+    attempt{.rounds = 2, .count = 128, .confirming = 96, .looks = 1},
+    attempt_when_dear{.rounds = 1, .count = 72, .confirming = 48, .looks = 1},
+    conclude{1, 192, 160, false, false, true}, apart{2, 160, 128, false, false, true},
+    least{1, 64, 0, false, true};
+constexpr int most_when_dear = 80;
+constexpr ScreenEffort rank{}, rank_when_dear{32, 48, {8, 8, 8}, {12, 12, 12}};
+
+constexpr Rule far_off{
+    "far_off", 2, "times the misfit of own runs",
+    "a model as given beyond is not simulated again: 64 simulations have shown 1.8 where 128 show 1.3"};
+constexpr Rule glance_sees{"glance_sees", 0.5, "of ln evidence",
+                           "a glance may see half of what a second look sees: 200 where 226 was to beat"};
+constexpr Rule hopeless{
+    "hopeless", 100, "ln likelihood below nothing's",
+    "a stronger level of the same sign would have to turn by more than 60 degrees to explain what this one "
+    "does not"};
+constexpr Rule moves_along{
+    "moves_along", 0.25, "widths of the fit's box",
+    "parameters that a level moves farther are moved there: slopes err by the square of it, a sixteenth of "
+    "what they err by at the edge (an assumption)"};
+}  // namespace effort
+
+/// Of simulations and time, up to the end of a step: the search for effects is to have its part though the
+/// model without them is dear (its restitutions take up what is missing, and low ones cost several times a
+/// plain run). What decides that nothing is left for it is rules::for_the_search.
+namespace share {
+constexpr double model_as_given = 0.2, first_refit = 0.45;
+}
+
+/// Those with a name, in this order.
+std::span<const Rule> effort_rules();
+
+}  // namespace shakedown

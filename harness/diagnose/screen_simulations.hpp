@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Simulations of the model without candidates and of each candidate at its levels, in one metric.
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "candidates.hpp"
+#include "effect_screen.hpp"
+#include "feature_coordinates.hpp"
+#include "model_ratio.hpp"
+#include "outside.hpp"
+#include "signature.hpp"
+
+namespace shakedown {
+
+/// Where a level is simulated.
+struct LevelPoint {
+  std::vector<Knob> fitted;  ///< the fitted parameters, moved to where they go beside it
+  Knob knob;                 ///< of the candidate
+};
+
+/// Levels of a candidate as far as they were simulated.
+struct Looked {
+  std::vector<SignatureLevel> levels{};
+  std::map<double, LevelPoint> points{};  ///< by strength
+  int count = 0;                          ///< simulations of each level, of each different setup
+  std::string reason{};
+  bool exact = false;
+
+  bool has(double strength) const {
+    return std::any_of(levels.begin(), levels.end(),
+                       [&](const SignatureLevel& level) { return level.strength == strength; });
+  }
+  /// The mean of those before and of `more` simulations.
+  void add(const SignatureLevel& level, int more) {
+    const double before = count, all = count + more;
+    for (SignatureLevel& one : levels)
+      if (one.strength == level.strength) {
+        one.change = (before * one.change + more * level.change) / all;
+        one.noise = (before * before * one.noise + double(more) * more * level.noise) / (all * all);
+      }
+  }
+};
+
+/// All that one screening shares.
+class ScreenSimulations {
+ public:
+  ScreenSimulations(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted,
+                    const Workshop& workshop, const ScreenEffort& effort, int first_run,
+                    const ScreenStart& start);
+
+  /// Simulates the candidate's levels so many times more. Those that the engine cannot simulate are left out,
+  /// with the reason.
+  void look(const Candidate& candidate, const LevelEffort& effort, Looked& looked);
+
+  /// What the model without candidates leaves, and a candidate's signature as far as it was looked at.
+  Signature signature_of(const Looked& looked) const { return {looked.levels, without_, looked.exact}; }
+
+  double log_likelihood_ratio(const std::vector<MeasuredFeatures>& other, const std::vector<Knob>& values,
+                              int count);
+
+ private:
+  /// One metric for all: coordinates of each run, and what the model without candidates leaves in them.
+  struct Frame {
+    std::vector<Coordinates> coordinates;
+    FirstModel model;
+  };
+
+  int next_run() { return first_run_ + 1000 * batches_++; }
+
+  Frame frame_of(const std::vector<Eigen::MatrixXd>& covariances, const std::vector<Knob>& about,
+                 const std::vector<Emulator>& slopes, const std::vector<Emulator>& nothing) const;
+
+  /// In the coordinates, all runs below each other and a zero for each free parameter.
+  Eigen::VectorXd stacked(const std::vector<Eigen::VectorXd>& runs, const Frame& frame) const;
+
+  Eigen::VectorXd change_to(const std::vector<Emulator>& there, const Frame& frame) const;
+
+  /// Of so many simulations at most: an estimate's error is to be the same in two models that are compared.
+  Eigen::ArrayXd variances(const std::vector<Emulator>& there, int count) const;
+
+  /// Simulations x features.
+  Eigen::MatrixXd filmed(const std::vector<Emulator>& there) const;
+
+  /// Expected square of one simulation's chaos.
+  static double chaos_of(const std::vector<Emulator>& there, const Frame& frame);
+
+  /// Of the means, all fitted parameters at these points; below them, where these are from what is known.
+  Eigen::VectorXd change_at(const std::vector<Emulator>& there, const std::vector<Knob>& fitted,
+                            const Frame& frame) const;
+
+  std::vector<Emulator> simulated_at(const Candidate& candidate, const LevelPoint& point, int count);
+
+  /// The fitted parameters where their slopes see the best fit beside this change of the features, and the
+  /// candidate as strong beside them; none where they hardly move.
+  std::optional<LevelPoint> moved_along(const Eigen::VectorXd& change, LevelPoint point) const;
+
+  /// Beside an effect that restitutions imitate they lie elsewhere, farther than a line tells: the level is
+  /// simulated again there.
+  SignatureLevel simulated_level(const Candidate& candidate, const Candidate::Level& level, int count,
+                                 Looked& looked);
+
+  /// A camera's error is arithmetic on the recording.
+  SignatureLevel exact_level(const Candidate& candidate) const;
+
+  std::vector<MeasuredFeatures> measured_;
+  std::vector<Knob> fitted_, about_;  ///< at their values; those whose slopes are known
+  const Workshop& workshop_;
+  int first_run_, batches_ = 0;
+  std::vector<Eigen::VectorXd> means_;  ///< of the model without candidates, m
+  Frame of_means_, of_runs_;            ///< for changes of the means, and for how likely one run is
+  std::optional<Outside> outside_;      ///< of the means' frame
+  SignatureResidual without_;
+};
+
+}  // namespace shakedown
