@@ -124,10 +124,11 @@ void Course::judge() {
                 final.fit.floor_box()))
     final = refitted;
   // What the balance found was refitted with full effort already.
-  if (!final.missing.empty() && final.missing != refitted.missing && final.missing != wholly_fitted_) {
-    tools_.limit_to(1);
+  tools_.limit_to(1);
+  if (!final.missing.empty() && final.missing != refitted.missing && final.missing != wholly_fitted_)
     final = with_full_effort(final);
-  }
+  final = without_untold(std::move(final), refitted);
+  if (final.missing.empty() && accepted) return conclude(user_, given, given, false, tools_, result_);
   conclude(user_, given, final, !no_better, tools_, result_);
 }
 

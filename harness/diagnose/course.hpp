@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The course of a diagnosis: every step makes a new state from the one before.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,7 @@ class Course {
     return otherwise;
   }
   void leave_out(const std::string& step);
+  void take_back(const std::string& effect);
   /// The balance weighs impulses alone. Where what it found leaves the whole motion unexplained, the sets
   /// that it could not rule out are tried, and the most probable one with the motion counted in is kept.
   DiagnosisState settled_by_ensembles(const DiagnosisState& before, const DiagnosisState& found);
@@ -55,6 +57,9 @@ class Course {
   /// is looked beside where it is doubtful and nothing was found that is sure.
   DiagnosisState search(DiagnosisState& refitted);
   DiagnosisState with_full_effort(DiagnosisState state);
+  /// An effect that was added to a model which the data accept, and of which the last fit finds next to
+  /// nothing, is taken back.
+  DiagnosisState without_untold(DiagnosisState state, const DiagnosisState& refitted);
   void keep_ranked(const RankedEffect& ranked);
   /// What was not looked at stays as probable as it was.
   void keep_priors(const DiagnosisState& state);
@@ -64,6 +69,7 @@ class Course {
   DiagnosisTools tools_;
   Diagnosis result_;
   RunnerUp runner_up_;
+  std::optional<DiagnosisState> accepted_;  ///< before the last effect was added, where the data accept that
   std::vector<std::string> wholly_fitted_;  ///< effects beside which the last fit was made already
 };
 

@@ -62,6 +62,8 @@ DiagnosisState Course::search(DiagnosisState& refitted) {
     result_.notes.insert(result_.notes.end(), round.notes.begin(), round.notes.end());
     result_.hypotheses = combined(result_.hypotheses, round.table);
     if (!round.added) break;
+    accepted_.reset();
+    if (state.fit.p_value > rules::doubtful) accepted_ = state;
     state = round.next;
     runner_up_ = {round.next.missing.back(), round.runner_up, round.runner_up_setup};
     result_.ladder.push_back(step_of(step_name(state.missing), state.fit));
@@ -70,8 +72,7 @@ DiagnosisState Course::search(DiagnosisState& refitted) {
                          [&] { return pruned(state, tools_, from_balance); });
     for (const std::string& effect : before)
       if (std::find(state.missing.begin(), state.missing.end(), effect) == state.missing.end())
-        result_.hypotheses = taken_back(result_.hypotheses, effect,
-                                        prior_log_odds(1, static_cast<double>(tools_.known().size())));
+        take_back(effect);
     // The fit that is made in the end anyway, where it may spare a round.
     if (state.fit.p_value <= rules::doubtful) state = with_full_effort(state).settled(tools_.known());
   }
@@ -91,6 +92,29 @@ DiagnosisState Course::with_full_effort(DiagnosisState state) {
   if (result_.ladder.back().step == step_name(state.missing)) result_.ladder.pop_back();
   result_.ladder.push_back(step_of(step_name(state.missing), state.fit));
   return state;
+}
+
+DiagnosisState Course::without_untold(DiagnosisState state, const DiagnosisState& refitted) {
+  // Its evidence was of a fit with less effort. Intervals of what restitutions imitate are wide, so that only
+  // a strength which is none for all purposes speaks against it: an assumption.
+  constexpr double of_no_strength = 0.5;  // standard errors
+  if (!accepted_ || state.missing.empty() || state.missing == refitted.missing ||
+      is_told(state.fit, state.missing.back(), of_no_strength))
+    return state;
+  const std::string effect = state.missing.back();
+  result_.notes.push_back(effect +
+                          " was taken back: the data accept the model without it, and the last fit finds "
+                          "next to nothing of it");
+  take_back(effect);
+  if (result_.ladder.back().step == step_name(state.missing)) result_.ladder.pop_back();
+  state = *accepted_;
+  if (state.missing == refitted.missing || state.missing == wholly_fitted_) return state;
+  return with_full_effort(state);
+}
+
+void Course::take_back(const std::string& effect) {
+  result_.hypotheses =
+      taken_back(result_.hypotheses, effect, prior_log_odds(1, static_cast<double>(tools_.known().size())));
 }
 
 void Course::leave_out(const std::string& step) {

@@ -374,14 +374,8 @@ DiagnosisState pruned(const DiagnosisState& state, DiagnosisTools& tools,
   for (std::size_t i = 0; i + 1 < state.missing.size(); ++i) {
     const std::string effect = state.missing[i];
     if (std::find(from_balance.begin(), from_balance.end(), effect) != from_balance.end()) continue;
-    bool stands = false;
-    for (std::size_t k = 0; k < state.fit.values.size(); ++k) {
-      constexpr double beyond_doubt = 2;  // standard errors: what a 95 % interval leaves out
-      const auto [strength, error] = strength_of(state.fit, k);
-      stands = stands ||
-               (effect_of(state.fit.values[k].key) == effect && std::abs(strength) > beyond_doubt * error);
-    }
-    if (stands) continue;
+    constexpr double beyond_doubt = 2;  // standard errors: what a 95 % interval leaves out
+    if (is_told(state.fit, effect, beyond_doubt)) continue;
     DiagnosisState less = state;
     std::erase_if(less.setup.effects,
                   [&](const EffectChoice& choice) { return choice.record->name == effect; });

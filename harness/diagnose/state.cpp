@@ -36,6 +36,15 @@ std::pair<double, double> strength_of(const Refit& fit, std::size_t value) {
   return {at - knob.absent, error};
 }
 
+bool is_told(const Refit& fit, const std::string& effect, double standard_errors) {
+  for (std::size_t k = 0; k < fit.values.size(); ++k) {
+    if (effect_of(fit.values[k].key) != effect) continue;
+    const auto [strength, error] = strength_of(fit, k);
+    if (std::abs(strength) > standard_errors * error) return true;
+  }
+  return false;
+}
+
 std::vector<Knob> DiagnosisState::knobs() const { return together(together(theta, found), camera); }
 
 DiagnosisState DiagnosisState::settled(std::span<const EffectRecord* const> known) const {

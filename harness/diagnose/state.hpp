@@ -128,6 +128,9 @@ std::vector<Knob> together(std::vector<Knob> a, const std::vector<Knob>& b);
 /// curvature, 1/m^2.
 std::pair<double, double> strength_of(const Refit& fit, std::size_t value);
 
+/// The strength of the effect differs from its absence by so many standard errors.
+bool is_told(const Refit& fit, const std::string& effect, double standard_errors);
+
 /// A restitution, of which the user believes something.
 bool is_believed(const Knob& knob);
 
