@@ -113,9 +113,13 @@ class SlowCoverage : public testing::TestWithParam<std::tuple<const char*, LawKi
 
 TEST_P(SlowCoverage, IntervalsHoldTheTruth) {
   const auto& [name, law, scattering] = GetParam();
-  const char* asked = std::getenv("SHAKEDOWN_CASES");
-  const int cases = asked ? std::atoi(asked) : 40;
-  const Coverage coverage = measured(law, scattering, cases, 20260901);
+  const auto asked = [](const char* name, int otherwise) {
+    const char* text = std::getenv(name);
+    return text ? std::atoi(text) : otherwise;
+  };
+  const int cases = asked("SHAKEDOWN_CASES", 40);
+  const Coverage coverage =
+      measured(law, scattering, cases, static_cast<std::uint64_t>(asked("SHAKEDOWN_SEED", 20260901)));
   fmt::print("{}\n", described(name, coverage));
   // Three deviations of a share of 95 %.
   const double least = 0.95 - 3 * std::sqrt(0.95 * 0.05 / cases);
