@@ -113,8 +113,8 @@ class SlowCoverage : public testing::TestWithParam<std::tuple<const char*, LawKi
 
 TEST_P(SlowCoverage, IntervalsHoldTheTruth) {
   const auto& [name, law, scattering] = GetParam();
-  const auto asked = [](const char* name, int otherwise) {
-    const char* text = std::getenv(name);
+  const auto asked = [](const char* variable, int otherwise) {
+    const char* text = std::getenv(variable);
     return text ? std::atoi(text) : otherwise;
   };
   const int cases = asked("SHAKEDOWN_CASES", 40);
