@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "data_file.hpp"
 #include "effects.hpp"
 #include "engine_differences.hpp"
 #include "engines.hpp"
@@ -31,7 +32,7 @@ struct BlindSuiteArguments {
   std::uint64_t seed = 1;
   std::int64_t budget = 40000;
   int threads = 0;
-  std::string ledger = STUDIES_LEDGER;
+  std::string ledger = state_file("ledger.csv", STUDIES_LEDGER).string();
   JsonOutput json;
 };
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "data_file.hpp"
 #include "effects.hpp"
 #include "engine_differences.hpp"
 #include "engines.hpp"
@@ -22,7 +23,7 @@ namespace shakedown {
 namespace {
 
 struct RingDownArguments {
-  std::string out, engine = "hard", ledger = STUDIES_LEDGER;
+  std::string out, engine = "hard", ledger = state_file("ledger.csv", STUDIES_LEDGER).string();
   std::vector<int> only;
   int cases = 200, threads = 0;
   std::uint64_t seed = 1;

@@ -104,9 +104,10 @@ Command add_linear_decay_check(CLI::App& check) {
       "linear-decay", "the paper's damper loses amplitude along a nearly straight line, at the stored slope");
   const auto arguments = std::make_shared<LinearDecayArguments>();
   add_ensemble_options(command, *arguments);
-  command.add_option("--baselines", arguments->baselines, "file of the stored intervals")
-      ->type_name("FILE")
-      ->capture_default_str();
+  command
+      .add_option("--baselines", arguments->baselines,
+                  "file of the stored intervals; default: that of the program")
+      ->type_name("FILE");
   command.add_flag("--update", arguments->update, "measure the stored intervals anew and write them");
   add_json_option(command, arguments->json);
   command.footer("Exit code 1: a check failed.");

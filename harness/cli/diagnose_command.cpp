@@ -5,15 +5,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
 
 #include "comma_list.hpp"
 #include "command.hpp"
-#include "diagnose_report.hpp"
+#include "diagnosed.hpp"
 #include "effects.hpp"
-#include "engine_differences.hpp"
 #include "engines.hpp"
 #include "ensemble_options.hpp"
 #include "experiment_file.hpp"
@@ -22,12 +20,10 @@
 #include "json_output.hpp"
 #include "measured_data.hpp"
 #include "output_file.hpp"
-#include "parameter_knobs.hpp"
 #include "progress_display.hpp"
 #include "provenance.hpp"
 #include "report_output.hpp"
 #include "setup_arguments.hpp"
-#include "setup_file.hpp"
 #include "simulation_journal.hpp"
 
 namespace shakedown {
@@ -44,32 +40,6 @@ struct DiagnoseArguments {
   int threads = 0;
   bool resume = false;
 };
-
-void check_names(const DiagnoseArguments& arguments) {
-  std::vector<Violation> found;
-  for (const std::string& name : names_in(arguments.effects))
-    if (find_effect(name) == nullptr)
-      found.push_back({{"--effects", 0, 0}, name, "is not an effect", "`shakedown effects` lists them"});
-  std::vector<std::string> fitted;
-  for (const Knob& knob : free_parameters(Setup{})) fitted.push_back(knob.key);
-  for (const std::string& name : names_in(arguments.fixed))
-    if (std::find(fitted.begin(), fitted.end(), name) == fitted.end())
-      found.push_back({{"--fixed", 0, 0},
-                       name,
-                       "is not fitted anyway",
-                       "restitution.grain_grain, restitution.grain_wall and spring.frequency are"});
-  if (!found.empty()) throw InputError(std::move(found));
-}
-
-/// The setup with effects and refitted values, and why.
-std::string amended_setup(const Diagnosis& diagnosis) {
-  std::string text = "# Amended by `shakedown diagnose`: " + diagnosis.sentence + "\n";
-  for (const DiagnosedParameter& p : diagnosis.parameters)
-    text += p.word.empty() ? fmt::format("#   {} = {:.6g} {} (95 %: {:.6g} to {:.6g})\n", p.name, p.value,
-                                         p.unit, p.low, p.high)
-                           : fmt::format("#   {} = {}\n", p.name, p.word);
-  return text + write_setup(diagnosis.amended);
-}
 
 /// Nothing without a folder to keep it in.
 std::unique_ptr<SimulationJournal> journal_in(const OutputFolder* folder, const Experiment& experiment,
@@ -102,7 +72,7 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   Setup setup = arguments.setup.read(given_by_measurements);
   const Experiment experiment = read_measured(arguments.data, setup);
   const Measurement measurement = measurement_of(setup, experiment, all_effects());
-  check_names(arguments);
+  check_diagnosed_names(names_in(arguments.effects), names_in(arguments.fixed));
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
@@ -114,15 +84,13 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   try {
     ProgressDisplay display(fmt::format("{}: diagnosing, at most {} simulations and {:g} s", arguments.data,
                                         budget, arguments.seconds));
-    DiagnoseOptions options;
+    DiagnoseOptions options = usual_diagnose_options();
     options.effects = names_in(arguments.effects);
     options.budget = budget;
     options.threads = arguments.threads;
-    options.known = all_effects();
     options.stop = catch_interruption();
     options.seconds = arguments.seconds;
     options.fixed = names_in(arguments.fixed);
-    options.strength_uncertainty = &strength_uncertainty;
     options.progress = [&](const std::string& stage, double fraction) {
       display.rename(stage);
       display.show(fraction);
@@ -142,16 +110,11 @@ int diagnose_data(const DiagnoseArguments& arguments) {
     std::filesystem::remove(journal->file());
     fmt::print(arguments.json.for_people(), "amended setup: {}\n", (folder->path() / "setup.toml").string());
   }
-  if (arguments.report.wanted(arguments.out)) {
-    CurveOptions drawn;
-    drawn.threads = arguments.threads;
-    drawn.known = all_effects();
-    drawn.stop = catch_interruption();
-    const std::vector<MeasuredAgainstModel> curves =
-        measured_against_model(measurement, &setup, diagnosis.amended, *engine, drawn);
+  if (arguments.report.wanted(arguments.out))
     fmt::print(arguments.json.for_people(), "{}",
-               arguments.report.write(report_of(diagnosis, measurement, setup, curves), arguments.out));
-  }
+               arguments.report.write(
+                   report_of(diagnosis, measurement, setup, *engine, arguments.threads, catch_interruption()),
+                   arguments.out));
   arguments.json.write(document);
   return diagnosis.verdict == Verdict::adequate && diagnosis.judgement.holds() ? exit_done
                                                                                : exit_model_rejected;

@@ -6,10 +6,9 @@
 
 #include "catalogue.hpp"
 #include "command.hpp"
+#include "effect_asked.hpp"
 #include "effects.hpp"
-#include "errors.hpp"
 #include "json_output.hpp"
-#include "suggestion.hpp"
 
 namespace shakedown {
 
@@ -20,25 +19,13 @@ struct EffectsArguments {
   JsonOutput json;
 };
 
-const EffectRecord& effect_named(const std::string& name) {
-  if (const EffectRecord* effect = find_effect(name)) return *effect;
-  std::vector<std::string_view> names;
-  for (const EffectRecord* effect : all_effects()) names.push_back(effect->name);
-  const std::string_view similar = nearest(name, names);
-  throw InputError({{{},
-                     "effects",
-                     "there is no effect '" + name + "'",
-                     (similar.empty() ? "" : "did you mean '" + std::string(similar) + "'? ") +
-                         std::string("shakedown effects lists them all")}});
-}
-
 int show_effects(const EffectsArguments& arguments) {
   if (arguments.name.empty()) {
     fmt::print(arguments.json.for_people(), "{}", list_effects(all_effects()));
     arguments.json.write(effects_json(all_effects()));
     return exit_done;
   }
-  const EffectRecord* const one[] = {&effect_named(arguments.name)};
+  const EffectRecord* const one[] = {&effect_asked(arguments.name)};
   fmt::print(arguments.json.for_people(), "{}", describe_effect(*one[0]));
   arguments.json.write(effects_json(one));
   return exit_done;

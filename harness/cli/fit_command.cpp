@@ -13,12 +13,11 @@
 #include "engines.hpp"
 #include "ensemble_options.hpp"
 #include "experiment_file.hpp"
-#include "fit_report.hpp"
+#include "fitted.hpp"
 #include "free_parameters.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "measured_data.hpp"
-#include "momentum.hpp"
 #include "output_file.hpp"
 #include "progress_display.hpp"
 #include "report_output.hpp"
@@ -43,16 +42,15 @@ int fit(const FitArguments& arguments) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const Measurement measurement =
       from_first_turns(measurement_of(setup, read_measured(arguments.data, setup), all_effects()), *engine);
-  const std::vector<Knob> knobs = free_parameters(arguments.free, setup, all_effects());
+  free_parameters(arguments.free, setup, all_effects());  // throws before long work
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
   if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
-  FitOptions options;
+  FitOptions options = usual_fit_options();
   options.on = names_in(arguments.on);
   options.count = arguments.count;
   options.threads = arguments.threads;
-  options.known = all_effects();
   options.stop = catch_interruption();
   Fit found;
   {
@@ -62,13 +60,8 @@ int fit(const FitArguments& arguments) {
       display.rename(stage);
       display.show(std::min(0.99, static_cast<double>(runs) / about));
     };
-    found = fit_parameters(setup, measurement, knobs, *engine, options);
+    found = fitted_and_judged(setup, measurement, arguments.free, *engine, options);
   }
-  const MomentumAudit balance =
-      audit_momentum(with_setup(measurement, found.fitted, all_effects()), all_effects());
-  if (!found.used.empty())
-    found.judgement = judgement_of({found.p_value, found.scatter, ""}, balance.test_of(balance.as_given),
-                                   differences_of(found.used));
   const PaperValues taken(setup, given_by_measurements);
   const std::string document = taken.added_to(fit_json(found));
   taken.print(arguments.json.for_people());
@@ -78,16 +71,11 @@ int fit(const FitArguments& arguments) {
                   "# Fitted by `shakedown fit` to " + arguments.data + "\n" + write_setup(found.fitted));
     folder->write("fit.json", document);
   }
-  if (arguments.report.wanted(arguments.out)) {
-    CurveOptions drawn;
-    drawn.threads = arguments.threads;
-    drawn.known = all_effects();
-    drawn.stop = catch_interruption();
-    const std::vector<MeasuredAgainstModel> curves =
-        measured_against_model(measurement, &setup, found.fitted, *engine_named("hard"), drawn);
+  if (arguments.report.wanted(arguments.out))
     fmt::print(arguments.json.for_people(), "{}",
-               arguments.report.write(report_of(found, measurement, curves), arguments.out));
-  }
+               arguments.report.write(
+                   report_of(found, setup, measurement, *engine, arguments.threads, catch_interruption()),
+                   arguments.out));
   arguments.json.write(document);
   return found.judgement.holds() ? exit_done : exit_model_rejected;
 }

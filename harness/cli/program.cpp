@@ -7,6 +7,7 @@
 #include "command.hpp"
 #include "errors.hpp"
 #include "interruption.hpp"
+#include "manual.hpp"
 #include "provenance.hpp"
 
 namespace shakedown {
@@ -22,11 +23,10 @@ std::vector<std::string> reversed_arguments(int count, char** words) {
   return arguments;
 }
 
-int run_chosen(const std::vector<Command>& commands) {
+/// Does the work and returns the exit code; prints errors.
+int guarded(const std::function<int()>& work) {
   try {
-    for (const Command& command : commands)
-      if (command.parser->parsed()) return command.run();
-    EXPECT(!"one command is required");
+    return work();
   } catch (const InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return exit_bad_input;
@@ -45,6 +45,23 @@ int run_chosen(const std::vector<Command>& commands) {
   return exit_bug;
 }
 
+int run_chosen(const std::vector<Command>& commands) {
+  for (const Command& command : commands)
+    if (command.parser->parsed()) return command.run();
+  EXPECT(!"one command is required");
+  return exit_bug;
+}
+
+/// `--write-manual DIR`, for packages: it is no option that a help shows.
+bool asks_for_manual(int count, char** words) {
+  return count == 3 && std::string_view(words[1]) == "--write-manual";
+}
+
+int written_manual(const CLI::App& program, char** words) {
+  write_manual(words[2], std::filesystem::path(words[0]).filename().string(), program);
+  return exit_done;
+}
+
 }  // namespace
 
 int run_program(const char* name, const char* description, std::vector<Command> (*add)(CLI::App&), int count,
@@ -57,6 +74,7 @@ int run_program(const char* name, const char* description, std::vector<Command> 
       "file,\n"
       "70 a bug of the program, 130 interrupted with results kept.");
   const std::vector<Command> commands = add(program);
+  if (asks_for_manual(count, words)) return guarded([&] { return written_manual(program, words); });
   try {
     program.parse(reversed_arguments(count, words));
   } catch (const CLI::ParseError& error) {
@@ -69,7 +87,7 @@ int run_program(const char* name, const char* description, std::vector<Command> 
       program.exit(error);
     return exit_bad_input;
   }
-  return run_chosen(commands);
+  return guarded([&] { return run_chosen(commands); });
 }
 
 }  // namespace shakedown

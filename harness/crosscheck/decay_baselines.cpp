@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "data_file.hpp"
 #include "output_file.hpp"
 
 namespace shakedown {
@@ -66,7 +67,7 @@ bool same_case(const DecayBaseline& baseline, const std::string& engine, double 
 
 }  // namespace
 
-std::filesystem::path default_decay_baselines() { return DECAY_BASELINES; }
+std::filesystem::path default_decay_baselines() { return data_file("linear_decay.json", DECAY_BASELINES); }
 
 std::vector<DecayBaseline> read_decay_baselines(const std::filesystem::path& file) {
   std::ifstream stream(file);

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "compared.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "camera_features.hpp"
+#include "compare_report.hpp"
+#include "diagnosis.hpp"
+#include "drawn_curves.hpp"
+#include "effects.hpp"
+#include "missing_numbers.hpp"
+#include "parameter_knobs.hpp"
+#include "swing.hpp"
+#include "validation.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// How bad a misfit is, in words, by the error over what noise and run-to-run spread make.
+std::string_view severity(double ratio) {
+  if (ratio < 1.3) return "within the spread";
+  if (ratio < 2) return "slight";
+  return ratio < 5 ? "clear" : "gross";
+}
+
+constexpr double significant = 0.05;  // family-wise
+constexpr std::size_t most_cells = 8;
+
+std::string readable(const std::vector<FailureCell>& cells) {
+  std::string text = "  where it fails (chance of any part as bad, with all parts looked at allowed for):\n";
+  std::size_t shown = 0;
+  for (const FailureCell& cell : cells) {
+    if (cell.p_value >= significant || shown++ >= most_cells) break;
+    text += line_of(cell);
+  }
+  return shown > 0 ? text : "  no run, time, phase, amplitude, landing or flight stands out\n";
+}
+
+std::string beside(const MeasuredNumber& number, double scale, int digits) {
+  if (!std::isfinite(number.measured) || !std::isfinite(number.model))
+    return "not found (too few peaks or crossings)";
+  return fmt::format("{:.{}f} ({:.{}f} +- {:.{}f})", number.measured * scale, digits, number.model * scale,
+                     digits, number.spread * scale, digits);
+}
+
+std::string readable(const std::vector<DecayComparison>& decays) {
+  std::string text = "  measured (model +- spread from run to run)\n";
+  for (const DecayComparison& run : decays) {
+    text += fmt::format("    {:<12} frequency {} Hz, slope of |peaks| {} mm/s\n      peaks, mm:", run.run,
+                        beside(run.frequency, 1, 4), beside(run.slope, 1e3, 2));
+    for (const MeasuredNumber& peak : run.peaks) text += " " + beside(peak, 1e3, 1);
+    text += "\n";
+  }
+  return text;
+}
+
+/// "-" where the grains' centre was not tracked.
+std::string of_centre(const RunComparison& run, double metres) {
+  return run.floor_centre > 0 ? fmt::format("{:.3f}", metres * 1e3) : "-";
+}
+
+}  // namespace
+
+std::string compared_text(const Compared& compared) {
+  const auto& [measurement, warnings, notes, fit, decays, momentum, judgement] = compared;
+  std::string text =
+      judgement.holds()
+          ? "The model holds: what remains is within camera noise and the spread from run to run.\n"
+      : judgement.standing == Standing::fails ? "The data reject the model.\n"
+                                              : "Whether the model holds is undecided.\n";
+  text += "  " + judgement.reason + "\n";
+  text +=
+      fmt::format("  {:<16} {:>11} {:>9} {:>14} {:>9}\n", "run", "box, mm", "spread", "centre, mm", "spread");
+  for (const RunComparison& run : fit.runs)
+    text += fmt::format("  {:<16} {:>11.3f} {:>9.3f} {:>14} {:>9}  {}\n", run.run, run.error_box * 1e3,
+                        run.floor_box * 1e3, of_centre(run, run.error_centre),
+                        of_centre(run, run.floor_centre), severity(run.error_box / run.floor_box));
+  text += fmt::format("  whole: p = {:.3f} ({:.2f} times the misfit of the model's own runs)\n", fit.p_value,
+                      fit.scatter);
+  text += "\n" + validation_text(fit.validation()) + "\n" + readable(fit.cells) + readable(decays);
+  if (momentum.possible) {
+    text += fmt::format("  momentum balance: chi2 per degree of freedom {:.3f}, p = {:.3g}\n",
+                        momentum.as_given.chi2_per_degree(), momentum.as_given.p_value);
+    for (const RunBalance& run : momentum.runs)
+      text +=
+          fmt::format("    {:<16} force that the model lacks {:.2f} mN rms (noise of one window {:.2f} mN)\n",
+                      run.run, run.missing_force * 1e3, run.missing_force_noise * 1e3);
+  }
+  for (const std::string& note : warnings) text += "  note: " + note + "\n";
+  return text;
+}
+
+namespace {
+
+nlohmann::ordered_json json_of(const MeasuredNumber& number, double scale) {
+  return {{"measured", number.measured * scale},
+          {"model", number.model * scale},
+          {"spread", number.spread * scale}};
+}
+
+nlohmann::ordered_json json_of(const std::vector<DecayComparison>& decays) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const DecayComparison& run : decays) {
+    nlohmann::ordered_json peaks = nlohmann::ordered_json::array();
+    for (const MeasuredNumber& peak : run.peaks) peaks.push_back(json_of(peak, 1e3));
+    list.push_back({{"run", run.run},
+                    {"frequency_hz", json_of(run.frequency, 1)},
+                    {"slope_mm_per_s", json_of(run.slope, 1e3)},
+                    {"peaks_mm", peaks}});
+  }
+  return list;
+}
+
+nlohmann::ordered_json json_of(const std::vector<FailureCell>& cells) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const FailureCell& cell : cells)
+    list.push_back(
+        {{"run", cell.run.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(cell.run)},
+         {"observable", cell.observable},
+         {"what", cell.what},
+         {"from_s", cell.from},
+         {"to_s", cell.to},
+         {"error_mm", cell.error * 1e3},
+         {"sigmas", cell.sigmas},
+         {"p_value", cell.p_value}});
+  return list;
+}
+
+}  // namespace
+
+std::string compared_json(const Compared& compared) {
+  const auto& [measurement, warnings, notes, fit, decays, momentum, judgement] = compared;
+  nlohmann::ordered_json runs = nlohmann::ordered_json::array();
+  for (const RunComparison& run : fit.runs)
+    runs.push_back({{"run", run.run},
+                    {"error_box_mm", run.error_box * 1e3},
+                    {"floor_box_mm", run.floor_box * 1e3},
+                    {"error_com_mm", run.floor_centre > 0 ? run.error_centre * 1e3 : std::nan("")},
+                    {"floor_com_mm", run.floor_centre > 0 ? run.floor_centre * 1e3 : std::nan("")},
+                    {"chi2", run.chi2}});
+  nlohmann::ordered_json all{
+      {"schema_version", 1},
+      {"holds", judgement.holds()},
+      {"standing", std::string(name_of(judgement.standing))},
+      {"reason", judgement.reason},
+      {"p_value", fit.p_value},
+      {"scatter", fit.scatter},
+      {"error_box_mm", fit.error_box() * 1e3},
+      {"error_com_mm", fit.floor_centre() > 0 ? fit.error_centre() * 1e3 : std::nan("")},
+      {"noise_floor",
+       {{"box_mm", fit.floor_box() * 1e3},
+        {"com_mm", fit.floor_centre() > 0 ? fit.floor_centre() * 1e3 : std::nan("")}}},
+      {"runs", runs},
+      {"validation", validation_json(fit.validation())},
+      {"where", json_of(fit.cells)},
+      {"decay", json_of(decays)},
+      {"momentum",
+       {{"possible", momentum.possible},
+        {"chi2_per_dof", momentum.as_given.chi2_per_degree()},
+        {"p_value", momentum.as_given.p_value}}},
+      {"notes", notes}};
+  explain_missing_numbers(all, [&](const std::string& path) {
+    const auto begins = [&](std::string_view with) { return path.rfind(with, 0) == 0; };
+    if (path.find("com_mm") != std::string::npos) return std::string("the grains' centre was not tracked");
+    if (begins("/decay/")) return std::string("too few peaks or crossings in the run");
+    return begins("/momentum/") ? momentum.why_not : std::string();
+  });
+  return all.dump();
+}
+
+Compared compared_with(const Setup& setup, const Measurement& recorded, const Engine& engine,
+                       const CompareOptions& options) {
+  Compared compared;
+  compared.measurement = from_first_turns(recorded, engine);
+  compared.warnings = recorded.warnings;
+  compared.notes = all_notes(recorded);
+  const Measurement& measurement = compared.measurement;
+  RefitOptions refitting;
+  refitting.count = options.runs;
+  refitting.rounds = refitting.most_rounds = 1;
+  std::int64_t done = 0;
+  const double all = static_cast<double>(options.runs) * static_cast<double>(measurement.runs.size());
+  const auto told = [&](int n) {
+    done += n;
+    if (options.progress) options.progress(std::min(1.0, static_cast<double>(done) / all));
+  };
+  const Workshop workshop{&engine, all_effects(), options.threads, options.stop, told, nullptr};
+  std::vector<Knob> knobs = as_given(setup, measurement.known);
+  for (Knob& knob : camera_knobs(setup, measurement, all_effects())) knobs.push_back(std::move(knob));
+  compared.fit = refit(features_with_camera(measurement, all_effects()), knobs, workshop, refitting);
+  compared.decays = compare_decay(measurement, workshop, std::min(32, options.runs), 1);
+  compared.momentum = audit_momentum(recorded, all_effects());
+  compared.judgement = judgement_of(
+      compared.fit.test(), compared.momentum.test_of(compared.momentum.as_given), compared.fit.left());
+  return compared;
+}
+
+Report report_of(const Compared& compared, const Setup& setup, const Engine& engine, int threads,
+                 const std::atomic<bool>* stop) {
+  return report_of(compared.fit, compared.momentum, compared.judgement, compared.measurement, setup,
+                   drawn_curves(compared.measurement, nullptr, setup, engine, threads, stop));
+}
+
+}  // namespace shakedown

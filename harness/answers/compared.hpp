@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Is the model acceptable for these measurements, and where does it fail? Nothing is fitted.
+#pragma once
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "decay_comparison.hpp"
+#include "engine.hpp"
+#include "judgement.hpp"
+#include "momentum.hpp"
+#include "refit.hpp"
+#include "report.hpp"
+
+namespace shakedown {
+
+struct CompareOptions {
+  int runs = 128;   ///< simulations of each different setup
+  int threads = 0;  ///< 0: one for each core; the answer does not depend on it
+  std::function<void(double fraction)> progress{};  ///< may be empty
+  const std::atomic<bool>* stop = nullptr;
+};
+
+struct Compared {
+  Measurement measurement;              ///< from the first turn of each run on
+  std::vector<std::string> warnings;    ///< what the frames as recorded give reason to say
+  std::vector<std::string> notes;       ///< the same, and what was assumed in reading
+  Refit fit;                            ///< of camera and clock alone
+  std::vector<DecayComparison> decays;  ///< of each run
+  MomentumAudit momentum;
+  ModelJudgement judgement;
+};
+
+/// `recorded`: the measurement of this setup. Throws InputError where the engine does not model the setup,
+/// Interrupted.
+Compared compared_with(const Setup& setup, const Measurement& recorded, const Engine& engine,
+                       const CompareOptions& options);
+
+std::string compared_text(const Compared& compared);
+/// As JSON text (harness/README.md).
+std::string compared_json(const Compared& compared);
+
+/// The page; its curves are simulated here. Throws Interrupted.
+Report report_of(const Compared& compared, const Setup& setup, const Engine& engine, int threads,
+                 const std::atomic<bool>* stop);
+
+}  // namespace shakedown

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What a diagnosis is asked and what comes of it beside its numbers.
+#pragma once
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "diagnosis.hpp"
+#include "report.hpp"
+
+namespace shakedown {
+
+/// Throws InputError where a name is no effect, or no parameter that a diagnosis fits.
+void check_diagnosed_names(const std::vector<std::string>& effects, const std::vector<std::string>& fixed);
+
+/// The options of every diagnosis: all effects of the list, with the differences of the engines known.
+DiagnoseOptions usual_diagnose_options();
+
+/// The setup with effects and refitted values as TOML, and why.
+std::string amended_setup(const Diagnosis& diagnosis);
+
+/// The page; its curves are simulated here. `given`: the setup as the user had it. Throws Interrupted.
+Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, const Setup& given,
+                 const Engine& engine, int threads, const std::atomic<bool>* stop);
+
+}  // namespace shakedown

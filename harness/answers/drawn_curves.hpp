@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <atomic>
+
+#include "measured_against_model.hpp"
+
+namespace shakedown {
+
+/// The curves of a report: each run as measured, beside the setup as `given` (null: none) and the final one.
+/// Throws Interrupted.
+std::vector<MeasuredAgainstModel> drawn_curves(const Measurement& measurement, const Setup* given,
+                                               const Setup& final_setup, const Engine& engine, int threads,
+                                               const std::atomic<bool>* stop);
+
+}  // namespace shakedown

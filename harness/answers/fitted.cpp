@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "fitted.hpp"
+
+#include "drawn_curves.hpp"
+#include "effects.hpp"
+#include "fit_report.hpp"
+#include "free_parameters.hpp"
+#include "momentum.hpp"
+
+namespace shakedown {
+
+FitOptions usual_fit_options() {
+  FitOptions options;
+  options.known = all_effects();
+  return options;
+}
+
+Fit fitted_and_judged(const Setup& setup, const Measurement& measurement, const std::string& free,
+                      const Engine& engine, const FitOptions& options) {
+  Fit found =
+      fit_parameters(setup, measurement, free_parameters(free, setup, all_effects()), engine, options);
+  const MomentumAudit balance =
+      audit_momentum(with_setup(measurement, found.fitted, all_effects()), all_effects());
+  if (!found.used.empty())
+    found.judgement = judgement_of({found.p_value, found.scatter, ""}, balance.test_of(balance.as_given),
+                                   differences_of(found.used));
+  return found;
+}
+
+Report report_of(const Fit& fit, const Setup& given, const Measurement& measurement, const Engine& engine,
+                 int threads, const std::atomic<bool>* stop) {
+  return report_of(fit, measurement, drawn_curves(measurement, &given, fit.fitted, engine, threads, stop));
+}
+
+}  // namespace shakedown

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <atomic>
+#include <string>
+
+#include "fit.hpp"
+#include "report.hpp"
+
+namespace shakedown {
+
+/// The options of every fit: all effects of the list.
+FitOptions usual_fit_options();
+
+/// Fits the keys of `free` ("restitution.grain_grain,spring.frequency"; those joined by & move together) and
+/// judges the fitted model by its features and by the momentum balance. Throws InputError for a key that
+/// cannot be fitted, Interrupted.
+Fit fitted_and_judged(const Setup& setup, const Measurement& measurement, const std::string& free,
+                      const Engine& engine, const FitOptions& options);
+
+/// The page; its curves are simulated here. Throws Interrupted.
+Report report_of(const Fit& fit, const Setup& given, const Measurement& measurement, const Engine& engine,
+                 int threads, const std::atomic<bool>* stop);
+
+}  // namespace shakedown

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: MIT
+# SHAKEDOWN_WITH_PYTHON: whether the Python module is built, as SHAKEDOWN_PYTHON says.
+set(SHAKEDOWN_WITH_PYTHON OFF)
+if(SHAKEDOWN_PYTHON STREQUAL "OFF")
+  return()
+endif()
+set(PYBIND11_FINDPYTHON ON)
+find_package(Python QUIET COMPONENTS Interpreter Development.Module NumPy)
+if(NOT Python_FOUND AND NOT Python_EXECUTABLE STREQUAL "/usr/bin/python3" AND EXISTS /usr/bin/python3)
+  # The first python3 on the path may be one without numpy, while the system's has it.
+  set(Python_EXECUTABLE /usr/bin/python3)
+  find_package(Python QUIET COMPONENTS Interpreter Development.Module NumPy)
+endif()
+if(Python_FOUND)
+  find_package(pybind11 CONFIG QUIET)
+endif()
+if(Python_FOUND AND pybind11_FOUND)
+  set(SHAKEDOWN_WITH_PYTHON ON)
+elseif(SHAKEDOWN_PYTHON STREQUAL "ON")
+  message(FATAL_ERROR "The Python module needs python3-dev, python3-numpy and pybind11-dev; install them, or leave SHAKEDOWN_PYTHON at AUTO.")
+endif()

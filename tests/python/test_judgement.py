@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: MIT
+"""Comparison, fit, diagnosis and engines side by side: the numbers of the command line, from arrays too."""
+
+import unittest
+
+import shakedown
+from project import L040, LEAF_SPRING, by_command
+
+SETUP, FILMS = LEAF_SPRING / "setup.toml", LEAF_SPRING / "experiment.toml"
+
+
+def without_times(document):
+    return {key: value for key, value in document.items() if key != "seconds"}
+
+
+class Judgement(unittest.TestCase):
+    def test_compare(self):
+        found = shakedown.compare(SETUP, FILMS, runs=16)
+        self.assertEqual(without_times(found.to_dict()),
+                         without_times(by_command("compare", SETUP, "--data", FILMS, "--runs", "16")))
+        self.assertFalse(found.holds)
+        self.assertLess(found.p_value, 0.01)
+        self.assertIn("reject", str(found))
+        self.assertIn("The data reject the model", found.page())
+
+    def test_diagnose_names_what_is_hidden(self):
+        found = shakedown.diagnose(SETUP, FILMS)
+        self.assertEqual(without_times(found.to_dict()), without_times(by_command("diagnose", SETUP, "--data", FILMS)))
+        self.assertEqual(found.verdict, "missing")
+        self.assertEqual(sorted(found.missing), ["blade_viscous_damping", "clamp_dry_friction"])
+        self.assertGreater(found.hypotheses[0]["probability"], 0.9)
+        damping = found.parameters["blade_viscous_damping.damping"]
+        self.assertLess(damping["low"], 0.02005)
+        self.assertGreater(damping["high"], 0.0199)
+        self.assertTrue(shakedown.compare(found.setup, FILMS, runs=16).holds)
+        self.assertTrue(found.page().startswith("<!DOCTYPE html>"))
+
+    def test_fit_of_arrays(self):
+        films = shakedown.measurement(FILMS)
+        arrays = shakedown.measurement({run.name: {"time": run.time, "box": run.box} for run in films.runs})
+        amended = shakedown.Setup(SETUP, set={"blade_viscous_damping.damping": "0.01 N s/m",
+                                              "clamp_dry_friction.force": "5 mN"})
+        stages = []
+        found = shakedown.fit(amended, arrays, ["blade_viscous_damping.damping", "clamp_dry_friction.force", "spring.frequency"],
+                              runs=32, progress=lambda stage, fraction: stages.append(stage))
+        self.assertAlmostEqual(found.parameters["clamp_dry_friction.force"]["value"], 8e-3, delta=1e-3)
+        self.assertAlmostEqual(found.setup["spring.frequency"], 1.26, delta=0.001)
+
+    def test_refuses_names_that_are_none(self):
+        with self.assertRaises(shakedown.InputError):
+            shakedown.diagnose(SETUP, FILMS, effects=["no_such_effect"])
+        with self.assertRaises(shakedown.InputError):
+            shakedown.fit(SETUP, FILMS, "no.such.key")
+
+    def test_crosscheck(self):
+        setup = shakedown.Setup(L040, set={"run.duration": "4 s"})
+        found = shakedown.crosscheck(setup, runs=4)
+        self.assertEqual([one["engine"] for one in found.to_dict()["crosschecks"][0]["engines"]], ["hard", "soft"])
+        self.assertIn("slope", str(found))
+
+
+if __name__ == "__main__":
+    unittest.main()
