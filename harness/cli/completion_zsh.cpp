@@ -53,7 +53,7 @@ std::string specification(const OptionWords& option, int position) {
 }
 
 std::string arguments_of(const CLI::App& command, const std::string& indent) {
-  std::string text = "_arguments -s";
+  std::string text = commands_of(command).empty() ? "_arguments -s" : "_arguments -s -C";
   int position = 0;
   for (const OptionWords& option : options_of(command))
     text += " \\\n" + indent + "  " + specification(option, option.positional ? ++position : 0);
@@ -73,7 +73,7 @@ std::string body_of(const CLI::App& command, const std::string& indent) {
     return indent + "words=(shakedown-studies \"${words[@]}\"); (( CURRENT++ )); _shakedown-studies\n";
   if (commands_of(command).empty()) return indent + arguments_of(command, indent) + "\n";
   const std::string state = command.get_parent() == nullptr ? "arguments" : command.get_name();
-  std::string text = indent + arguments_of(command, indent) + " -C \\\n" + indent +
+  std::string text = indent + arguments_of(command, indent) + " \\\n" + indent +
                      "  '1: :->commands' '*:: :->" + state + "'\n" + indent + "case $state in\n";
   text += fmt::format("{0}  commands) local -a known; known=({1}); _describe command known ;;\n", indent,
                       names_of(command));

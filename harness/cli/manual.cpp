@@ -69,7 +69,8 @@ std::string entry(const OptionWords& option) {
     names += (names.empty() ? "" : ", ") + (option.positional ? in_capitals(name) : name);
   std::string text = ".TP\n.B " + roff(names);
   if (!option.type.empty()) text += " " + roff(option.type);
-  text += "\n" + roff(with_capital(option.sentence)) + ".\n";
+  text += "\n";
+  if (!option.sentence.empty()) text += roff(with_capital(option.sentence)) + ".\n";
   if (!option.bounds.empty()) text += roff("Allowed: " + option.bounds + ".") + "\n";
   if (!option.otherwise.empty()) text += roff("Default: " + option.otherwise + ".") + "\n";
   return text;

@@ -72,7 +72,7 @@ class Runs(unittest.TestCase):
 
     def test_shows_a_page(self):
         found = shakedown.run(shakedown.Setup(L040, set={"run.duration": "1 s"}))
-        self.assertTrue(found.page().startswith("<!DOCTYPE html>"))
+        self.assertTrue(found.page().startswith("<!doctype html>"))
         self.assertIn("<iframe", found._repr_html_())
         self.assertIn("peak", str(found))
 
@@ -186,7 +186,7 @@ class Drops(unittest.TestCase):
         self.assertEqual(found.to_dict(), by_command("bounce", file))
         self.assertIn("restitution falls", found.sentence)
         self.assertIn("power", str(found))
-        self.assertTrue(found.page().startswith("<!DOCTYPE html>"))
+        self.assertTrue(found.page().startswith("<!doctype html>"))
         with self.assertRaises(shakedown.InputError):
             shakedown.bounce(file, mass="2.7 mm", diameter="40 mm")
 

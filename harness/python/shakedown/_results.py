@@ -143,11 +143,6 @@ class _WithSetup(Answer):
         assert found is not None
         return Setup._of(found, f"{type(self).__name__.lower()} of {self._name}")
 
-    @property
-    def parameters(self) -> dict[str, dict[str, Any]]:
-        """By key: value, low and high (95 %), in SI."""
-        return {one.get("name", one.get("key")): one for one in self.to_dict()["parameters"]}
-
 
 class Diagnosis(_WithSetup):
     """Which physical effect is missing in the model, and how strong is it?"""
@@ -167,6 +162,11 @@ class Diagnosis(_WithSetup):
         return list(self.to_dict()["missing"])
 
     @property
+    def parameters(self) -> dict[str, dict[str, Any]]:
+        """By key: value, low and high (95 %), in SI."""
+        return dict(self.to_dict()["parameters"])
+
+    @property
     def hypotheses(self) -> list[dict[str, Any]]:
         """Sets of effects with their probability, most probable first."""
         return list(self.to_dict()["hypotheses"])
@@ -174,6 +174,11 @@ class Diagnosis(_WithSetup):
 
 class Fit(_WithSetup):
     """Parameters of the model with 95 % intervals, and the error on runs left out."""
+
+    @property
+    def parameters(self) -> dict[str, dict[str, Any]]:
+        """By key: value, low and high (95 %) in the unit that stands beside them; told: whether the data tell it."""
+        return {one["key"]: one for one in self.to_dict()["parameters"]}
 
 
 class Crosscheck(Answer):
