@@ -49,6 +49,15 @@ ValueKind kind_of(const OptionWords& option) {
   return ValueKind::any;
 }
 
+/// Where the parser has added what it checks to the type's own name, which may have colons too; npos:
+/// nowhere.
+std::size_t end_of_type(const std::string& type) {
+  std::size_t end = std::string::npos;
+  for (const char* check : {":{", ":POSITIVE", ":INT in [", ":UINT in [", ":FLOAT in ["})
+    end = std::min(end, type.find(check));
+  return end;
+}
+
 OptionWords words_of(const CLI::Option& option, const std::string& command) {
   OptionWords words;
   words.positional = option.get_positional();
@@ -65,7 +74,7 @@ OptionWords words_of(const CLI::Option& option, const std::string& command) {
   words.otherwise = option.get_default_str();
   const bool flag = option.get_expected_max() == 0 || option.get_type_size() == 0;
   const std::string type = flag ? "" : option.get_type_name();
-  const std::size_t bounds = type.find(':');
+  const std::size_t bounds = end_of_type(type);
   words.type = type.substr(0, bounds);
   if (bounds != std::string::npos) words.bounds = type.substr(bounds + 1);
   words.choices = flag ? std::vector<std::string>() : choices_of(words, command, type);

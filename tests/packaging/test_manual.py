@@ -109,8 +109,10 @@ class Manual(unittest.TestCase):
         self.assertTrue(text.startswith("#compdef shakedown\n"))
         for words in self.each_command(SHAKEDOWN):
             self.assertIn(f" '{words[-1]}:", text)
+            if self.page("-".join(("shakedown", *words))).startswith(".so "):
+                continue
             for option in options_in(output(SHAKEDOWN, *words, "--help")):
-                self.assertIn(f"{option}[", text)
+                self.assertTrue(f"{option}[" in text, (words, option))
         if shutil.which("zsh"):
             subprocess.run(["zsh", "-n", str(self.folder / "zsh" / "_shakedown")], check=True)
 
