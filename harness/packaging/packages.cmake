@@ -24,10 +24,10 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME shakedown)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "granular dampers: which effect is missing in the model
- A box on a spring, partly filled with grains, loses its swing by impacts.
- shakedown simulates it by several engines, compares it with what was filmed,
- and says which physical effects are missing in the model, how strong each is,
- and how probable.")
+A box on a spring, partly filled with grains, loses its swing by impacts.
+shakedown simulates it by several engines, compares it with what was filmed,
+and says which physical effects are missing in the model, how strong each is,
+and how probable.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libshakedown-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, nlohmann-json3-dev")
@@ -36,28 +36,35 @@ if(NOT BUILD_SHARED_LIBS)
     ", libfmt-dev, libmuparser-dev, libbullet-dev, libnlopt-dev, libnlopt-cxx-dev, libsqlite3-dev, libsndfile1-dev, zlib1g-dev, pkg-config")
 endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "granular dampers: library and headers
- What the programs of the package shakedown are made of, for C++20: setups,
- engines, ensembles, measurements, diagnosis; with files for CMake
- and pkg-config.")
+What the programs of the package shakedown are made of, for C++20: setups,
+engines, ensembles, measurements, diagnosis; with files for CMake
+and pkg-config.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-shakedown)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${python_after}), python3-numpy")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "granular dampers: Python module
- Setups, runs, ensembles, comparison with measurements, diagnosis and fits of
- the program shakedown, with numpy arrays and pages for notebooks.")
+Setups, runs, ensembles, comparison with measurements, diagnosis and fits of
+the program shakedown, with numpy arrays and pages for notebooks.")
 
 # Each package has its licence and its changes, as Debian wants them.
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 configure_file(copyright.in copyright @ONLY)
+string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)  # SOURCE_DATE_EPOCH makes it the same again
+configure_file(changelog.Debian.in changelog.Debian @ONLY)
 find_program(GZIP gzip)
+function(compressed file to)
+  execute_process(COMMAND ${GZIP} -9nc ${file} OUTPUT_FILE ${CMAKE_CURRENT_BINARY_DIR}/${to} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+set(changes "")
+if(GZIP AND SHAKEDOWN_DEBIAN)
+  compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog.gz)
+  compressed(${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian changelog.Debian.gz)
+  set(changes ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian.gz)
+endif()
 foreach(component IN LISTS packed)
   string(TOUPPER ${component} upper)
   set(folder ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/copyright DESTINATION ${folder} COMPONENT ${component})
-  if(GZIP AND SHAKEDOWN_DEBIAN)
-    set(changes ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz)
-    execute_process(COMMAND ${GZIP} -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md OUTPUT_FILE ${changes} COMMAND_ERROR_IS_FATAL ANY)
-    install(FILES ${changes} DESTINATION ${folder} COMPONENT ${component})
-  endif()
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/copyright ${changes} DESTINATION ${folder} COMPONENT ${component})
 endforeach()
 include(CPack)
