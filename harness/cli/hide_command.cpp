@@ -37,7 +37,11 @@ Trial asked(const HideArguments& arguments) {
   Trial trial;
   std::vector<Violation> found;
   try {
-    trial = trial_of(arguments.question);
+    HiddenQuestion question = arguments.question;
+    question.setup_with = [&](std::span<const Override> changes) {
+      return read_setup(arguments.setup, all_effects(), changes);
+    };
+    trial = trial_of(question);
     if (arguments.strict) refuse_paper_values(trial.hidden.believed, arguments.setup, given_by_measurements);
   } catch (const InputError& error) {
     found = error.violations;
@@ -185,9 +189,6 @@ Command add_hide_command(CLI::App& program) {
       ->check(positive_number())
       ->type_name("RUNS");
   add_json_option(command, a->json);
-  a->question.setup_with = [file = &a->setup](std::span<const Override> changes) {
-    return read_setup(*file, all_effects(), changes);
-  };
   return {&command, [a] { return hide_or_measure_power(*a); }};
 }
 
