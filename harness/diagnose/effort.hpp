@@ -36,6 +36,10 @@ constexpr Rule glance_tells{
     "glance_tells", 0.25, "of the gain",
     "what a glance shows at least of a signal that decides: 12 simulations leave a noise of 35 to 45 in the "
     "square of a signature, of which even odds need 15"};
+constexpr Rule signature_errs{
+    "signature_errs", 0.1, "of ln odds",
+    "what a signature is wrong by far from nothing: 456 where three times the simulations saw 476, 2557 for "
+    "dry friction where that of Dahl, the same on that film, had 2608"};
 constexpr Rule hopeless{
     "hopeless", 100, "ln likelihood below nothing's",
     "a stronger level of the same sign would have to turn by more than 60 degrees to explain what this one "
