@@ -213,7 +213,7 @@ int compare(const CompareArguments& arguments) {
                             catch_interruption(),
                             [&](int n) { display.show(std::min(1.0, static_cast<double>(done += n) / all)); },
                             nullptr};
-    std::vector<Knob> knobs = as_given(setup, measurement.known);
+    std::vector<Knob> knobs = as_given(setup, measurement.known, all_effects());
     for (Knob& knob : camera_knobs(setup, measurement, all_effects())) knobs.push_back(std::move(knob));
     fit = refit(features_with_camera(measurement, all_effects()), knobs, workshop, options);
     decays = compare_decay(measurement, workshop, std::min(32, arguments.runs), 1);

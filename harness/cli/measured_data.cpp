@@ -13,7 +13,7 @@
 namespace shakedown {
 
 Experiment read_measured(const std::string& file, Setup& setup) {
-  Experiment experiment = with_known(read_experiment(file), all_effects());
+  Experiment experiment = with_known(read_experiment(file, all_effects()), all_effects());
   const std::vector<std::string> of_known = notes_on_known(setup, experiment.known);
   setup = with_known(setup, experiment.known, all_effects());
   std::vector<Setup> setups;

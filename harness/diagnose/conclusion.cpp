@@ -243,6 +243,7 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   findings.anything_missing = !d.missing.empty();
   findings.refitted = refitted || final.setup.release.packing != user.release.packing;
   findings.camera_stands_out = !standing_out(d.camera).empty();
+  findings.explained = share_taken_away(given.fit.scatter, final.fit.scatter);
   findings.features = final.fit.test();
   findings.far_p_value = final.fit.far_p_value;
   findings.balance = d.momentum.test_of(d.momentum.final_fit);

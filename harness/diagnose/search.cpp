@@ -62,6 +62,13 @@ std::vector<Candidate> open_candidates(const DiagnosisState& state, DiagnosisToo
   std::erase_if(candidates, [&](const Candidate& candidate) {
     return std::find(exact.begin(), exact.end(), candidate.effect) != exact.end();
   });
+  // A component test told it: a parameter of the fit, or fixed.
+  std::erase_if(candidates, [&](const Candidate& candidate) {
+    const std::vector<std::string> keys = joined_keys(candidate.fitted_knobs().front().key);
+    return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {
+      return find_known(tools.measurement().known, key) != nullptr && find_setup_key(key) == nullptr;
+    });
+  });
   std::erase_if(candidates, [&](const Candidate& candidate) {
     const auto judged = [&](const std::string& key) {
       return std::find(seen_by_balance.begin(), seen_by_balance.end(), key) != seen_by_balance.end();
