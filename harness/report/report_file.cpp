@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "errors.hpp"
+#include "kept_files.hpp"
 #include "report.hpp"
 
 namespace shakedown {
@@ -158,6 +159,7 @@ std::string report_json(const Report& report) {
 
 Report read_report(std::filesystem::path file) {
   if (std::filesystem::is_directory(file)) file /= report_file_name;
+  keep_unchanged(file);
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw FileError(file.string() +
