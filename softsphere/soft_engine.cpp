@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 
 #include "box_flow.hpp"
 #include "grain_flow.hpp"
@@ -152,10 +153,12 @@ class SoftRun {
         "(grains pass through walls and each other). Use a shorter soft.contact_time than %.3g ms.",
         time_, accounts_.deepest_overlap * 1e3, setup_.grains.diameter * 1e3, setup_.soft.contact_time * 1e3);
     text += text_of("\nbox: x %.9g m, v %.9g m/s", bodies_.x_box(), bodies_.v_box());
-    for (const Contact& contact : contacts_)
+    constexpr std::size_t most_shown = 10;
+    for (const Contact& contact : std::span(contacts_).first(std::min(most_shown, contacts_.size())))
       text += text_of("\n%s contact of grain %d and %d: overlap %.3g mm, touched at %.3g m/s",
                       contact_class_names[static_cast<std::size_t>(contact.kind)], contact.i + 1,
                       contact.j + 1, contact.overlap * 1e3, contact.closing_speed);
+    if (contacts_.size() > most_shown) text += text_of("\nand %zu more", contacts_.size() - most_shown);
     throw PhysicsError(text);
   }
 

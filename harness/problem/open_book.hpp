@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace shakedown {
 
@@ -11,7 +12,7 @@ namespace shakedown {
 class OpenBook {
  public:
   void see(double open, double held) {
-    worst_ = std::max(worst_, std::abs(open));
+    worst_ = std::isfinite(open) ? std::max(worst_, std::abs(open)) : std::numeric_limits<double>::infinity();
     most_ = std::max(most_, std::abs(held));
   }
   /// The error as a fraction of `scale`; infinity where something is open and nothing was ever held.
