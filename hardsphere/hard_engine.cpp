@@ -73,7 +73,7 @@ class HardEngine final : public Engine {
     void check_on_the_way() const {
       if (system.health().deepest_overlap > most_overlap || !std::isfinite(most_energy)) check();
     }
-    void check() const { expect_kept(system.health(), system.time(), system.initial_energy(), most_energy); }
+    void check() const { expect_kept(system.health(), system.time(), most_energy); }
   };
 
   static void reserve(std::size_t samples, Trajectory& trajectory) {

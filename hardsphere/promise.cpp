@@ -29,12 +29,10 @@ std::string digits(double number) {
 
 }  // namespace
 
-void expect_kept(const Health& health, double time, double initial_energy, double most_energy) {
+void expect_kept(const Health& health, double time, double most_energy) {
   if (!std::isfinite(most_energy))
     refuse(time, "the energy of box and grains is not a finite number (numbers end at 1e308)");
-  // A force may put in far more than the release did: then rounding is a part of that.
-  const double scale = initial_energy > 0 && most_energy > initial_energy ? most_energy / initial_energy : 1;
-  const double error = health.ledger_error / scale;
+  const double error = health.ledger_error;
   if (!(error <= most_ledger_error))
     refuse(time, "energy and losses do not balance: they are off by " + digits(error) + " of the energy (" +
                      digits(most_ledger_error) + " is the most that is let pass)");

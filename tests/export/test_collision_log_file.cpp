@@ -61,7 +61,7 @@ TEST(CollisionLogFile, NamesADamagedFile) {
   EXPECT_THROW(read_collision_log(folder / "missing.log", all_effects()), FileError);
 }
 
-/// A changed byte could make another motion, or one without end.
+/// One byte makes another motion, or one without end.
 TEST(CollisionLogFile, NamesAFileWithOneChangedByte) {
   const ScratchFolder folder;
   const std::string bytes = collision_log_bytes(logged_run());
