@@ -76,6 +76,7 @@ class SoftRun {
     check_promises();
     add_notes();
     Trajectory trajectory = record_.finish(bodies_, accounts_, stored(), time_);
+    expect_balanced(trajectory.health.ledger_error);
     trajectory.wall_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     return trajectory;
@@ -142,6 +143,19 @@ class SoftRun {
   void check_promises() {
     const bool finite = record_.check(bodies_, accounts_, stored());
     if (!finite || accounts_.deepest_overlap > setup_.grains.diameter / 4) fail();
+  }
+
+  /// The work of every force is entered: what is open is a motion that the steps do not follow.
+  void expect_balanced(double ledger_error) const {
+    constexpr double most = 1e-6;  // of the energy
+    if (ledger_error <= most) return;
+    throw PhysicsError(
+        text_of("engine 'soft': energy and losses do not balance: at t = %.6g s they are off by %.3g of the "
+                "energy (%g "
+                "is the most that is let pass). Use a shorter soft.contact_time than %.3g ms, or check "
+                "spring.frequency "
+                "and the masses.",
+                time_, ledger_error, most, setup_.soft.contact_time * 1e3));
   }
 
   /// Contacts deeper than half a radius, or numbers that are none: the setup asks for more than soft contacts
