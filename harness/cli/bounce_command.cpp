@@ -12,6 +12,7 @@
 #include "bounce_report.hpp"
 #include "command.hpp"
 #include "json_output.hpp"
+#include "kept_files.hpp"
 #include "missing_numbers.hpp"
 #include "output_file.hpp"
 #include "quantity_option.hpp"
@@ -97,6 +98,7 @@ int bounce(const BounceArguments& arguments) {
         {{{}, "--contact", "'" + arguments.contact + "' is no contact", "grain_wall or grain_grain"}});
   const Height height = height_of(arguments.height);
   const DropReading how = reading_of(arguments, height);
+  for (const std::string& file : arguments.files) keep_unchanged(file);
   arguments.json.check();
   arguments.report.check();
   if (!arguments.known.empty()) expect_writable(arguments.known);

@@ -194,7 +194,8 @@ int compare(const CompareArguments& arguments) {
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
-  if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
+  if (!arguments.out.empty())
+    folder = std::make_unique<OutputFolder>(arguments.out, OutputFolder::Use::alone);
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
   const Measurement measurement = from_first_turns(recorded, *engine);
   RefitOptions options;

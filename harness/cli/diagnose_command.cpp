@@ -106,7 +106,10 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
-  if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
+  if (!arguments.out.empty()) {
+    folder = std::make_unique<OutputFolder>(arguments.out, OutputFolder::Use::alone);
+    expect_writable(folder->path() / "setup.toml");
+  }
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const std::int64_t budget = arguments.budget > 0 ? arguments.budget : usual_budget(measurement);
   const std::unique_ptr<SimulationJournal> journal = journal_in(folder.get(), experiment, arguments.resume);

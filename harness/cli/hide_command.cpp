@@ -135,15 +135,40 @@ Experiment measured(const HideArguments& arguments, const Trial& trial) {
   return experiment;
 }
 
+constexpr const char* first_line = "# What the user believes; box.length is replaced by each run's.\n";
+
+/// The files of the case that an earlier `hide` left in the folder; empty where there is none. Throws
+/// InputError where somebody else's experiment is there.
+std::vector<std::filesystem::path> earlier_case(const OutputFolder& folder) {
+  const std::filesystem::path experiment = folder.path() / "experiment.toml",
+                              setup = folder.path() / "setup.toml";
+  if (!std::filesystem::exists(experiment)) return {};
+  if (!std::filesystem::exists(setup) || !read_text_file(setup).starts_with(first_line))
+    throw InputError({{{experiment.string(), 0, 0},
+                       "",
+                       "is an experiment that this command did not make",
+                       "name another folder with --out"}});
+  std::vector<std::filesystem::path> files{"experiment.toml", "truth.json"};
+  const TomlValue read = parse_toml(read_text_file(experiment), experiment.string());
+  if (const TomlValue* runs = read.find("run"))
+    for (const TomlValue& run : runs->items)
+      if (const TomlValue* file = run.find("file"))
+        files.push_back(std::filesystem::path(file->text).filename());
+  return files;
+}
+
 int hide(const HideArguments& arguments, const Trial& trial) {
   arguments.json.check();
-  const OutputFolder folder(arguments.out);
+  const OutputFolder folder(arguments.out, OutputFolder::Use::alone);
+  const std::vector<std::filesystem::path> earlier = earlier_case(folder);
   const std::filesystem::path truth =
       arguments.truth.empty() ? folder.path() / "truth.json" : std::filesystem::path(arguments.truth);
-  expect_writable(truth);
+  for (const std::filesystem::path& file :
+       {truth, folder.path() / "setup.toml", folder.path() / "experiment.toml"})
+    expect_writable(file);
   const Experiment experiment = measured(arguments, trial);
-  folder.write("setup.toml", "# What the user believes; box.length is replaced by each run's.\n" +
-                                 write_setup(trial.hidden.believed));
+  folder.remove(earlier);
+  folder.write("setup.toml", first_line + write_setup(trial.hidden.believed));
   write_measurements(folder.path(), experiment);
   write_file(truth, truth_json(trial.hidden, trial.recording, arguments.engine, arguments.seed));
   std::FILE* people = arguments.json.for_people();

@@ -163,7 +163,8 @@ int ladder(const LadderArguments& arguments) {
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
-  if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
+  if (!arguments.out.empty())
+    folder = std::make_unique<OutputFolder>(arguments.out, OutputFolder::Use::alone);
   const std::vector<Rung> rungs = climb_all(arguments, setups, measurement);
   PaperValues taken(setups.front(), given_by_measurements);
   for (const Setup& setup : setups) taken.join(PaperValues(setup, given_by_measurements));

@@ -11,6 +11,7 @@
 #include "column_tables.hpp"
 #include "experiment_reader.hpp"
 #include "fnv.hpp"
+#include "kept_files.hpp"
 #include "prelude.hpp"
 #include "quantity.hpp"
 #include "table_text.hpp"
@@ -298,6 +299,7 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
 }
 
 Experiment read_experiment(const std::filesystem::path& file, std::span<const EffectRecord* const> effects) {
+  keep_unchanged(file);
   return parse_experiment(read_text_file(file), file.string(), file.parent_path(), effects);
 }
 

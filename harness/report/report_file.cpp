@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A report as JSON and back. One list of fields for each struct serves both directions.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "errors.hpp"
+#include "kept_files.hpp"
 #include "report.hpp"
 
 namespace shakedown {
@@ -146,6 +148,46 @@ struct FromJson {
   }
 };
 
+bool is_whole(const ReportReplay::Track& track) {
+  const std::size_t n = track.time.size();
+  return track.x.size() == n && track.y.size() == n && track.z.size() == n &&
+         (track.contact.empty() || track.contact.size() == n);
+}
+
+bool is_whole(const ReportReplay& replay) {
+  return is_whole(replay.box) && replay.measured_time.size() == replay.measured_x_box.size() &&
+         replay.radius.size() == replay.grains.size() &&
+         std::all_of(replay.grains.begin(), replay.grains.end(),
+                     [](const ReportReplay::Track& track) { return is_whole(track); });
+}
+
+bool is_known(Tone tone) { return tone >= Tone::plain && tone <= Tone::unsure; }
+
+bool is_whole(const ReportSection& section) {
+  bool whole = true;
+  for (const ReportPlot& plot : section.plots)
+    for (const ReportCurve& curve : plot.curves)
+      whole = whole && curve.y.size() == plot.x.size() && curve.role >= CurveRole::measured &&
+              curve.role <= CurveRole::points;
+  for (const ReportStrip& strip : section.strips)
+    for (const ReportStrip::Row& row : strip.rows)
+      whole = whole && row.values.size() + 1 == strip.edges.size();
+  for (const ReportBars& bars : section.bars)
+    for (const ReportBars::Line& line : bars.lines) whole = whole && is_known(line.tone);
+  return whole;
+}
+
+/// The page takes for granted that what belongs together is equally long.
+bool is_whole(const Report& report) {
+  return is_known(report.tone) &&
+         std::all_of(report.facts.begin(), report.facts.end(),
+                     [](const ReportFact& fact) { return is_known(fact.tone); }) &&
+         std::all_of(report.sections.begin(), report.sections.end(),
+                     [](const ReportSection& section) { return is_whole(section); }) &&
+         std::all_of(report.replays.begin(), report.replays.end(),
+                     [](const ReportReplay& replay) { return is_whole(replay); });
+}
+
 }  // namespace
 
 std::string report_json(const Report& report) {
@@ -158,6 +200,7 @@ std::string report_json(const Report& report) {
 
 Report read_report(std::filesystem::path file) {
   if (std::filesystem::is_directory(file)) file /= report_file_name;
+  keep_unchanged(file);
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw FileError(file.string() +
@@ -172,6 +215,11 @@ Report read_report(std::filesystem::path file) {
     Report report;
     FromJson reader{json};
     fields(reader, report);
+    if (!is_whole(report))
+      throw FileError(
+          file.string() +
+          ": is damaged (curves without a number for each moment, or words that do not exist); run "
+          "its command again");
     return report;
   } catch (const nlohmann::json::exception& error) {
     throw FileError(file.string() + ": is not a report (" + error.what() + "); run its command again");

@@ -6,6 +6,7 @@
 #include <zlib.h>
 
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "engines.hpp"
@@ -88,6 +89,33 @@ TEST(Report, SurvivesItsFile) {
   write_file(folder / "other.json", "nonsense");
   EXPECT_THROW(read_report(folder / "other.json"), FileError);
   EXPECT_THROW(read_report(folder / "missing.json"), FileError);
+}
+
+TEST(Report, DamagedFilesAreNamed) {
+  const ScratchFolder folder;
+  const auto complaint = [&](const std::function<void(Report&)>& damage) -> std::string {
+    Report report = small_report();
+    damage(report);
+    write_file(folder / report_file_name, report_json(report));
+    try {
+      report_html(read_report(folder.path()));
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint([](Report&) {}), "");
+  const std::vector<std::function<void(Report&)>> damages{
+      [](Report& r) { r.sections[0].plots[0].curves[0].y.pop_back(); },
+      [](Report& r) { r.sections[0].plots[0].curves[0].role = static_cast<CurveRole>(99); },
+      [](Report& r) { r.sections[0].strips[0].rows[0].values.clear(); },
+      [](Report& r) { r.tone = static_cast<Tone>(-3); },
+      [](Report& r) { r.replays.emplace_back().radius = {0.005}; },
+      [](Report& r) {
+        r.replays.emplace_back().box.time = {0, 1};
+      }};
+  for (const auto& damage : damages)
+    EXPECT_NE(complaint(damage).find("report.json: is damaged"), std::string::npos) << &damage - &damages[0];
 }
 
 TEST(Report, SeveralAreJoinedWithoutMixingTheirRuns) {
