@@ -123,8 +123,8 @@ ReportKnobs knobs_of(const Diagnosis& diagnosis, const Setup& user, const Engine
   options.known = all_effects();
   options.missing = diagnosis.missing;
   options.suspects = suspects_of(diagnosis);
-  constexpr double share_of_time = 0.2;  // beside that of the diagnosis itself
-  options.seconds = share_of_time * arguments.seconds;
+  constexpr double share_of_time = 0.2, least = 20;  // beside that of the diagnosis itself; s
+  options.seconds = std::max(least, share_of_time * arguments.seconds);
   options.threads = arguments.threads;
   options.stop = catch_interruption();
   return knobs_of(turned_model(*fit.ensembles, user, engine, options), fit, diagnosis.amended);

@@ -45,7 +45,7 @@ struct FittedCurve {
 /// is thinned to `most` of them.
 std::vector<FittedCurve> curves_of(const LastFit& fit, std::size_t most = 6000);
 
-/// The same as an array of objects, mm; a gap is null.
+/// The same, thinned to 2000, as an array of objects, mm; a gap is null.
 nlohmann::ordered_json curves_json(const LastFit& fit);
 
 /// Each run of LastFit::measurement as the last fit has it: parameters, effects, camera, masses, and where

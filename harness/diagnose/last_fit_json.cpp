@@ -21,8 +21,9 @@ Json in_mm(const std::vector<double>& metres) {
 }  // namespace
 
 Json curves_json(const LastFit& fit) {
+  constexpr std::size_t most = 2000;
   Json list = Json::array();
-  for (const FittedCurve& curve : curves_of(fit)) {
+  for (const FittedCurve& curve : curves_of(fit, most)) {
     std::vector<double> residual = curve.measured;
     for (std::size_t i = 0; i < residual.size(); ++i) residual[i] -= curve.model[i];
     Json time = Json::array();

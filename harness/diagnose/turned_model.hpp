@@ -49,7 +49,7 @@ struct TurnedOptions {
   std::span<const EffectRecord* const> known;
   std::vector<std::string> missing;   ///< effects found
   std::vector<std::string> suspects;  ///< effects that are offered besides, most wanted first
-  int count = 32;                     ///< simulations of each different setup at each place
+  int count = 24;                     ///< simulations of each different setup at each place
   int first_run = 7000000;            ///< addresses their random numbers
   double seconds = 60;                ///< for simulations, at most
   int threads = 0;

@@ -10,6 +10,7 @@
 #include "effects.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
+#include "last_fit.hpp"
 #include "page_figures.hpp"
 #include "quantity.hpp"
 #include "setup_file.hpp"
@@ -123,12 +124,21 @@ ReportSection what_is_left(const Diagnosis& d) {
     section.paragraphs.push_back(fmt::format("The track wanders by {} mm over {} s.",
                                              for_people(d.momentum.wander.deviation * 1e3),
                                              for_people(d.momentum.wander.time)));
-  const std::vector<std::string> columns{"of",         "left, mm",  "% of the swing", "noise and spread, mm",
-                                         "times that", "looks like"};
+  const bool named = std::any_of(d.left.begin(), d.left.end(),
+                                 [](const Difference& one) { return !one.looks_like.empty(); });
+  std::vector<std::string> columns{"of", "left, mm", "% of the swing", "noise and spread, mm", "times that"};
+  if (named) columns.push_back("looks like");
   ReportTable all{"", "", columns, {}, false}, runs{"Run by run", "", columns, {}, true};
+  if (d.last_fit && d.last_fit->ensembles)
+    all.caption =
+        "What each run has of its own (its trigger, its release) counts at its most probable, which a bare "
+        "rms does not.";
   const double amplitude = d.left.empty() ? std::nan("") : d.left.front().amplitude;
-  for (const Difference& one : d.left)
-    (one.of == "box" || one.of == "grains' centre" ? all : runs).rows.push_back(row_of(one, amplitude));
+  for (const Difference& one : d.left) {
+    std::vector<std::string> row = row_of(one, amplitude);
+    row.resize(columns.size());
+    (one.of == "box" || one.of == "grains' centre" ? all : runs).rows.push_back(std::move(row));
+  }
   if (!all.rows.empty()) section.tables.push_back(all);
   if (!runs.rows.empty()) section.tables.push_back(runs);
   return section;

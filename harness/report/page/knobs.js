@@ -39,7 +39,7 @@ function setup_lines(knobs, place) {
     }
   });
   const parts = [...tables].map(([table, lines]) => `[${table}]\n${lines.join("\n")}\n`);
-  for (const effect of effects.values()) if (effect.present) parts.push(effect.toml.trimEnd() + "\n" + effect.more.map((line) => line + "\n").join(""));
+  for (const effect of effects.values()) if (effect.present) parts.push(effect.toml.trim() + "\n" + effect.more.map((line) => line + "\n").join(""));
   return parts.join("\n");
 }
 
@@ -53,7 +53,7 @@ function read_knobs(raw) {
 }
 
 /// One plot of a curve: entries of page.plots whose data follow the knobs.
-function knob_plot(page, run, curve, kind) {
+function knob_plot(page, run, curve, kind, smooth) {
   const figure = made("figure"), legend = made("ul", "legend"), element = made("div", "plot");
   const error = kind === "error", what = curve.name === "box" ? "Box" : "Centre of the grains";
   figure.dataset.group = run.name;
@@ -71,7 +71,7 @@ function knob_plot(page, run, curve, kind) {
     legend.append(item);
   });
   figure.append(made("h3", "", error ? `${what}: measured less model` : what), legend, element);
-  const plot = { group: run.name, time: true, log: false, level: null, xl: error ? "time since release, s" : "", yl: error ? "mm" : "position, mm", x: curve.time, curves, marks: [] };
+  const plot = { group: run.name, time: true, smooth, log: false, level: null, xl: error ? "time since release, s" : "", yl: error ? "mm" : "position, mm", x: curve.time, curves, marks: [] };
   const entry = { plot, element, u: null, mine: curves.findIndex((one) => one.r === "mine") };
   page.plots.push(entry);
   return { figure, show(mean) {
@@ -80,6 +80,55 @@ function knob_plot(page, run, curve, kind) {
     const { min, max } = entry.u.scales.x;
     entry.u.setData([entry.u.data[0], ...plot.curves.map((one) => one.y)], false);
     entry.u.setScale("x", { min, max });
+  } };
+}
+
+/// Amplitude of what is left, mm, by frequency, Hz, and what white noise of the expected spread would have; up to four frames a period.
+function spectrum_of(curve, mean) {
+  const left = [];
+  curve.measured.forEach((m, i) => { if (m !== null && Number.isFinite(mean[i])) left.push([curve.time[i], m - mean[i], curve.spread[i]]); });
+  if (left.length < 8) return null;
+  const length = left.at(-1)[0] - left[0][0], fastest = Math.min(12, left.length / length / 4), steps = 120, x = [], y = [];
+  const noise = 2 * Math.sqrt(left.reduce((sum, [, , s]) => sum + s * s, 0)) / left.length;
+  for (let k = 1; k <= steps; ++k) {
+    const omega = (2 * Math.PI * fastest * k) / steps;
+    let sine = 0, cosine = 0;
+    for (const [t, r] of left) { sine += r * Math.sin(omega * t); cosine += r * Math.cos(omega * t); }
+    x.push((fastest * k) / steps);
+    y.push((2 * Math.hypot(sine, cosine)) / left.length);
+  }
+  return { x, y, noise: x.map(() => noise) };
+}
+
+/// rms of what is left, mm, in twenty-four stretches of the run, and of the expected spread.
+function course_of(curve, mean) {
+  const count = 24, begin = curve.time[0], length = (curve.time.at(-1) - begin) / count || 1, sums = Array.from({ length: count }, () => [0, 0, 0]);
+  curve.measured.forEach((m, i) => {
+    if (m === null || !Number.isFinite(mean[i])) return;
+    const sum = sums[Math.min(count - 1, Math.floor((curve.time[i] - begin) / length))];
+    sum[0] += (m - mean[i]) ** 2; sum[1] += curve.spread[i] ** 2; ++sum[2];
+  });
+  const root = (k) => sums.map((sum) => (sum[2] ? Math.sqrt(sum[k] / sum[2]) : null));
+  return { x: sums.map((_, k) => begin + (k + 0.5) * length), y: root(0), noise: root(1) };
+}
+
+/// What is left of the box of one run, by frequency or by time: worked out where it is looked at.
+function left_plot(page, run, curve, kind) {
+  const figure = made("figure"), legend = made("ul", "legend"), element = made("div", "plot"), by_time = kind === "course";
+  figure.dataset.group = run.name;
+  element.dataset.height = 180;
+  const first = by_time ? course_of(curve, curve.best) : spectrum_of(curve, curve.best);
+  if (!first) return null;
+  const curves = [{ n: "noise and spread as expected", r: "best", y: first.noise }, { n: "as the knobs stand", r: "mine", y: first.y }];
+  for (const one of curves) { const item = made("li"); item.append(made("i", one.r), one.n); legend.append(item); }
+  figure.append(made("h3", "", by_time ? "Left of the box, by time" : "Left of the box, by frequency"), legend, element);
+  const plot = { group: run.name, time: by_time, smooth: false, level: null, log: false, xl: by_time ? "time since release, s" : "frequency, Hz", yl: by_time ? "rms, mm" : "amplitude, mm", x: first.x, curves, marks: [] };
+  const entry = { plot, element, u: null };
+  page.plots.push(entry);
+  return { figure, show(mean) {
+    if (!shown(element)) return;
+    curves[1].y = (by_time ? course_of(curve, mean) : spectrum_of(curve, mean))?.y ?? [];
+    if (entry.u) entry.u.setData([entry.u.data[0], ...curves.map((one) => one.y)]);
   } };
 }
 
@@ -97,13 +146,13 @@ class Knobs {
   build() {
     const body = made("div", "knob-body"), plots = made("div", "knob-plots"), side = made("div", "knob-side");
     this.drawn = this.data.runs.map((run) => run.curves.map((curve) => ["position", "error"].map((kind) => {
-      const drawn = knob_plot(this.page, run, curve, kind);
+      const drawn = knob_plot(this.page, run, curve, kind, !this.swing);
       plots.append(drawn.figure);
       return drawn;
     })));
     side.append(this.head(), this.buttons(), ...this.groups());
     body.append(plots, side);
-    this.host.append(body, this.table(), this.lines());
+    this.host.append(body, this.table(), this.left(), this.lines());
   }
   head() {
     const head = made("div", "knob-head ui");
@@ -192,6 +241,15 @@ class Knobs {
     scroll.append(table);
     return scroll;
   }
+  left() {
+    const fold = made("details", "plain"), pair = made("div", "pair");
+    this.left_drawn = this.data.runs.map((run) => ["spectrum", "course"].map((kind) => left_plot(this.page, run, run.curves[0], kind)).filter(Boolean));
+    pair.append(...this.left_drawn.flat().map((drawn) => drawn.figure));
+    fold.append(made("summary", "", "What is left, by frequency and by time"), pair);
+    fold.addEventListener("toggle", () => { draw_what_is_shown(); this.show_left(); });
+    return fold;
+  }
+  show_left() { this.data.runs.forEach((run, r) => { for (const drawn of this.left_drawn[r]) drawn.show(this.answers[r].curves[0]); }); }
   lines() {
     const fold = made("details", "plain"), copy = made("button", "", "Copy");
     this.toml = made("pre");
@@ -234,6 +292,7 @@ class Knobs {
         for (const drawn of this.drawn[r][c]) drawn.show(answers[r].curves[c]);
       });
     });
+    this.show_left();
     this.misfit.textContent = `chi squared ${in_digits(chi2, 4)} for ${count} numbers`;
     this.word.textContent = outside.length ? `Beyond what was simulated: ${outside.join(", ")}. The grey curve is a guess.` : "";
     for (const { number, k, input, output } of this.sliders) {

@@ -47,8 +47,11 @@ function series_of(plot) {
   return plot.curves.map((curve) => {
     const style = styles[curve.r];
     const stroke = curve.r === "other" ? more_colours[others++ % more_colours.length] : style.stroke;
+    // Moments a tenth of a second apart: what was measured there are dots, what a model has between them is smooth.
+    if (plot.smooth && curve.r === "measured") return { label: curve.n, stroke: () => colour(stroke), width: 0, points: { show: true, size: 4, fill: () => colour(stroke) } };
     return {
       label: curve.n, stroke: stroke ? () => colour(stroke) : null, width: style.width, dash: style.dash, cap: style.cap,
+      paths: plot.smooth && style.stroke ? uPlot.paths.spline() : undefined,
       points: { show: curve.r === "points" || (plot.x.length < 40 && style.width > 0), size: curve.r === "points" ? 7 : 5 }, spanGaps: false,
     };
   });
