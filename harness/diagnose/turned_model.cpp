@@ -233,11 +233,18 @@ class Turning {
     }
   }
 
+  /// What a parameter can be at all: a comparison lets its numbers move hardly.
+  static std::pair<double, double> bounds_of(const TurnedNumber& number) {
+    constexpr double least = 0.05, most = 0.999;  // of a restitution
+    if (number.key.starts_with("restitution")) return {least, most};
+    return {0.5 * number.best, 1.5 * number.best};
+  }
+
   /// How far a parameter is simulated on both sides.
   double reach_of(std::size_t k) const {
-    const Knob& knob = fit_.fit.knobs[k];
     const TurnedNumber& number = model_.numbers[k];
-    const double room = std::min(number.best - knob.low, knob.high - number.best);
+    const auto [low, high] = bounds_of(number);
+    const double room = std::min(number.best - low, high - number.best);
     if (number.key == "spring.frequency") {
       double end = 0;
       for (const MeasuredFeatures& run : fit_.measured) end = std::max(end, run.plan.end);
@@ -302,8 +309,10 @@ class Turning {
       for (std::size_t r = 0; r < change.size(); ++r) change[r] -= base_[r];
     }
     const bool two_sided = !number.inverse && knob.low < none && !candidate.prior.one_sided;
-    number.from = two_sided ? 2 * none - there : std::min(none, there);
-    number.to = std::max(none, there);
+    const double other = two_sided ? 2 * none - there : none;
+    number.from = std::min(there, other), number.to = std::max(there, other);
+    if (!number.inverse)
+      number.from = std::max(number.from, knob.low), number.to = std::min(number.to, knob.high);
     model_.numbers.push_back(number);
     add({{{model_.numbers.size() - 1, 1 / (there - none)}}, 1}, change);
   }
@@ -335,7 +344,10 @@ class Turning {
                    high = std::max({number.to, number.given, number.best}), margin = 0.15 * (high - low);
       number.low = low - margin, number.high = high + margin;
       if (std::isfinite(number.absent) && number.absent <= low) number.low = number.absent;
-      if (k < fit_.fit.knobs.size() && !number.inverse && !fit_.fit.knobs[k].exact) {
+      if (number.role == NumberRole::parameter) {
+        const auto [least, most] = bounds_of(number);
+        number.low = std::max(number.low, least), number.high = std::min(number.high, most);
+      } else if (k < fit_.fit.knobs.size() && !number.inverse && !fit_.fit.knobs[k].exact) {
         number.low = std::max(number.low, fit_.fit.knobs[k].low);
         number.high = std::min(number.high, fit_.fit.knobs[k].high);
       }

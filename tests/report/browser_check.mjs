@@ -71,7 +71,7 @@ async function check_knobs(page) {
     const inputs = [...document.querySelectorAll("[data-knobs] input[type=range]")];
     expect(inputs.length === data.numbers.length, "not every number has a slider");
     let slowest = 0;
-    for (const input of inputs) {
+    for (const input of inputs.filter((one) => !one.disabled)) {
       press("best");
       const before = state(), key = input.dataset.key;
       input.value = Number(input.value) + 0.07 * (Number(input.max) - Number(input.value) > 0.1 * (input.max - input.min) ? input.max - input.min : input.min - input.max);
@@ -103,7 +103,7 @@ async function check_knobs(page) {
   const by_key = await at();
   expect(by_key !== before, "the arrow keys do not move a knob");
   const place = await first.boundingBox();
-  await page.touchscreen.tap(place.x + 0.3 * place.width, place.y + place.height / 2);
+  await first.tap({ position: { x: 0.3 * place.width, y: place.height / 2 } });
   await page.waitForFunction((key) => report.knobs.place[0] !== key, by_key, { timeout: 60000 }).catch(() => expect(false, "a touch does not move a knob"));
 }
 

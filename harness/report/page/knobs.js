@@ -223,6 +223,8 @@ class Knobs {
     input.setAttribute("aria-label", `${number.label} (${number.key})`);
     input.addEventListener("input", () => { this.place[k] = Number(input.value); this.moved(); });
     row.title = number.key;
+    // Nothing was simulated of it: only "as given" knows another place.
+    input.disabled = !this.swing && !this.data.terms.some((term) => term.weights.length === 1 && term.weights[0][0] === k);
     track.append(inner, input);
     row.append(name, output, track);
     this.sliders.push({ number, k, input, output });

@@ -38,7 +38,7 @@ Json answers_of_page(const ReportKnobs& knobs, const std::vector<Eigen::VectorXd
       {"knobs", Json::parse(knobs_json(knobs))}, {"places", as_lists(places)}, {"as_stated", as_stated}};
   write_file(folder / "questions.json", questions.dump());
   const std::string command =
-      "node " PROJECT_ROOT "/tests/report/knobs_check.mjs " PROJECT_ROOT "/harness/report/page/model.js " +
+      "node " PROJECT_ROOT "/tests/knobs/knobs_check.mjs " PROJECT_ROOT "/harness/report/page/model.js " +
       (folder / "questions.json").string() + " > " + (folder / "answers.json").string();
   EXPECT_EQ(std::system(command.c_str()), 0);
   std::ifstream stream(folder / "answers.json");

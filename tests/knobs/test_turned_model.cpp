@@ -141,15 +141,15 @@ TEST(TurnedModel, FollowsTheEngineWhereNothingWasSimulated) {
       Eigen::VectorXd place = model.places(&TurnedNumber::best);
       const auto at = static_cast<Eigen::Index>(k);
       place[at] += share * (model.numbers[k].from - place[at]);
-      Setup setup = fit.setup;
+      shakedown::Setup setup = fit.setup;
       for (std::size_t i = 0; i < 2; ++i)
         set_number(setup, model.numbers[i].key, place[static_cast<Eigen::Index>(i)], all_effects());
-      Setup here = fit.setup;
+      shakedown::Setup here = fit.setup;
       for (std::size_t i = 0; i < 2; ++i)
         set_number(here, model.numbers[i].key, model.numbers[i].best, all_effects());
       RunOptions same;
       same.run = 3;
-      const auto features = [&](const Setup& of) {
+      const auto features = [&](const shakedown::Setup& of) {
         const Trajectory motion = engine.run(of, same);
         return simulated_features(fit.measured[0].plan, {motion.time, motion.x_box, motion.x_com});
       };
@@ -184,7 +184,7 @@ Eigen::VectorXd simulated_mean(const EnsembleFit& fit, const TurnedModel& model,
 // two at once.
 TEST(SlowTurnedModel, FollowsTheDamperToAPartOfTheSpread) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
-  Setup user = believed();
+  shakedown::Setup user = believed();
   user.box.length = 0.065;
   const EnsembleFit fit = fit_of_one_run(*engine, user, free_parameters(user), 128);
   TurnedOptions options;
