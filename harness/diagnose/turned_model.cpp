@@ -326,15 +326,19 @@ class Turning {
         return;
     for (std::size_t r = 0; r < fit_.measured.size(); ++r)
       change.push_back(fit_.fit.runs[r].residual - fit_.as_given.runs[r].residual);
-    std::vector<std::size_t> parameters, all;
+    // What the terms miss there (numbers moved together do not add up) is told about that place alone.
+    double square = 0;
+    for (std::size_t k = 0; k < model_.numbers.size(); ++k) square += std::pow(scaled(k, place), 2);
+    if (!(square > 0)) return;
+    TurnedTerm hill{{}, 0};
     for (std::size_t k = 0; k < model_.numbers.size(); ++k) {
-      all.push_back(k);
-      if (model_.numbers[k].role == NumberRole::parameter || model_.numbers[k].role == NumberRole::camera)
-        parameters.push_back(k);
+      const TurnedNumber& number = model_.numbers[k];
+      const double reach = std::max(number.to - number.best, number.best - number.from);
+      if (reach > 0) hill.weights.push_back({k, 1 / (reach * std::sqrt(square))});
     }
-    const bool moved = std::any_of(parameters.begin(), parameters.end(),
-                                   [&](std::size_t k) { return std::abs(scaled(k, place)) > 1e-6; });
-    add_parabola_to(place, change, moved ? parameters : all);
+    const Means told = told_at(place);
+    for (std::size_t r = 0; r < change.size(); ++r) change[r] -= told[r];
+    add(std::move(hill), change);
   }
 
   void set_ends() {

@@ -26,7 +26,8 @@ struct TurnedNumber {
   double low = 0, high = 0;  ///< ends of what is offered
 };
 
-/// A share of a column: (sum of weight x (place - best) over some numbers)^power.
+/// A share of a column: (sum of weight x (place - best) over some numbers)^power. Power 0 is a hill about the
+/// numbers as given: (1 - sum of (weight x (place - given))^2)^2, nothing where that sum is above 1.
 struct TurnedTerm {
   std::vector<std::pair<std::size_t, double>> weights;
   int power = 1;
