@@ -17,6 +17,7 @@
 #include "experiment_file.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
+#include "knobs_report.hpp"
 #include "measured_data.hpp"
 #include "missing_numbers.hpp"
 #include "momentum.hpp"
@@ -149,7 +150,7 @@ nlohmann::ordered_json json_of(const std::vector<FailureCell>& cells) {
 
 nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum,
                                const std::vector<DecayComparison>& decays, const ModelJudgement& judgement,
-                               const std::vector<std::string>& notes) {
+                               const std::vector<std::string>& notes, const LastFit& last) {
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();
   for (const RunComparison& run : fit.runs)
     runs.push_back({{"run", run.run},
@@ -178,6 +179,7 @@ nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum,
        {{"possible", momentum.possible},
         {"chi2_per_dof", momentum.as_given.chi2_per_degree()},
         {"p_value", momentum.as_given.p_value}}},
+      {"curves", curves_json(last)},
       {"notes", notes}};
   explain_missing_numbers(all, [&](const std::string& path) {
     const auto begins = [&](std::string_view with) { return path.rfind(with, 0) == 0; };
@@ -186,6 +188,17 @@ nlohmann::ordered_json json_of(const Refit& fit, const MomentumAudit& momentum,
     return begins("/momentum/") ? momentum.why_not : std::string();
   });
   return all;
+}
+
+/// Nothing was found and nothing is suspected: the parameters and the camera are there to be turned.
+ReportKnobs knobs_of(const LastFit& last, const Setup& setup, const Engine& engine, int threads) {
+  TurnedOptions options;
+  options.known = all_effects();
+  options.threads = threads;
+  options.stop = catch_interruption();
+  constexpr double seconds = 20;
+  options.seconds = seconds;
+  return knobs_of(turned_model(*last.ensembles, setup, engine, options), last, setup);
 }
 
 int compare(const CompareArguments& arguments) {
@@ -202,6 +215,7 @@ int compare(const CompareArguments& arguments) {
   options.count = arguments.runs;
   options.rounds = options.most_rounds = 1;
   Refit fit;
+  LastFit last{measurement, EnsembleFit{setup, {}, {}, {}}, {}};
   std::vector<DecayComparison> decays;
   {
     ProgressDisplay display(
@@ -216,14 +230,16 @@ int compare(const CompareArguments& arguments) {
                             nullptr};
     std::vector<Knob> knobs = as_given(setup, measurement.known, all_effects());
     for (Knob& knob : camera_knobs(setup, measurement, all_effects())) knobs.push_back(std::move(knob));
-    fit = refit(features_with_camera(measurement, all_effects()), knobs, workshop, options);
+    last.ensembles->measured = features_with_camera(measurement, all_effects());
+    fit = refit(last.ensembles->measured, knobs, workshop, options);
+    last.ensembles->fit = last.ensembles->as_given = fit;
     decays = compare_decay(measurement, workshop, std::min(32, arguments.runs), 1);
   }
   const MomentumAudit momentum = audit_momentum(recorded, all_effects());
   const ModelJudgement judgement = judgement_of(fit.test(), momentum.test_of(momentum.as_given), fit.left());
   const PaperValues taken(setup, given_by_measurements);
   const std::string document =
-      taken.added_to(json_of(fit, momentum, decays, judgement, all_notes(recorded)).dump());
+      taken.added_to(json_of(fit, momentum, decays, judgement, all_notes(recorded), last).dump());
   taken.print(arguments.json.for_people());
   fmt::print(arguments.json.for_people(), "{}", readable(fit, momentum, decays, judgement));
   for (const std::string& note : recorded.warnings)
@@ -237,7 +253,8 @@ int compare(const CompareArguments& arguments) {
     const std::vector<MeasuredAgainstModel> curves =
         measured_against_model(measurement, nullptr, setup, *engine, drawn);
     fmt::print(arguments.json.for_people(), "{}",
-               arguments.report.write(report_of(fit, momentum, judgement, measurement, setup, curves),
+               arguments.report.write(report_of(fit, momentum, judgement, measurement, setup, curves,
+                                                knobs_of(last, setup, *engine, arguments.threads)),
                                       arguments.out));
   }
   arguments.json.write(document);

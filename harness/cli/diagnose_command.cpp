@@ -20,6 +20,7 @@
 #include "in_order.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
+#include "knobs_report.hpp"
 #include "measured_data.hpp"
 #include "output_file.hpp"
 #include "parameter_knobs.hpp"
@@ -98,6 +99,55 @@ std::string what_is_kept(const SimulationJournal* journal) {
                  : "nothing was kept; with --out DIR simulations are, and --resume goes on";
 }
 
+/// Suspects that a reader may want to turn: those that explain most, what was found left out.
+std::vector<std::string> suspects_of(const Diagnosis& diagnosis) {
+  constexpr std::size_t most = 6;
+  std::vector<std::string> names;
+  for (const RankedEffect& ranked : diagnosis.ranking) {
+    const auto is_it = [&](const std::string& name) { return name == ranked.effect; };
+    if (names.size() < most && std::none_of(names.begin(), names.end(), is_it) &&
+        std::none_of(diagnosis.missing.begin(), diagnosis.missing.end(), is_it))
+      names.push_back(ranked.effect);
+  }
+  return names;
+}
+
+ReportKnobs knobs_of(const Diagnosis& diagnosis, const Setup& user, const Engine& engine,
+                     const DiagnoseArguments& arguments) {
+  if (!diagnosis.last_fit) return {};
+  const LastFit& fit = *diagnosis.last_fit;
+  if (fit.swing)
+    return knobs_of(turned_numbers(*fit.swing, user, diagnosis.missing, all_effects()), fit,
+                    diagnosis.amended);
+  TurnedOptions options;
+  options.known = all_effects();
+  options.missing = diagnosis.missing;
+  options.suspects = suspects_of(diagnosis);
+  constexpr double share_of_time = 0.2, least = 20;  // beside that of the diagnosis itself; s
+  options.seconds = std::max(least, share_of_time * arguments.seconds);
+  options.threads = arguments.threads;
+  options.stop = catch_interruption();
+  return knobs_of(turned_model(*fit.ensembles, user, engine, options), fit, diagnosis.amended);
+}
+
+Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, const Setup& user,
+                 const Engine& engine, const DiagnoseArguments& arguments) {
+  CurveOptions drawn;
+  drawn.threads = arguments.threads;
+  drawn.known = all_effects();
+  drawn.stop = catch_interruption();
+  const LastFit* fit = diagnosis.last_fit.get();
+  if (fit != nullptr) {
+    drawn.final_of_run = setups_of(*fit, diagnosis.amended, all_effects());
+    drawn.from_first_frame = fit->swing.has_value();
+    if (fit->swing) drawn.runs = 1;
+  }
+  const Measurement& shown = fit != nullptr ? fit->measurement : measurement;
+  return report_of(diagnosis, measurement, user,
+                   measured_against_model(shown, &user, diagnosis.amended, engine, drawn),
+                   knobs_of(diagnosis, user, engine, arguments));
+}
+
 int diagnose_data(const DiagnoseArguments& arguments) {
   Setup setup = arguments.setup.read(given_by_measurements);
   const Experiment experiment = read_measured(arguments.data, setup);
@@ -145,16 +195,10 @@ int diagnose_data(const DiagnoseArguments& arguments) {
     std::filesystem::remove(journal->file());
     fmt::print(arguments.json.for_people(), "amended setup: {}\n", (folder->path() / "setup.toml").string());
   }
-  if (arguments.report.wanted(arguments.out)) {
-    CurveOptions drawn;
-    drawn.threads = arguments.threads;
-    drawn.known = all_effects();
-    drawn.stop = catch_interruption();
-    const std::vector<MeasuredAgainstModel> curves =
-        measured_against_model(measurement, &setup, diagnosis.amended, *engine, drawn);
-    fmt::print(arguments.json.for_people(), "{}",
-               arguments.report.write(report_of(diagnosis, measurement, setup, curves), arguments.out));
-  }
+  if (arguments.report.wanted(arguments.out))
+    fmt::print(
+        arguments.json.for_people(), "{}",
+        arguments.report.write(report_of(diagnosis, measurement, setup, *engine, arguments), arguments.out));
   arguments.json.write(document);
   return diagnosis.verdict == Verdict::adequate && diagnosis.judgement.holds() ? exit_done
                                                                                : exit_model_rejected;

@@ -8,6 +8,7 @@
 #include "errors.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
+#include "last_fit.hpp"
 #include "next_experiment.hpp"
 #include "quantity.hpp"
 #include "rules.hpp"
@@ -235,6 +236,8 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   d.missing = final.missing;
   d.amended = final.setup;
   d.amended.hard = user.hard;
+  d.last_fit = std::make_shared<const LastFit>(LastFit{
+      tools.measurement(), EnsembleFit{final.setup, tools.features(final.setup), given.fit, final.fit}, {}});
   d.explained = 1 - final.fit.chi2 / given.fit.chi2;
   if (!std::isfinite(d.explained)) d.explained = 0;
   set_camera(final.fit, d, tools.known());

@@ -13,6 +13,7 @@
 #include "experiment_file.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
+#include "last_fit.hpp"
 #include "quantity.hpp"
 #include "rules.hpp"
 #include "sentences.hpp"
@@ -316,6 +317,7 @@ bool conclude_by_waveform(const Setup& user, const Measurement& measurement, con
   if (found.verdict == Verdict::unknown) found.missing.clear();
   settle_hypotheses(found, findings);
   found.camera = balance.nuisances;
+  found.last_fit = std::make_shared<const LastFit>(LastFit{measurement, {}, SwingFound{frames, fit, left}});
   found.sentence = sentence_of(found, known);
   d = std::move(found);
   return true;

@@ -58,13 +58,13 @@ void fields(F& f, ReportStrip& s) {
 template <class F>
 void fields(F& f, ReportInterval& i) {
   f("name", i.name), f("unit", i.unit), f("word", i.word), f("value", i.value), f("low", i.low),
-      f("high", i.high), f("given", i.given);
+      f("high", i.high), f("given", i.given), f("known_low", i.known_low), f("known_high", i.known_high);
 }
 template <class F>
 void fields(F& f, ReportSection& s) {
   f("title", s.title), f("paragraphs", s.paragraphs), f("plots", s.plots), f("strips", s.strips),
       f("bars", s.bars), f("intervals", s.intervals);
-  f("tables", s.tables), f("list", s.list);
+  f("tables", s.tables), f("list", s.list), f("folded", s.folded);
 }
 template <class F>
 void fields(F& f, ReportFact& x) {
@@ -84,9 +84,44 @@ void fields(F& f, ReportReplay& r) {
       f("measured_x_box", r.measured_x_box);
 }
 template <class F>
+void fields(F& f, ReportKnobs::Number& n) {
+  f("key", n.key), f("label", n.label), f("effect", n.effect), f("role", n.role), f("unit", n.unit);
+  f("factor", n.factor), f("inverse", n.inverse), f("given", n.given), f("best", n.best);
+  f("absent", n.absent), f("from", n.from), f("to", n.to), f("low", n.low), f("high", n.high);
+}
+template <class F>
+void fields(F& f, ReportKnobs::Term& t) {
+  f("numbers", t.numbers), f("weights", t.weights), f("power", t.power);
+}
+template <class F>
+void fields(F& f, ReportKnobs::Curve& c) {
+  f("name", c.name), f("time", c.time), f("measured", c.measured), f("spread", c.spread);
+  f("best", c.best), f("given", c.given), f("columns", c.columns);
+}
+template <class F>
+void fields(F& f, ReportKnobs::Run& r) {
+  f("name", r.name), f("curves", r.curves), f("square", r.square), f("start", r.start);
+  f("place", r.place), f("speed", r.speed), f("origin", r.origin), f("displacement", r.displacement);
+  f("amplitude", r.amplitude);
+}
+template <class F>
+void fields(F& f, ReportKnobs::Value& v) {
+  f("key", v.key), f("value", v.value);
+}
+template <class F>
+void fields(F& f, ReportKnobs::Effect& e) {
+  f("name", e.name), f("toml", e.toml);
+}
+template <class F>
+void fields(F& f, ReportKnobs& k) {
+  f("kind", k.kind), f("note", k.note), f("numbers", k.numbers), f("terms", k.terms), f("runs", k.runs);
+  f("values", k.values), f("effects", k.effects);
+}
+template <class F>
 void fields(F& f, Report& r) {
   f("kind", r.kind), f("title", r.title), f("subtitle", r.subtitle), f("verdict", r.verdict),
       f("sentence", r.sentence), f("tone", r.tone);
+  f("opening", r.opening), f("knobs", r.knobs);
   f("facts", r.facts), f("replays", r.replays), f("sections", r.sections), f("command", r.command),
       f("setup", r.setup), f("program", r.program);
   f("health", r.health), f("citations", r.citations);
