@@ -16,8 +16,8 @@ AllPairs::AllPairs(const State& state, std::array<double, 2> half_width, double 
   count_.assign(padded_size_, 0);
   meeting_.assign(padded_size_, Meeting::touch);
   for (std::size_t i = 0; i < padded_size_; ++i) {
-    if (i >= size_) {  // fills the last lanes: far away, at rest, never met
-      x_[i] = 1e9 * static_cast<double>(i);
+    if (i >= size_) {  // fills the last lanes: so far away that the square has no end, never met
+      x_[i] = 1e200;
       continue;
     }
     x_[i] = state.position[i].x();

@@ -38,8 +38,11 @@ CentreCells::Place CentreCells::place(const std::array<double, 3>& centre) const
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double home = std::floor(centre[axis] * per_edge_[axis]);
     double cell = home < 0 ? home + cells_[axis] : home;
-    if (!(cell >= 0 && cell < cells_[axis])) [[unlikely]]
+    if (!(cell >= 0 && cell < cells_[axis])) [[unlikely]] {
       cell -= cells_[axis] * std::floor(cell / cells_[axis]);
+      // Of a place so far away that a cell is less than its rounding, or of none, any cell will do.
+      cell = cell >= 0 ? std::min(cell, cells_[axis] - 1.0) : 0.0;
+    }
     place.cell[axis] = std::min(static_cast<int>(cell), cells_[axis] - 1);
     place.from_corner[axis] = static_cast<float>(centre[axis] - home * edge_[axis]);
   }

@@ -247,9 +247,11 @@ void EventLoop<Grains, Motion>::check_progress() {
     events_at_check_ = events_;
     time_at_check_ = scene_.now;
   } else if (events_ - events_at_check_ > patience) {
-    throw PhysicsError("endless collisions at t = " + std::to_string(scene_.now) + " s (" +
-                       std::to_string(patience) +
-                       " events in 10 us); raise [hard] pair_elastic_speed or wall_elastic_speed");
+    throw PhysicsError(
+        "endless collisions at t = " + std::to_string(scene_.now) + " s (" + std::to_string(patience) +
+        " events in 10 us); where a restitution is 0 take 0.02, where grains fill the box to its walls "
+        "leave them 1 % of a diameter, else raise [hard] pair_elastic_speed or wall_elastic_speed, "
+        "or take --engine soft");
   }
 }
 

@@ -99,6 +99,10 @@ void GrainKicks<Scene>::push(double mass, double x, Vec3& velocity) {
     accounts_.loss_of(force.effect) -= impulse * (velocity.x() + impulse / mass / 2);
     accounts_.pushed_from_outside(impulse);
     velocity.x() += impulse / mass;
+    constexpr double fastest = 1e6;  // m/s, the bound of speeds in a setup
+    if (!(std::abs(velocity.x()) <= fastest))
+      throw PhysicsError("user_force drives a grain beyond 1e6 m/s at t = " + std::to_string(scene_.now) +
+                         " s; check the units of its constants and the grains' mass");
   }
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "hard_sphere_system.hpp"
+#include "promise.hpp"
 
 namespace shakedown {
 
@@ -26,6 +27,7 @@ class HardEngine final : public Engine {
     Trajectory trajectory;
     trajectory.engine = "hard";
     trajectory.initial_energy = system.initial_energy();
+    Promise promise{system};
     const auto samples =
         static_cast<std::int64_t>(std::floor(setup.run.duration * setup.run.sample_rate * (1 + 1e-12)));
     reserve(static_cast<std::size_t>(samples + 1), trajectory);
@@ -38,16 +40,18 @@ class HardEngine final : public Engine {
         trajectory.interrupted = true;
         break;
       }
-      append(system.observe(), system.ledger(), trajectory);
+      promise.see(append(system.observe(), system.ledger(), trajectory));
+      if (k % report_every == 0) promise.check_on_the_way();
       if (options.progress && k % report_every == 0) options.progress(time);
     }
     trajectory.end_time = trajectory.time.empty() ? 0 : trajectory.time.back();
     // a rest shorter than the interval of samples
     if (!trajectory.interrupted && setup.run.duration > trajectory.end_time) {
       system.advance_to(setup.run.duration);
-      system.observe();
+      promise.see(system.observe().total_energy);
       trajectory.end_time = setup.run.duration;
     }
+    promise.check();
     trajectory.ledger = system.ledger();
     trajectory.end_state = system.state();
     trajectory.collisions = system.collisions();
@@ -59,19 +63,34 @@ class HardEngine final : public Engine {
   }
 
  private:
+  /// Held to it while the run goes on, so that a run that is lost ends early.
+  struct Promise {
+    const HardSphereSystem& system;
+    double most_energy = 0;  ///< J, so far
+
+    void see(double energy) { most_energy = std::isfinite(energy) ? std::max(most_energy, energy) : energy; }
+    /// While forces have put in little yet, rounding is a large part of it: the balance counts at the end.
+    void check_on_the_way() const {
+      if (system.health().deepest_overlap > most_overlap || !std::isfinite(most_energy)) check();
+    }
+    void check() const { expect_kept(system.health(), system.time(), most_energy); }
+  };
+
   static void reserve(std::size_t samples, Trajectory& trajectory) {
     for (auto* series : {&trajectory.time, &trajectory.x_box, &trajectory.v_box, &trajectory.x_com,
                          &trajectory.total_energy})
       series->reserve(samples);
     for (auto& series : trajectory.loss) series.reserve(samples);
   }
-  static void append(const Observation& seen, const Ledger& ledger, Trajectory& trajectory) {
+  /// Returns the energy, J.
+  static double append(const Observation& seen, const Ledger& ledger, Trajectory& trajectory) {
     trajectory.time.push_back(seen.time);
     trajectory.x_box.push_back(seen.x_box);
     trajectory.v_box.push_back(seen.v_box);
     trajectory.x_com.push_back(seen.x_com);
     trajectory.total_energy.push_back(seen.total_energy);
     for (std::size_t c = 0; c < contact_classes; ++c) trajectory.loss[c].push_back(ledger.contact_loss[c]);
+    return seen.total_energy;
   }
 };
 

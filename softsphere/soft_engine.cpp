@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 
 #include "box_flow.hpp"
 #include "grain_flow.hpp"
@@ -75,6 +76,7 @@ class SoftRun {
     check_promises();
     add_notes();
     Trajectory trajectory = record_.finish(bodies_, accounts_, stored(), time_);
+    expect_balanced(trajectory.health.ledger_error);
     trajectory.wall_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     return trajectory;
@@ -143,6 +145,19 @@ class SoftRun {
     if (!finite || accounts_.deepest_overlap > setup_.grains.diameter / 4) fail();
   }
 
+  /// The work of every force is entered: what is open is a motion that the steps do not follow.
+  void expect_balanced(double ledger_error) const {
+    constexpr double most = 1e-6;  // of the energy
+    if (ledger_error <= most) return;
+    throw PhysicsError(
+        text_of("engine 'soft': energy and losses do not balance: at t = %.6g s they are off by %.3g of the "
+                "energy (%g "
+                "is the most that is let pass). Use a shorter soft.contact_time than %.3g ms, or check "
+                "spring.frequency "
+                "and the masses.",
+                time_, ledger_error, most, setup_.soft.contact_time * 1e3));
+  }
+
   /// Contacts deeper than half a radius, or numbers that are none: the setup asks for more than soft contacts
   /// can do.
   [[noreturn]] void fail() const {
@@ -152,10 +167,12 @@ class SoftRun {
         "(grains pass through walls and each other). Use a shorter soft.contact_time than %.3g ms.",
         time_, accounts_.deepest_overlap * 1e3, setup_.grains.diameter * 1e3, setup_.soft.contact_time * 1e3);
     text += text_of("\nbox: x %.9g m, v %.9g m/s", bodies_.x_box(), bodies_.v_box());
-    for (const Contact& contact : contacts_)
+    constexpr std::size_t most_shown = 10;
+    for (const Contact& contact : std::span(contacts_).first(std::min(most_shown, contacts_.size())))
       text += text_of("\n%s contact of grain %d and %d: overlap %.3g mm, touched at %.3g m/s",
                       contact_class_names[static_cast<std::size_t>(contact.kind)], contact.i + 1,
                       contact.j + 1, contact.overlap * 1e3, contact.closing_speed);
+    if (contacts_.size() > most_shown) text += text_of("\nand %zu more", contacts_.size() - most_shown);
     throw PhysicsError(text);
   }
 

@@ -11,6 +11,7 @@
 #include "diagnosis.hpp"
 #include "drawn_curves.hpp"
 #include "effects.hpp"
+#include "knobs_report.hpp"
 #include "missing_numbers.hpp"
 #include "parameter_knobs.hpp"
 #include "swing.hpp"
@@ -66,7 +67,7 @@ std::string of_centre(const RunComparison& run, double metres) {
 }  // namespace
 
 std::string compared_text(const Compared& compared) {
-  const auto& [measurement, warnings, notes, fit, decays, momentum, judgement] = compared;
+  const auto& [measurement, warnings, notes, fit, decays, momentum, judgement, last] = compared;
   std::string text =
       judgement.holds()
           ? "The model holds: what remains is within camera noise and the spread from run to run.\n"
@@ -133,7 +134,7 @@ nlohmann::ordered_json json_of(const std::vector<FailureCell>& cells) {
 }  // namespace
 
 std::string compared_json(const Compared& compared) {
-  const auto& [measurement, warnings, notes, fit, decays, momentum, judgement] = compared;
+  const auto& [measurement, warnings, notes, fit, decays, momentum, judgement, last] = compared;
   nlohmann::ordered_json runs = nlohmann::ordered_json::array();
   for (const RunComparison& run : fit.runs)
     runs.push_back({{"run", run.run},
@@ -162,6 +163,7 @@ std::string compared_json(const Compared& compared) {
        {{"possible", momentum.possible},
         {"chi2_per_dof", momentum.as_given.chi2_per_degree()},
         {"p_value", momentum.as_given.p_value}}},
+      {"curves", curves_json(last)},
       {"notes", notes}};
   explain_missing_numbers(all, [&](const std::string& path) {
     const auto begins = [&](std::string_view with) { return path.rfind(with, 0) == 0; };
@@ -189,9 +191,13 @@ Compared compared_with(const Setup& setup, const Measurement& recorded, const En
     if (options.progress) options.progress(std::min(1.0, static_cast<double>(done) / all));
   };
   const Workshop workshop{&engine, all_effects(), options.threads, options.stop, told, nullptr};
-  std::vector<Knob> knobs = as_given(setup, measurement.known);
+  std::vector<Knob> knobs = as_given(setup, measurement.known, all_effects());
   for (Knob& knob : camera_knobs(setup, measurement, all_effects())) knobs.push_back(std::move(knob));
-  compared.fit = refit(features_with_camera(measurement, all_effects()), knobs, workshop, refitting);
+  compared.last = {measurement, EnsembleFit{setup, {}, {}, {}}, {}};
+  EnsembleFit& ensembles = *compared.last.ensembles;
+  ensembles.measured = features_with_camera(measurement, all_effects());
+  compared.fit = refit(ensembles.measured, knobs, workshop, refitting);
+  ensembles.fit = ensembles.as_given = compared.fit;
   compared.decays = compare_decay(measurement, workshop, std::min(32, options.runs), 1);
   compared.momentum = audit_momentum(recorded, all_effects());
   compared.judgement = judgement_of(
@@ -199,10 +205,27 @@ Compared compared_with(const Setup& setup, const Measurement& recorded, const En
   return compared;
 }
 
+namespace {
+
+/// Nothing was found and nothing is suspected: the parameters and the camera are there to be turned.
+ReportKnobs knobs_of(const LastFit& last, const Setup& setup, const Engine& engine, int threads,
+                     const std::atomic<bool>* stop) {
+  TurnedOptions options;
+  options.known = all_effects();
+  options.threads = threads;
+  options.stop = stop;
+  constexpr double seconds = 20;
+  options.seconds = seconds;
+  return knobs_of(turned_model(*last.ensembles, setup, engine, options), last, setup);
+}
+
+}  // namespace
+
 Report report_of(const Compared& compared, const Setup& setup, const Engine& engine, int threads,
                  const std::atomic<bool>* stop) {
   return report_of(compared.fit, compared.momentum, compared.judgement, compared.measurement, setup,
-                   drawn_curves(compared.measurement, nullptr, setup, engine, threads, stop));
+                   drawn_curves(compared.measurement, nullptr, setup, engine, threads, stop),
+                   knobs_of(compared.last, setup, engine, threads, stop));
 }
 
 }  // namespace shakedown

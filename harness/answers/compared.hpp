@@ -9,6 +9,7 @@
 #include "decay_comparison.hpp"
 #include "engine.hpp"
 #include "judgement.hpp"
+#include "last_fit.hpp"
 #include "momentum.hpp"
 #include "refit.hpp"
 #include "report.hpp"
@@ -30,6 +31,7 @@ struct Compared {
   std::vector<DecayComparison> decays;  ///< of each run
   MomentumAudit momentum;
   ModelJudgement judgement;
+  LastFit last;  ///< for the curves, and for what a reader may turn
 };
 
 /// `recorded`: the measurement of this setup. Throws InputError where the engine does not model the setup,
@@ -41,7 +43,7 @@ std::string compared_text(const Compared& compared);
 /// As JSON text (harness/README.md).
 std::string compared_json(const Compared& compared);
 
-/// The page; its curves are simulated here. Throws Interrupted.
+/// The page; its curves and what its knobs do are simulated here. Throws Interrupted.
 Report report_of(const Compared& compared, const Setup& setup, const Engine& engine, int threads,
                  const std::atomic<bool>* stop);
 

@@ -6,9 +6,10 @@
 #include <algorithm>
 
 #include "diagnose_report.hpp"
-#include "drawn_curves.hpp"
 #include "effects.hpp"
 #include "engine_differences.hpp"
+#include "knobs_report.hpp"
+#include "measured_against_model.hpp"
 #include "parameter_knobs.hpp"
 #include "setup_file.hpp"
 
@@ -46,10 +47,57 @@ std::string amended_setup(const Diagnosis& diagnosis) {
   return text + write_setup(diagnosis.amended);
 }
 
+namespace {
+
+/// Suspects that a reader may want to turn: those that explain most, what was found left out.
+std::vector<std::string> suspects_of(const Diagnosis& diagnosis) {
+  constexpr std::size_t most = 6;
+  std::vector<std::string> names;
+  for (const RankedEffect& ranked : diagnosis.ranking) {
+    const auto is_it = [&](const std::string& name) { return name == ranked.effect; };
+    if (names.size() < most && std::none_of(names.begin(), names.end(), is_it) &&
+        std::none_of(diagnosis.missing.begin(), diagnosis.missing.end(), is_it))
+      names.push_back(ranked.effect);
+  }
+  return names;
+}
+
+ReportKnobs knobs_of(const Diagnosis& diagnosis, const Setup& user, const Engine& engine,
+                     const PageOptions& page) {
+  if (!diagnosis.last_fit) return {};
+  const LastFit& fit = *diagnosis.last_fit;
+  if (fit.swing)
+    return knobs_of(turned_numbers(*fit.swing, user, diagnosis.missing, all_effects()), fit,
+                    diagnosis.amended);
+  TurnedOptions options;
+  options.known = all_effects();
+  options.missing = diagnosis.missing;
+  options.suspects = suspects_of(diagnosis);
+  constexpr double share_of_time = 0.2, least = 20;  // beside that of the diagnosis itself; s
+  options.seconds = std::max(least, share_of_time * page.seconds);
+  options.threads = page.threads;
+  options.stop = page.stop;
+  return knobs_of(turned_model(*fit.ensembles, user, engine, options), fit, diagnosis.amended);
+}
+
+}  // namespace
+
 Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, const Setup& given,
-                 const Engine& engine, int threads, const std::atomic<bool>* stop) {
+                 const Engine& engine, const PageOptions& page) {
+  CurveOptions drawn;
+  drawn.threads = page.threads;
+  drawn.known = all_effects();
+  drawn.stop = page.stop;
+  const LastFit* fit = diagnosis.last_fit.get();
+  if (fit != nullptr) {
+    drawn.final_of_run = setups_of(*fit, diagnosis.amended, all_effects());
+    drawn.from_first_frame = fit->swing.has_value();
+    if (fit->swing) drawn.runs = 1;
+  }
+  const Measurement& shown = fit != nullptr ? fit->measurement : measurement;
   return report_of(diagnosis, measurement, given,
-                   drawn_curves(measurement, &given, diagnosis.amended, engine, threads, stop));
+                   measured_against_model(shown, &given, diagnosis.amended, engine, drawn),
+                   knobs_of(diagnosis, given, engine, page));
 }
 
 }  // namespace shakedown

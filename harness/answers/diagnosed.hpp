@@ -19,8 +19,15 @@ DiagnoseOptions usual_diagnose_options();
 /// The setup with effects and refitted values as TOML, and why.
 std::string amended_setup(const Diagnosis& diagnosis);
 
-/// The page; its curves are simulated here. `given`: the setup as the user had it. Throws Interrupted.
+struct PageOptions {
+  int threads = 0;     ///< 0: one for each core
+  double seconds = 0;  ///< of the diagnosis; what its knobs do has a fifth of that, and 20 s at least
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// The page; its curves and what its knobs do are simulated here. `given`: the setup as the user had it.
+/// Throws Interrupted.
 Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, const Setup& given,
-                 const Engine& engine, int threads, const std::atomic<bool>* stop);
+                 const Engine& engine, const PageOptions& page);
 
 }  // namespace shakedown

@@ -109,8 +109,7 @@ Experiment measured(const HiddenQuestion& question, const Trial& trial, const st
 
 void write_case(const std::filesystem::path& folder, const std::filesystem::path& truth,
                 const HiddenQuestion& question, const Trial& trial, const Experiment& experiment) {
-  write_file(folder / "setup.toml", "# What the user believes; box.length is replaced by each run's.\n" +
-                                        write_setup(trial.hidden.believed));
+  write_file(folder / "setup.toml", std::string(first_line_of_case) + write_setup(trial.hidden.believed));
   write_measurements(folder, experiment);
   write_file(truth, truth_json(trial.hidden, trial.recording, question.engine, question.seed));
 }

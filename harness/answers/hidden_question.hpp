@@ -31,6 +31,10 @@ Trial trial_of(const HiddenQuestion& question);
 Experiment measured(const HiddenQuestion& question, const Trial& trial, const std::atomic<bool>* stop,
                     const std::function<void(double fraction)>& progress);
 
+/// Of the setup.toml of a case: by it an earlier case is known.
+constexpr const char* first_line_of_case =
+    "# What the user believes; box.length is replaced by each run's.\n";
+
 /// setup.toml with what the user believes, experiment.toml and a table a run, into a folder that exists, and
 /// the answer into the file `truth`. Throws FileError.
 void write_case(const std::filesystem::path& folder, const std::filesystem::path& truth,

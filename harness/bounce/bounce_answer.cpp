@@ -164,13 +164,34 @@ std::string effect_lines(const BounceReading& reading) {
             "reference_speed = \"" + at + "\"\n";
   };
   if (best.model.law == LawKind::viscoelastic) effect("viscoelastic", "");
-  if (best.model.law == LawKind::power)
-    effect("power", fmt::format("exponent = {:.4g}\n", best.values[1].value));
-  if (best.model.law == LawKind::plastic) effect("power", "exponent = 0.25\n");
   const Estimate scatter = best.posterior.spread(&SpreadNode::scatter);
   if (answer.scatter_odds > surely && std::isfinite(scatter.value))
     text += fmt::format("{}[[effect]]\nname = \"fluctuating_restitution\"\ndeviation = {:.3g}\n",
                         text.empty() ? "" : "\n", scatter.value);
+  return text;
+}
+
+/// The exponent as a number of the effect, at the speed at which the restitution is told; empty for laws that
+/// have none.
+std::string exponent_lines(const BounceReading& reading) {
+  const LawFit& best = reading.answer.best();
+  const bool is_power = best.model.law == LawKind::power;
+  if (!is_power && best.model.law != LawKind::plastic) return "";
+  const double value = is_power ? best.values[1].value : 0.25,
+               error = is_power ? best.values[1].standard_error() : 0;
+  return fmt::format(
+      "\"velocity_dependent_restitution.exponent\" = \"{:.4g} +- {:.2g}\"\n"
+      "\"velocity_dependent_restitution.reference_speed\" = \"{} +- 0\"\n",
+      value, error, write_quantity(reading.answer.reference, "m/s"));
+}
+
+std::string behind_hashes(const std::string& lines) {
+  std::string text;
+  for (std::size_t from = 0; from < lines.size();) {
+    const std::size_t end = lines.find('\n', from);
+    text += (end == from ? "#" : "# ") + lines.substr(from, end - from) + "\n";
+    from = end + 1;
+  }
   return text;
 }
 
@@ -185,16 +206,18 @@ std::string known_lines(const BounceReading& reading, const std::string& contact
       "# Measured from {:.3g} to {:.3g} m/s; the value is that at {:.3g} m/s, averaged over the laws.\n",
       answer.slowest, answer.fastest, answer.reference);
   text += "[known]\n" + known_line(known) + "\n";
+  if (const std::string exponent = exponent_lines(reading); !exponent.empty()) {
+    const double probability = answer.best().probability;
+    if (probability >= surely)
+      text += exponent;
+    else
+      text += fmt::format("# The law {} has {:.0f} %; for it take the # away:\n", answer.best().name(),
+                          100 * probability) +
+              behind_hashes(exponent);
+  }
   const std::string law = effect_lines(reading);
   if (law.empty()) return text;
-  text += "\n# The law, for the setup (take the # away):\n";
-  std::size_t from = 0;
-  while (from < law.size()) {
-    const std::size_t end = law.find('\n', from);
-    text += (end == from ? "#" : "# ") + law.substr(from, end - from) + "\n";
-    from = end + 1;
-  }
-  return text;
+  return text + "\n# The law, for the setup (take the # away):\n" + behind_hashes(law);
 }
 
 }  // namespace shakedown

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "errors.hpp"
+#include "kept_files.hpp"
 
 namespace shakedown {
 
@@ -140,6 +141,7 @@ bool is_sound(const std::string& file) {
 }
 
 Sound read_sound(const std::string& file) {
+  keep_unchanged(file);
   SF_INFO info{};
   const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> input(sf_open(file.c_str(), SFM_READ, &info), sf_close);
   if (!input)

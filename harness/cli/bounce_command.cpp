@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "drop_question.hpp"
 #include "json_output.hpp"
+#include "kept_files.hpp"
 #include "output_file.hpp"
 #include "report_output.hpp"
 
@@ -29,6 +30,7 @@ int bounce(const BounceArguments& arguments) {
   if (arguments.contact != "grain_wall" && arguments.contact != "grain_grain")
     throw InputError(
         {{{}, "--contact", "'" + arguments.contact + "' is no contact", "grain_wall or grain_grain"}});
+  for (const std::string& file : arguments.question.files) keep_unchanged(file);
   arguments.json.check();
   arguments.report.check();
   if (!arguments.known.empty()) expect_writable(arguments.known);

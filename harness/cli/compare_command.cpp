@@ -12,6 +12,7 @@
 #include "experiment_file.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
+#include "knobs_report.hpp"
 #include "measured_data.hpp"
 #include "output_file.hpp"
 #include "progress_display.hpp"
@@ -37,7 +38,8 @@ int compare(const CompareArguments& arguments) {
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
-  if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
+  if (!arguments.out.empty())
+    folder = std::make_unique<OutputFolder>(arguments.out, OutputFolder::Use::alone);
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
   Compared compared;
   {

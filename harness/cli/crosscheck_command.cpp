@@ -99,7 +99,7 @@ int run(const CrosscheckArguments& arguments) {
   arguments.json.check();
   arguments.report.check();
   std::optional<OutputFolder> folder;
-  if (!arguments.folder.empty()) folder.emplace(arguments.folder);
+  if (!arguments.folder.empty()) folder.emplace(arguments.folder, OutputFolder::Use::alone);
   CrosscheckOptions options = options_of(arguments);
 
   PaperValues taken(cases.front().setup);

@@ -76,7 +76,10 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
-  if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
+  if (!arguments.out.empty()) {
+    folder = std::make_unique<OutputFolder>(arguments.out, OutputFolder::Use::alone);
+    expect_writable(folder->path() / "setup.toml");
+  }
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const std::int64_t budget = arguments.budget > 0 ? arguments.budget : usual_budget(measurement);
   const std::unique_ptr<SimulationJournal> journal = journal_in(folder.get(), experiment, arguments.resume);
@@ -112,9 +115,9 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   }
   if (arguments.report.wanted(arguments.out))
     fmt::print(arguments.json.for_people(), "{}",
-               arguments.report.write(
-                   report_of(diagnosis, measurement, setup, *engine, arguments.threads, catch_interruption()),
-                   arguments.out));
+               arguments.report.write(report_of(diagnosis, measurement, setup, *engine,
+                                                {arguments.threads, arguments.seconds, catch_interruption()}),
+                                      arguments.out));
   arguments.json.write(document);
   return diagnosis.verdict == Verdict::adequate && diagnosis.judgement.holds() ? exit_done
                                                                                : exit_model_rejected;

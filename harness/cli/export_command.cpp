@@ -7,6 +7,7 @@
 #include "command.hpp"
 #include "effects.hpp"
 #include "export_run.hpp"
+#include "interruption.hpp"
 #include "quantity_option.hpp"
 
 namespace shakedown {
@@ -21,6 +22,7 @@ int export_stored(const ExportArguments& arguments) {
   const ExportFormat format = export_format_named(arguments.format);
   const StoredRun run = read_collision_log(arguments.run, all_effects());
   FrameTimes times;
+  times.stop = catch_interruption();
   times.rate = quantity_option("--rate", arguments.rate, "Hz", run.setup.run.sample_rate, "1000");
   times.from = quantity_option("--from", arguments.from, "s", times.from);
   times.to = quantity_option("--to", arguments.to, "s", times.to);

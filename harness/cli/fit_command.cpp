@@ -46,7 +46,8 @@ int fit(const FitArguments& arguments) {
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
-  if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
+  if (!arguments.out.empty())
+    folder = std::make_unique<OutputFolder>(arguments.out, OutputFolder::Use::alone);
   FitOptions options = usual_fit_options();
   options.on = names_in(arguments.on);
   options.count = arguments.count;

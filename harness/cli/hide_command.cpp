@@ -17,6 +17,7 @@
 #include "paper_values.hpp"
 #include "progress_display.hpp"
 #include "setup_arguments.hpp"
+#include "toml_document.hpp"
 #include "trial.hpp"
 
 namespace shakedown {
@@ -55,12 +56,35 @@ Trial asked(const HideArguments& arguments) {
   return trial;
 }
 
+/// The files of the case that an earlier `hide` left in the folder; empty where there is none. Throws
+/// InputError where somebody else's experiment is there.
+std::vector<std::filesystem::path> earlier_case(const OutputFolder& folder) {
+  const std::filesystem::path experiment = folder.path() / "experiment.toml",
+                              setup = folder.path() / "setup.toml";
+  if (!std::filesystem::exists(experiment)) return {};
+  if (!std::filesystem::exists(setup) || !read_text_file(setup).starts_with(first_line_of_case))
+    throw InputError({{{experiment.string(), 0, 0},
+                       "",
+                       "is an experiment that this command did not make",
+                       "name another folder with --out"}});
+  std::vector<std::filesystem::path> files{"experiment.toml", "truth.json"};
+  const TomlValue read = parse_toml(read_text_file(experiment), experiment.string());
+  if (const TomlValue* runs = read.find("run"))
+    for (const TomlValue& run : runs->items)
+      if (const TomlValue* file = run.find("file"))
+        files.push_back(std::filesystem::path(file->text).filename());
+  return files;
+}
+
 int hide(const HideArguments& arguments, const Trial& trial) {
   arguments.json.check();
-  const OutputFolder folder(arguments.out);
+  const OutputFolder folder(arguments.out, OutputFolder::Use::alone);
+  const std::vector<std::filesystem::path> earlier = earlier_case(folder);
   const std::filesystem::path truth =
       arguments.truth.empty() ? folder.path() / "truth.json" : std::filesystem::path(arguments.truth);
-  expect_writable(truth);
+  for (const std::filesystem::path& file :
+       {truth, folder.path() / "setup.toml", folder.path() / "experiment.toml"})
+    expect_writable(file);
   Experiment experiment;
   {
     ProgressDisplay display(
@@ -68,6 +92,7 @@ int hide(const HideArguments& arguments, const Trial& trial) {
     experiment = measured(arguments.question, trial, catch_interruption(),
                           [&](double fraction) { display.show(fraction); });
   }
+  folder.remove(earlier);
   write_case(folder.path(), truth, arguments.question, trial, experiment);
   std::FILE* people = arguments.json.for_people();
   fmt::print(people, "{} runs in {}\nwhat is hidden: {} (do not look before the diagnosis is made)\n",

@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "import_tables.hpp"
 #include "json_output.hpp"
+#include "kept_files.hpp"
 #include "output_file.hpp"
 
 namespace shakedown {
@@ -47,6 +48,8 @@ int import_files(const ImportArguments& arguments) {
                        "--out",
                        out.string() + " exists already (it may hold what you filled in)",
                        "name another file, or add --replace"}});
+  for (const std::string& file : arguments.files) keep_unchanged(file);
+  expect_writable(out);
   arguments.json.check();
   const ImportedTables imported =
       import_tables({arguments.files.begin(), arguments.files.end()}, out.parent_path(), arguments.known);

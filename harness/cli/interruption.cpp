@@ -3,6 +3,8 @@
 
 #include <csignal>
 
+#include "packing.hpp"
+
 namespace shakedown {
 
 namespace {
@@ -18,6 +20,7 @@ extern "C" void raise_flag(int signal) {
 }  // namespace
 
 const std::atomic<bool>* catch_interruption() {
+  stop_packing_when(&stop);
   std::signal(SIGINT, raise_flag);
   std::signal(SIGTERM, raise_flag);
   return &stop;

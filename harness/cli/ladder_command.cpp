@@ -54,8 +54,8 @@ Rung climb(const std::string& file, const Setup& setup, const Measurement& measu
   RefitOptions options;
   options.count = arguments.runs;
   // Refitted, so that a rung with few effects does not lose because its parameters were chosen worse.
-  std::vector<Knob> knobs = arguments.refit ? believed(free_parameters(setup), measurement.known)
-                                            : as_given(setup, measurement.known);
+  std::vector<Knob> knobs = arguments.refit ? believed(free_parameters(setup), measurement.known, all_effects())
+                                            : as_given(setup, measurement.known, all_effects());
   const Measurement beside =
       from_first_turns(with_setup(measurement, setup, all_effects()), *workshop.engine);
   for (Knob& knob : camera_knobs(setup, beside, all_effects())) knobs.push_back(std::move(knob));
@@ -163,7 +163,8 @@ int ladder(const LadderArguments& arguments) {
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
-  if (!arguments.out.empty()) folder = std::make_unique<OutputFolder>(arguments.out);
+  if (!arguments.out.empty())
+    folder = std::make_unique<OutputFolder>(arguments.out, OutputFolder::Use::alone);
   const std::vector<Rung> rungs = climb_all(arguments, setups, measurement);
   PaperValues taken(setups.front(), given_by_measurements);
   for (const Setup& setup : setups) taken.join(PaperValues(setup, given_by_measurements));

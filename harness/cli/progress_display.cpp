@@ -5,50 +5,74 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 
 namespace shakedown {
 
 namespace {
+
 constexpr auto between_updates = std::chrono::milliseconds(100);
 constexpr int width = 30;
+
+/// A full disk behind standard error takes away what it would have said, not the result.
+void tell(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 }  // namespace
 
-ProgressDisplay::ProgressDisplay(const std::string& what)
+ProgressDisplay::ProgressDisplay(const std::string& what, std::chrono::milliseconds patience)
     : what_(what),
       terminal_(::isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()),
-      last_(start_) {}
+      last_(start_),
+      watch_([this, patience] { wait(patience); }) {}
 
 ProgressDisplay::~ProgressDisplay() {
-  if (terminal_) std::fputs("\r\033[K", stderr);
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+  }
+  ended_.notify_one();
+  watch_.join();
+  if (terminal_) tell("\r\033[K");
+}
+
+void ProgressDisplay::wait(std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  if (!ended_.wait_for(lock, patience, [this] { return over_; })) announce();
 }
 
 void ProgressDisplay::rename(const std::string& what) {
+  const std::lock_guard lock(mutex_);
   if (what == what_) return;
   announce();
   what_ = what;
   if (!terminal_)
-    fmt::print(stderr, "{:6.1f} s  {}\n",
-               std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(), what_);
+    tell(fmt::format("{:6.1f} s  {}\n",
+                     std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(),
+                     what_));
 }
 
 void ProgressDisplay::announce() {
-  if (!terminal_ && !announced_) fmt::print(stderr, "{}\n", what_), std::fflush(stderr);
+  if (!announced_) tell(terminal_ ? "\r\033[K" + what_ : what_ + "\n");
   announced_ = true;
 }
 
 void ProgressDisplay::show(double fraction) {
+  const std::lock_guard lock(mutex_);
   announce();
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_ || now - last_ < between_updates) return;
   last_ = now;
   fraction = std::clamp(fraction, 0.0, 1.0);
   const double spent = std::chrono::duration<double>(now - start_).count();
-  const int filled = static_cast<int>(width * fraction);
-  fmt::print(stderr, "\r\033[K{} [{}{}] {:.0f} %", what_, std::string(static_cast<std::size_t>(filled), '='),
-             std::string(static_cast<std::size_t>(width - filled), ' '), 100 * fraction);
-  if (fraction > 0.02) fmt::print(stderr, ", {:.0f} s left", spent * (1 - fraction) / fraction);
-  std::fflush(stderr);
+  const auto filled = static_cast<std::size_t>(width * fraction);
+  std::string text = fmt::format("\r\033[K{} [{}{}] {:.0f} %", what_, std::string(filled, '='),
+                                 std::string(width - filled, ' '), 100 * fraction);
+  if (fraction > 0.02) text += fmt::format(", {:.0f} s left", spent * (1 - fraction) / fraction);
+  tell(text);
 }
 
 }  // namespace shakedown

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <chrono>
+#include <condition_variable>
 #include <functional>
+#include <mutex>
 #include <string>
+#include <thread>
 
 namespace shakedown {
 
-/// A bar on a terminal, one plain line at the first sign of progress otherwise; on standard error. The bar is
-/// wiped when the display goes out of scope.
+/// A bar on a terminal, one plain line otherwise; on standard error, whose failures change nothing. What is
+/// being done is said at the first sign of progress, or after `patience` where there is none. The bar is
+/// wiped when the display goes out of scope. Any thread may call it.
 class ProgressDisplay {
  public:
-  explicit ProgressDisplay(const std::string& what);
+  explicit ProgressDisplay(const std::string& what,
+                           std::chrono::milliseconds patience = std::chrono::seconds(1));
   ~ProgressDisplay();
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
@@ -22,11 +27,16 @@ class ProgressDisplay {
   void rename(const std::string& what);
 
  private:
-  void announce();  ///< once, where the output is no terminal
+  void announce();  ///< once
+  void wait(std::chrono::milliseconds patience);
 
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool over_ = false;
   std::string what_;
   bool terminal_, announced_ = false;
   std::chrono::steady_clock::time_point start_, last_;
+  std::thread watch_;  // the last: it reads the others
 };
 
 }  // namespace shakedown

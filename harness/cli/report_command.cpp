@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "command.hpp"
+#include "kept_files.hpp"
 #include "report_joined.hpp"
 #include "report_output.hpp"
 #include "sweep_report.hpp"
@@ -56,6 +57,8 @@ Command add_report_command(CLI::App& program) {
   command.add_option("--out", output->file, "the page")->type_name("FILE.html")->capture_default_str();
   return {&command, [folders, output] {
             std::vector<NamedReport> reports;
+            for (const std::string& folder : *folders) keep_unchanged(folder);
+            output->check();
             const std::vector<std::string> names = names_of(*folders);
             for (std::size_t i = 0; i < names.size(); ++i)
               reports.push_back(stored_report((*folders)[i], names[i]));

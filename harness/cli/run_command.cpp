@@ -87,7 +87,8 @@ int run(const RunArguments& arguments) {
   arguments.json.check();
   arguments.report.check();
   std::optional<RunResults> results;
-  if (!arguments.folder.empty()) results.emplace(OutputFolder(arguments.folder), arguments.every_series);
+  if (!arguments.folder.empty())
+    results.emplace(OutputFolder(arguments.folder, OutputFolder::Use::alone), arguments.every_series);
   if (results && arguments.log) results->keep_collisions_of(setup);
   const Provenance provenance = provenance_of(arguments, setup);
 

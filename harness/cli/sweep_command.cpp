@@ -16,6 +16,7 @@
 #include "in_order.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
+#include "kept_files.hpp"
 #include "output_file.hpp"
 #include "progress_display.hpp"
 #include "provenance.hpp"
@@ -33,7 +34,9 @@ struct Presentation {
   ReportOutput report;
   std::string table;
 
-  void check() const {
+  /// The file that the runs go into, and the files that they come from, may not be replaced by these.
+  void check(const std::vector<std::string>& results) const {
+    for (const std::string& file : results) keep_unchanged(file);
     json.check();
     report.check();
     if (!table.empty()) expect_writable(table);
@@ -148,11 +151,11 @@ int sweep(const SweepArguments& arguments) {
   const PaperValues taken(setup, varied);
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
   const SweepPlan plan = plan_sweep(setup, axes, arguments.runs, *engine, all_effects());
-  arguments.results.check();
+  if (!arguments.estimate) expect_writable(arguments.out);
+  arguments.results.check({arguments.out});
   for (const std::string& note : plan.notes) fmt::print(stderr, "note: {}\n", note);
   taken.print(arguments.results.json.for_people());
   if (arguments.estimate) return estimate(arguments, plan, *engine, share);
-  expect_writable(arguments.out);
   ResultFile file(arguments.out, identity_of(plan, *engine), opening_of(arguments, share));
   for (const std::string& other : file.begin_session(version_line()))
     fmt::print(stderr,
@@ -200,8 +203,10 @@ void add_presentation(CLI::App& command, Presentation& results) {
 }
 
 int merge(const MergeArguments& arguments) {
-  arguments.results.check();
   expect_writable(arguments.out);
+  std::vector<std::string> all = arguments.files;
+  all.push_back(arguments.out);
+  arguments.results.check(all);
   const std::vector<std::filesystem::path> files(arguments.files.begin(), arguments.files.end());
   present(merge_results(arguments.out, files), arguments.out, arguments.results, true);
   return exit_done;

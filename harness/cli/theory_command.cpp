@@ -17,6 +17,7 @@
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
+#include "progress_display.hpp"
 #include "series_file.hpp"
 #include "setup_arguments.hpp"
 
@@ -60,6 +61,9 @@ std::optional<Friction> friction_from_a_run(const TheoryArguments& arguments, co
   EnsembleOptions options;
   options.keep_samples = true;
   options.stop = catch_interruption();
+  ProgressDisplay display(
+      fmt::format("{}: a run of {:g} s for its third peak", arguments.setup.file, setup.run.duration));
+  options.progress = [&](double fraction) { display.show(fraction); };
   const Ensemble ensemble = run_ensemble(*engine, setup, options);
   if (ensemble.interrupted) throw Interrupted("the run had not finished");
   if (ensemble.runs[0].observables.peaks.size() < 3) return std::nullopt;

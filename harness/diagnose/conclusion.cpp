@@ -8,6 +8,7 @@
 #include "errors.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
+#include "last_fit.hpp"
 #include "next_experiment.hpp"
 #include "quantity.hpp"
 #include "rules.hpp"
@@ -235,6 +236,8 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   d.missing = final.missing;
   d.amended = final.setup;
   d.amended.hard = user.hard;
+  d.last_fit = std::make_shared<const LastFit>(LastFit{
+      tools.measurement(), EnsembleFit{final.setup, tools.features(final.setup), given.fit, final.fit}, {}});
   d.explained = 1 - final.fit.chi2 / given.fit.chi2;
   if (!std::isfinite(d.explained)) d.explained = 0;
   set_camera(final.fit, d, tools.known());
@@ -243,6 +246,7 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   findings.anything_missing = !d.missing.empty();
   findings.refitted = refitted || final.setup.release.packing != user.release.packing;
   findings.camera_stands_out = !standing_out(d.camera).empty();
+  findings.explained = share_taken_away(given.fit.scatter, final.fit.scatter);
   findings.features = final.fit.test();
   findings.far_p_value = final.fit.far_p_value;
   findings.balance = d.momentum.test_of(d.momentum.final_fit);

@@ -87,7 +87,7 @@ void Course::judge() {
     return weighed;
   });
   DiagnosisState given = state;
-  given.theta = as_given(state.setup, tools_.measurement().known);
+  given.theta = as_given(state.setup, tools_.measurement().known, tools_.known());
   tools_.workshop().ensembles = tools_.options().ensembles;
   given.fit = fit_within(share::model_as_given, given, "the model as given", effort::least);
   if (!is_far_off(given.fit))
@@ -154,7 +154,7 @@ DiagnosisState Course::with_terms(DiagnosisState state, const std::vector<FoundT
                                   double frequency) {
   const MomentumAudit& balance = result_.momentum;
   state.theta = free_parameters(state.setup, frequency, (balance.possible ? 0.004 : 0.01) * frequency);
-  state.theta = believed(std::move(state.theta), tools_.measurement().known);
+  state.theta = believed(std::move(state.theta), tools_.measurement().known, tools_.known());
   state = with_balance(state, terms, tools_.measurement(), *tools_.workshop().engine, tools_.options(),
                        result_.notes);
   if (balance.unlisted && allowed(tools_.options(), "user_force"))

@@ -5,6 +5,7 @@
 // tested.
 #pragma once
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,8 @@ struct RunnerUp {
   Setup setup;
 };
 
+struct LastFit;
+
 struct Diagnosis {
   Verdict verdict = Verdict::adequate;
   std::string sentence;
@@ -79,7 +82,8 @@ struct Diagnosis {
   Setup amended;  ///< the user's setup with effects and refitted values
   double seconds = 0;
   std::int64_t runs_simulated = 0;
-  std::vector<std::string> not_tried;  ///< steps left out, for want of simulations or time
+  std::vector<std::string> not_tried;       ///< steps left out, for want of simulations or time
+  std::shared_ptr<const LastFit> last_fit;  ///< last_fit.hpp; null where nothing was fitted
 };
 
 struct DiagnoseOptions {

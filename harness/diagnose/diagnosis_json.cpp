@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "diagnosis.hpp"
+#include "last_fit.hpp"
 #include "missing_numbers.hpp"
 #include "validation.hpp"
 
@@ -130,6 +131,7 @@ std::string diagnosis_json(const Diagnosis& d) {
             {{"box_mm", number(last.floor_box * 1e3)}, {"com_mm", number(last.floor_centre * 1e3)}}},
            {"where", where},
            {"momentum", momentum_json(d.momentum)},
+           {"curves", d.last_fit ? curves_json(*d.last_fit) : Json::array()},
            {"force_formula", d.force_formula.empty() ? Json(nullptr) : Json(d.force_formula)},
            {"next_experiments", d.next_experiments},
            {"notes", d.notes},

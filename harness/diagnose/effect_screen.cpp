@@ -20,6 +20,7 @@ void weigh_by(const Signature& signature, const Candidate& candidate, ScreenedEf
   effect.weighed = true;
   effect.log_evidence = found.log_evidence;
   effect.gain = found.gain;
+  effect.share_seen = found.share_seen;
   effect.value = candidate.value_of(found.strength);
   effect.seen.gain = found.gain;
   effect.seen.value = effect.seen.one_sided ? std::abs(found.strength) : found.strength;
@@ -35,6 +36,17 @@ void name_look_alikes(const std::vector<Eigen::VectorXd>& changes, std::vector<S
           changes[a].dot(changes[b]) / std::max(1e-300, changes[a].norm() * changes[b].norm());
       if (std::abs(cosine) > 0.9) list[a].look_alikes.push_back(list[b].effect);
     }
+}
+
+/// A second look may make it more than doubtful, beside the best one and beside nothing.
+bool is_left_open(const ScreenedEffect& effect, double most, double known) {
+  if (!effect.weighed) return false;
+  const double doubted = std::log(rules::doubtful);
+  // What the noise of a glance has taken off the gain comes back with more simulations.
+  const double share = std::max<double>(effect.share_seen, effort::glance_tells),
+               could_be = effect.log_evidence + effect.gain / 2 * (1 / share - 1);
+  return effect.log_evidence > effort::glance_sees * most + doubted &&
+         could_be + prior_log_odds(effect.seen.odds, known) > doubted;
 }
 
 /// The cheapest first, so that where simulations run out most have been looked at.
@@ -54,7 +66,8 @@ EffectScreen::EffectScreen(std::vector<MeasuredFeatures> measured, std::vector<K
                            const ScreenStart& start)
     : simulations_(std::make_unique<ScreenSimulations>(std::move(measured), std::move(fitted), workshop,
                                                        effort, first_run, start)),
-      effort_(effort) {}
+      effort_(effort),
+      known_(workshop.known.size()) {}
 
 EffectScreen::~EffectScreen() = default;
 
@@ -96,14 +109,12 @@ Screening EffectScreen::weigh(const std::vector<Candidate>& candidates) {
   std::stable_sort(list.begin(), list.end(), [](const Weighed& a, const Weighed& b) {
     return a.effect.log_evidence > b.effect.log_evidence;
   });
-  // Beside the most probable or nothing less than the odds at which a model is doubted.
   double most = 0;
   for (const Weighed& one : list)
     if (one.effect.weighed) most = std::max(most, one.effect.log_evidence);
-  const double left_open = effort::glance_sees * most + std::log(rules::doubtful);
   try {
     for (Weighed& one : list)
-      if (!spent && one.effect.weighed && one.effect.log_evidence > left_open) {
+      if (!spent && is_left_open(one.effect, most, static_cast<double>(known_))) {
         simulations_->look(candidates[one.effect.candidate], effort_.look, one.looked);
         weigh_again(one);
       }

@@ -19,8 +19,9 @@ struct ScreenedEffect {
   double log_evidence = 0;  ///< ln of its likelihood, averaged over the prior, over that of nothing
   StrengthSeen seen{};      ///< the strength from its absence, with its error and prior
   std::vector<std::string>
-      look_alikes{};     ///< candidates whose signature after refitting has a cosine above 0.9 with its own
-  bool weighed = false;  ///< false: not simulated, for want of simulations or time
+      look_alikes{};      ///< candidates whose signature after refitting has a cosine above 0.9 with its own
+  bool weighed = false;   ///< false: not simulated, for want of simulations or time
+  double share_seen = 1;  ///< of the gain, that the noise of the simulations leaves
 };
 
 struct Screening {
@@ -78,6 +79,7 @@ class EffectScreen {
  private:
   std::unique_ptr<ScreenSimulations> simulations_;
   ScreenEffort effort_;
+  std::size_t known_;  ///< effects, of which any may be missing
 };
 
 }  // namespace shakedown

@@ -13,6 +13,7 @@
 #include "experiment_file.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
+#include "last_fit.hpp"
 #include "quantity.hpp"
 #include "rules.hpp"
 #include "sentences.hpp"
@@ -205,7 +206,7 @@ SwingError error_of(const std::vector<WaveformRun>& frames, const std::vector<Ei
 
 /// The values of the laws found, with 95 % intervals, and the effects that the setup lacks.
 void name_laws(const Setup& user, const WaveformAnswer& answer, std::span<const EffectRecord* const> known,
-               Diagnosis& d) {
+               bool held_frequency, Diagnosis& d) {
   constexpr double of_95_percent = 1.96;
   const WaveformFit& fit = answer.sets.front().fit;
   std::vector<std::size_t> order(fit.laws.size());
@@ -244,7 +245,8 @@ void name_laws(const Setup& user, const WaveformAnswer& answer, std::span<const 
         {law.term.effect, answer.gain[i], std::nan(""), std::nan(""), shown, {}, true, false});
   }
   const Eigen::Index of_spring = static_cast<Eigen::Index>(3 * fit.residual.size());
-  add("spring.frequency", fit.frequency(), std::sqrt(fit.covariance(of_spring, of_spring)));
+  if (!held_frequency)
+    add("spring.frequency", fit.frequency(), std::sqrt(fit.covariance(of_spring, of_spring)));
   d.amended = user;
   for (const WaveformLaw& law : fit.laws) {
     const auto first = std::find_if(d.parameters.begin(), d.parameters.end(),
@@ -287,7 +289,8 @@ bool conclude_by_waveform(const Setup& user, const Measurement& measurement, con
   const SwingError given = swing_error(measurement, engine, true), final = error_of(frames, left);
   Diagnosis found = d;
   found.ranking.clear();
-  name_laws(user, answer, known, found);
+  const bool held_frequency = knows_frequency_exactly(measurement);
+  name_laws(user, answer, known, held_frequency, found);
   found.hypotheses = answer.table;
   for (Hypothesis& h : found.hypotheses)
     std::erase_if(h.effects, [&](const std::string& e) { return find_choice(user, e) != nullptr; });
@@ -298,8 +301,9 @@ bool conclude_by_waveform(const Setup& user, const Measurement& measurement, con
   findings.anything_missing = !found.missing.empty();
   findings.explained = 1 - std::pow(final.error / answer.as_given.rms(), 2);
   const Eigen::Index of_spring = static_cast<Eigen::Index>(3 * fit.residual.size());
-  findings.refitted = std::abs(fit.frequency() - measurement.runs.front().setup.spring.frequency) >
-                      rules::stands_out * std::sqrt(fit.covariance(of_spring, of_spring));
+  findings.refitted =
+      !held_frequency && std::abs(fit.frequency() - measurement.runs.front().setup.spring.frequency) >
+                             rules::stands_out * std::sqrt(fit.covariance(of_spring, of_spring));
   found.validation = validation_of(fit, frames, left, wander);
   findings.left = {{"box", final.error, floor, answer.as_given.rms(), final.amplitude, final.looks_like}};
   for (Difference& row : differences_of(found.validation)) findings.left.push_back(std::move(row));
@@ -313,6 +317,7 @@ bool conclude_by_waveform(const Setup& user, const Measurement& measurement, con
   if (found.verdict == Verdict::unknown) found.missing.clear();
   settle_hypotheses(found, findings);
   found.camera = balance.nuisances;
+  found.last_fit = std::make_shared<const LastFit>(LastFit{measurement, {}, SwingFound{frames, fit, left}});
   found.sentence = sentence_of(found, known);
   d = std::move(found);
   return true;

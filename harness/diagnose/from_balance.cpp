@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "effect_strength.hpp"
 #include "known_effects.hpp"
@@ -19,16 +20,19 @@ void add_sine(const FoundTerm& term, const SearchedHarmonic& harmonic, double lo
   constexpr double root_six_over_pi = 0.78;
   const double error = std::max((term.high - term.low) / 3.92, 0.01 * std::abs(term.value)),
                relative = std::min(1.0, error / std::abs(term.value));
-  const auto knob = [&](std::string_view parameter, double value, double error_of_it) {
+  const auto knob = [&](std::string_view parameter, double value, double error_of_it, double most_width) {
     const std::string key = term.effect + "." + std::string(parameter);
     set_number(state.setup, key, value, known);
-    const double width = 4 * error_of_it;
-    state.found.push_back(
-        {key, value, width, value - 10 * width, value + 10 * width, false, value, error_of_it});
+    const double width = std::min(4 * error_of_it, most_width);
+    const Parameter& bounds = *find_parameter(known, key);
+    state.found.push_back({key, value, width, std::max(bounds.low, value - 10 * width),
+                           std::min(bounds.high, value + 10 * width), false, value, error_of_it});
   };
-  knob(harmonic.amplitude, term.value, error);
-  knob(harmonic.frequency, term.frequency, relative * root_six_over_pi / std::max(longest, 1.0));
-  knob(harmonic.phase, term.phase, 2 * relative);
+  constexpr double any = std::numeric_limits<double>::infinity(),
+                   about_a_line = 0.5;  // rad: as far as a sine follows its slope to an eighth
+  knob(harmonic.amplitude, term.value, error, any);
+  knob(harmonic.frequency, term.frequency, relative * root_six_over_pi / std::max(longest, 1.0), any);
+  knob(harmonic.phase, term.phase, 2 * relative, about_a_line);
 }
 
 }  // namespace

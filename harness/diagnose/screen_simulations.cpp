@@ -205,38 +205,62 @@ std::vector<Emulator> ScreenSimulations::simulated_at(const Candidate& candidate
   return emulate(with, at_a_point(point.fitted), count, next_run(), workshop_);
 }
 
-std::optional<LevelPoint> ScreenSimulations::moved_along(const Eigen::VectorXd& change,
-                                                         LevelPoint point) const {
-  const Eigen::VectorXd z = outside_->taken_of(-change);
-  bool far = false;
+LevelPoint ScreenSimulations::moved_by(LevelPoint point, const Eigen::VectorXd& steps) const {
   for (std::size_t k = 0; k < fitted_.size(); ++k) {
     if (fitted_[k].exact) continue;
-    const double by = z[static_cast<Eigen::Index>(k)] * about_[k].width;
-    far = far || std::abs(z[static_cast<Eigen::Index>(k)]) > effort::moves_along;
     Knob& moved = point.fitted[k];
-    moved.centre = std::clamp(moved.centre + by, moved.low, moved.high);
+    const double before = moved.centre;
+    moved.centre = std::clamp(before + steps[static_cast<Eigen::Index>(k)], moved.low, moved.high);
     if (moved.key == point.knob.absent_key)
       point.knob.centre =
-          std::clamp(point.knob.centre + moved.centre - fitted_[k].centre, point.knob.low, point.knob.high);
+          std::clamp(point.knob.centre + moved.centre - before, point.knob.low, point.knob.high);
+  }
+  return point;
+}
+
+LevelPoint ScreenSimulations::start_of(const Candidate& candidate, const Candidate::Level& level,
+                                       const Looked& looked) const {
+  LevelPoint point{fitted_, candidate.fitted_knobs().front()};
+  point.knob.centre = level.value;
+  const LevelPoint* nearest = nullptr;
+  double strength = 0;
+  for (const auto& [other, there] : looked.points)
+    if (other * level.strength > 0 && std::abs(other) > std::abs(strength))
+      nearest = &there, strength = other;
+  if (nearest == nullptr) return point;
+  Eigen::VectorXd steps(std::ssize(fitted_));
+  for (std::size_t k = 0; k < fitted_.size(); ++k)
+    steps[static_cast<Eigen::Index>(k)] =
+        (nearest->fitted[k].centre - fitted_[k].centre) * level.strength / strength;
+  return moved_by(std::move(point), steps);
+}
+
+std::optional<LevelPoint> ScreenSimulations::moved_along(const Eigen::VectorXd& change,
+                                                         const LevelPoint& point) const {
+  Eigen::VectorXd steps = outside_->taken_of(-change);
+  bool far = false;
+  for (std::size_t k = 0; k < fitted_.size(); ++k) {
+    double& step = steps[static_cast<Eigen::Index>(k)];
+    far = far || (!fitted_[k].exact && std::abs(step) > effort::moves_along);
+    step *= about_[k].width;
   }
   if (!far) return std::nullopt;
-  return point;
+  return moved_by(point, steps);
 }
 
 SignatureLevel ScreenSimulations::simulated_level(const Candidate& candidate, const Candidate::Level& level,
                                                   int count, Looked& looked) {
-  const bool is_first = !looked.points.contains(level.strength);
-  LevelPoint& point = looked.points[level.strength];
-  if (is_first) {
-    point = {fitted_, candidate.fitted_knobs().front()};
-    point.knob.centre = level.value;
-  }
+  const auto known = looked.points.find(level.strength);
+  LevelPoint point = known != looked.points.end() ? known->second : start_of(candidate, level, looked);
   std::vector<Emulator> there = simulated_at(candidate, point, count);
   Eigen::VectorXd change = change_at(there, point.fitted, of_means_);
-  if (const auto moved = is_first ? moved_along(change, point) : std::nullopt) {
-    there = simulated_at(candidate, *moved, count);
-    point = *moved;
-    change = change_at(there, point.fitted, of_means_);
+  if (known == looked.points.end()) {
+    if (const auto moved = moved_along(change, point)) {
+      there = simulated_at(candidate, *moved, count);
+      point = *moved;
+      change = change_at(there, point.fitted, of_means_);
+    }
+    looked.points[level.strength] = point;
   }
   return {level.strength, (*outside_)(change), chaos_of(there, of_means_) / count};
 }

@@ -93,9 +93,17 @@ class ScreenSimulations {
 
   std::vector<Emulator> simulated_at(const Candidate& candidate, const LevelPoint& point, int count);
 
-  /// The fitted parameters where their slopes see the best fit beside this change of the features, and the
-  /// candidate as strong beside them; none where they hardly move.
-  std::optional<LevelPoint> moved_along(const Eigen::VectorXd& change, LevelPoint point) const;
+  /// The fitted parameters moved by these steps as far as their bounds allow, the candidate as strong beside
+  /// them.
+  LevelPoint moved_by(LevelPoint point, const Eigen::VectorXd& steps) const;
+
+  /// Where a level is simulated first: the parameters as far in proportion as the strongest weaker level of
+  /// the same sign has moved them.
+  LevelPoint start_of(const Candidate& candidate, const Candidate::Level& level, const Looked& looked) const;
+
+  /// The fitted parameters where their slopes see the best fit beside this change of the features; none where
+  /// they hardly move.
+  std::optional<LevelPoint> moved_along(const Eigen::VectorXd& change, const LevelPoint& point) const;
 
   /// Beside an effect that restitutions imitate they lie elsewhere, farther than a line tells: the level is
   /// simulated again there.

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "errors.hpp"
 #include "expect.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "nuisance.hpp"
+#include "rival.hpp"
 #include "rules.hpp"
 #include "setup_keys.hpp"
 #include "state.hpp"
@@ -17,23 +17,6 @@
 namespace shakedown {
 
 namespace {
-
-/// A candidate on its way through a round.
-struct Rival {
-  const Candidate* candidate;
-  ScreenedEffect screened;
-  double log_odds = 0;
-  double held_out_gain = 0;         ///< of chi2, fitted
-  double log_ratio = std::nan("");  ///< ln likelihood of the fitted model over that before, means and spreads
-  bool fitted = false;
-  DiagnosisState state{};  ///< where it was fitted
-  bool weighed = false;    ///< log_odds is more than its prior
-  bool attempted = false;  ///< its fit had its turn
-};
-
-/// What it does to the features is arithmetic on the recording: its signature is exact, and the gain of a
-/// fit, which chaos makes, would tell less.
-bool is_arithmetic(const Rival& rival) { return rival.candidate->fitted_knobs().front().exact; }
 
 bool is_joint(const Knob& knob) { return joined_keys(knob.key).size() > 1; }
 
@@ -46,46 +29,6 @@ std::vector<Knob> taken_apart(const std::vector<Knob>& knobs) {
       parts.back().key = key;
     }
   return parts;
-}
-
-/// Without the effect the restitutions were led astray: the box reaches from there to what the user gave.
-std::vector<Knob> covering_the_users_values(std::vector<Knob> knobs) {
-  for (Knob& knob : knobs) {
-    if (!is_believed(knob)) continue;
-    const double apart = std::abs(knob.centre - knob.believed);
-    knob.centre = (knob.centre + knob.believed) / 2;
-    knob.width = apart / 2 + 0.8 * knob.believed_error;
-  }
-  return knobs;
-}
-
-/// The fit of a candidate begins at the strength that its signature asks for.
-std::vector<Knob> knobs_of(const Candidate& candidate, const ScreenedEffect& screened) {
-  std::vector<Knob> added = candidate.fitted_knobs();
-  for (Knob& knob : added) {
-    if (std::isinf(knob.absent))  // a length, known by what it does
-      knob.width *= screened.value / knob.centre;
-    else
-      knob.width = std::max(knob.width, 0.5 * std::abs(screened.value - knob.absent));
-    knob.centre = std::clamp(screened.value, knob.low, knob.high);
-  }
-  return added;
-}
-
-/// An exact knob of the camera that the candidate itself moves is no nuisance beside it.
-std::vector<Knob> without(std::vector<Knob> knobs, const std::vector<Knob>& these) {
-  std::erase_if(knobs, [&](const Knob& knob) {
-    return std::any_of(these.begin(), these.end(), [&](const Knob& other) { return other.key == knob.key; });
-  });
-  return knobs;
-}
-
-/// Knobs at the values of a fit.
-std::vector<Knob> at_values(const Refit& fit) {
-  std::vector<Knob> knobs = fit.knobs;
-  for (std::size_t k = 0; k < knobs.size(); ++k)
-    if (!knobs[k].exact) knobs[k].centre = fit.values[k].value;
-  return knobs;
 }
 
 /// What the screen of the model at `knobs`, where this fit has put it, need not simulate again.
@@ -108,86 +51,6 @@ ScreenStart start_from(const Refit& fit, const std::vector<Knob>& knobs) {
   return start;
 }
 
-void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
-               double lowest, Effort effort) {
-  const Candidate& candidate = *rival.candidate;
-  DiagnosisState& state = rival.state = before;
-  state.setup = prepared(before.setup, candidate, tools.known());
-  const std::vector<Knob> added = knobs_of(candidate, rival.screened);
-  state.found = together(before.found, added);
-  state.camera = without(before.camera, added);
-  if (std::find(state.missing.begin(), state.missing.end(), candidate.effect) == state.missing.end())
-    state.missing.push_back(candidate.effect);  // else of another component
-  const std::vector<Knob> knobs =
-      together(together(covering_the_users_values(before.theta), state.found), state.camera);
-  const std::string stage = "trying " + candidate.effect;
-  state.fit = tools.fit(state, stage, knobs, effort, &before.fit, lowest);
-  state.dear = before.dear || candidate.dear;
-  rival.fitted = true;
-  rival.held_out_gain = before.fit.judged_held_out_chi2 - state.fit.judged_held_out_chi2;
-  if (is_arithmetic(rival)) return;
-  const ScreenEffort& weighing = state.dear ? effort::rank_when_dear : effort::rank;
-  try {
-    rival.log_ratio =
-        screen.log_likelihood_ratio(tools.features(state.setup), at_values(state.fit), weighing.nothing);
-  } catch (const BudgetSpent&) {  // the signature's evidence stands
-  }
-}
-
-/// Of this effect in any of its forms, among these, each alone, and nothing.
-double probability_among(const std::vector<Rival>& rivals, const Rival& one) {
-  std::vector<Hypothesis> table{{{}, 0, 0}};
-  for (const Rival& rival : rivals)
-    if (std::isfinite(rival.log_odds)) table.push_back({{rival.candidate->effect}, rival.log_odds, 0});
-  weigh(table);
-  double sum = 0;
-  for (const Hypothesis& h : table)
-    if (h.effects == std::vector<std::string>{one.candidate->effect}) sum += h.probability;
-  return sum;
-}
-
-/// The fitted strength of a rival, as the prior counts it.
-StrengthSeen strength_fitted(const Rival& rival) {
-  StrengthSeen seen = rival.screened.seen;
-  const std::vector<Knob> added = rival.candidate->fitted_knobs();
-  const Refit& fit = rival.state.fit;
-  for (std::size_t k = 0; k < fit.values.size(); ++k)
-    for (const Knob& knob : added)
-      if (fit.values[k].key == knob.key && rival.candidate->knobs.size() > 0) {
-        std::tie(seen.value, seen.error) = strength_of(fit, k);
-        if (seen.one_sided) seen.value = std::abs(seen.value);
-      }
-  return seen;
-}
-
-/// The table is of what the signatures say, and of fitted models where they were weighed. The chi2 of two
-/// fits differ by chaos alone as much as effects that matter do.
-void weigh_rival(Rival& rival, double candidates) {
-  rival.weighed = rival.fitted || rival.screened.weighed;
-  const StrengthSeen& seen = rival.screened.seen;
-  rival.log_odds = prior_log_odds(seen.odds, candidates);
-  if (rival.screened.weighed) rival.log_odds += rival.screened.log_evidence;
-  if (!std::isfinite(rival.log_ratio)) return;
-  StrengthSeen fitted = strength_fitted(rival);
-  fitted.gain = 2 * rival.log_ratio;
-  rival.log_odds = log_odds_of(fitted, candidates);
-}
-
-RankedEffect ranked_as(const Rival& rival) {
-  RankedEffect ranked{rival.candidate->effect, rival.screened.gain,       std::nan(""), std::nan(""),
-                      rival.screened.value,    rival.screened.look_alikes};
-  if (!rival.fitted) return ranked;
-  ranked.fitted = true;
-  if (std::isfinite(rival.log_ratio)) ranked.gain = 2 * rival.log_ratio;
-  ranked.held_out_gain = rival.held_out_gain;
-  // of a difference of two chi2 of nested models
-  ranked.standard_error = 2 * std::sqrt(std::abs(rival.held_out_gain));
-  for (const FittedValue& value : rival.state.fit.values)
-    for (const Knob& knob : rival.candidate->fitted_knobs())
-      if (value.key == knob.key) ranked.value = value.value;
-  return ranked;
-}
-
 std::vector<Candidate> open_candidates(const DiagnosisState& state, DiagnosisTools& tools,
                                        const std::vector<std::string>& seen_by_balance) {
   // What replaces a parameter is absent at the value that the fit has found of it.
@@ -198,6 +61,13 @@ std::vector<Candidate> open_candidates(const DiagnosisState& state, DiagnosisToo
   const std::vector<std::string> exact = exactly_known(tools.measurement(), tools.known());
   std::erase_if(candidates, [&](const Candidate& candidate) {
     return std::find(exact.begin(), exact.end(), candidate.effect) != exact.end();
+  });
+  // A component test told it: a parameter of the fit, or fixed.
+  std::erase_if(candidates, [&](const Candidate& candidate) {
+    const std::vector<std::string> keys = joined_keys(candidate.fitted_knobs().front().key);
+    return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {
+      return find_known(tools.measurement().known, key) != nullptr && find_setup_key(key) == nullptr;
+    });
   });
   std::erase_if(candidates, [&](const Candidate& candidate) {
     const auto judged = [&](const std::string& key) {
@@ -299,15 +169,16 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   // Fits confirm the most probable, and what has more than a tenth of its probability; where a fit takes back
   // what a signature promised, the next has its turn.
   const bool rejected = is_rejected(state.fit);
-  const auto is_found = [](const Rival& rival) { return rival.fitted && rival.log_odds > 0; };
   for (bool more = true; more && tried < static_cast<int>(rules::most_tried);) {
     more = false;
     std::stable_sort(order.begin(), order.end(), by_odds);
     // A model that the data reject is not what is there: while nothing was found, the best of a bad lot are
     // fitted whatever their odds.
     const bool all_bad = rejected && std::none_of(rivals.begin(), rivals.end(), is_found);
-    const double worth_a_fit = all_bad ? -std::numeric_limits<double>::infinity()
-                                       : std::max(worth_asking, order.front()->log_odds - std::log(10));
+    const double best = order.front()->log_odds;
+    const double worth_a_fit =
+        all_bad ? -std::numeric_limits<double>::infinity()
+                : std::max(worth_asking, best - std::max(std::log(10), effort::signature_errs * best));
     for (Rival* rival : order) {
       // Of what is arithmetic only the fit that is to be added is needed.
       const double least =
@@ -318,6 +189,8 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
       break;
     }
   }
+  if (rejected) weigh_beside_the_best(rivals, all);
+  std::stable_sort(order.begin(), order.end(), by_odds);
   for (Rival* rival : order) {
     if (rival->weighed) round.ranking.push_back(ranked_as(*rival));
     if (std::isfinite(rival->log_odds))

@@ -27,6 +27,12 @@ void compare_with_given(const std::vector<Validation>& given, const std::vector<
   box.as_given = before, box.error = after;
 }
 
+double share_taken_away(double before, double after) {
+  constexpr double own = 1;
+  const double share = (before - after) / (before - own);
+  return before > own && std::isfinite(share) ? share : 1;
+}
+
 Verdict verdict_of(const Findings& findings) {
   const ModelJudgement judgement = judgement_of(findings.features, findings.balance, findings.left);
   if (findings.unlisted) return Verdict::unknown;

@@ -23,6 +23,10 @@ struct Findings {
   std::vector<Difference> left{};                   ///< by the final model
   double far_p_value = 1;  ///< of the features, below what pseudo-experiments can count too
 };
+/// Share of the misfit beyond that of the model's own runs which goes from one fit to the next; both as
+/// Refit::scatter. 1 where there was none, or where what is left is no number.
+double share_taken_away(double before, double after);
+
 Verdict verdict_of(const Findings& findings);
 
 /// The p-value that weighs something in no list against the final model: the worst of features, balance and

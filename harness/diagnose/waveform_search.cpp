@@ -62,8 +62,9 @@ bool says_it_twice(const WaveformFit& fit, std::size_t which) {
 class WaveformSearch {
  public:
   WaveformSearch(std::vector<WaveformRun> runs, std::span<const EffectRecord* const> known,
-                 const std::vector<std::string>& only)
+                 const std::vector<std::string>& only, bool free_frequency)
       : runs_(std::move(runs)), laws_(waveform_laws(runs_.front().setup, known)), options_{known} {
+    options_.free_frequency = free_frequency;
     std::erase_if(laws_, [&](const WaveformLaw& law) {
       return !only.empty() && std::find(only.begin(), only.end(), law.term.effect) == only.end();
     });
@@ -527,7 +528,15 @@ WaveformAnswer search_waveform(const Measurement& measurement, double frequency,
                                const std::vector<std::string>& only) {
   std::vector<WaveformRun> runs = waveform_runs(measurement);
   if (runs.empty()) return {};
-  return WaveformSearch(std::move(runs), known, only).run(frequency);
+  const bool held = knows_frequency_exactly(measurement);
+  if (held) frequency = runs.front().setup.spring.frequency;
+  return WaveformSearch(std::move(runs), known, only, !held).run(frequency);
+}
+
+bool knows_frequency_exactly(const Measurement& measurement) {
+  return std::any_of(measurement.known.begin(), measurement.known.end(), [](const KnownValue& known) {
+    return known.key == "spring.frequency" && known.error == 0;
+  });
 }
 
 }  // namespace shakedown

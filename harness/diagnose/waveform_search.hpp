@@ -37,7 +37,11 @@ struct PowerAt {
 /// ascend in steps of half the resolution.
 double line_in(const std::vector<PowerAt>& spectrum);
 
-/// `frequency`: Hz, about where the fit begins; `only`: effects that may act, empty: all.
+/// Whether the spring's frequency is no matter of a fit: the setup says it.
+bool knows_frequency_exactly(const Measurement& measurement);
+
+/// `frequency`: Hz, about where the fit begins (unless it is known exactly); `only`: effects that may act,
+/// empty: all.
 WaveformAnswer search_waveform(const Measurement& measurement, double frequency,
                                std::span<const EffectRecord* const> known,
                                const std::vector<std::string>& only = {});

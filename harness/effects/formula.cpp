@@ -39,6 +39,12 @@ std::string suggestion_for(const std::string& word, const std::map<std::string, 
   return near.empty() ? "" : "; did you mean " + std::string(near) + "?";
 }
 
+bool is_name(const std::string& name) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  return !name.empty() && letter(name.front()) &&
+         std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
 FormulaProblem problem_of(const mu::ParserError& error, const std::string& text,
                           const std::map<std::string, double>& constants) {
   const std::size_t position = std::min(static_cast<std::size_t>(error.GetPos()), text.size()) + 1;
@@ -56,6 +62,12 @@ FormulaProblem problem_of(const mu::ParserError& error, const std::string& text,
 }  // namespace
 
 Formula::Formula(const std::string& text, const std::map<std::string, double>& constants) {
+  for (const auto& [name, value] : constants)
+    if (!is_name(name))
+      throw FormulaProblem{
+          "the constant '" + name +
+              "' has a name that no formula can hold; take letters, digits and _, a letter first",
+          0};
   for (const auto& [name, value] : constants)
     if (name == "x" || name == "v" || name == "t")
       throw FormulaProblem{"the constant '" + name + "' has the name of a variable", 0};

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "collision_log_file.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 
+#include "fnv.hpp"
+#include "kept_files.hpp"
 #include "provenance.hpp"
 #include "setup_file.hpp"
 #include "toml_document.hpp"
@@ -15,7 +18,7 @@ namespace shakedown {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
-constexpr std::string_view first_line = "shakedown collision log 1\n";
+constexpr std::string_view first_line = "shakedown collision log 2\n";
 
 class Writer {
  public:
@@ -42,6 +45,7 @@ class Reader {
     if (!bytes_.starts_with(first_line))
       fail("is not a collision log of this program's version; make the run again with --log");
     at_ = first_line.size();
+    check_sum();
   }
   template <class Number>
   Number number() {
@@ -66,6 +70,15 @@ class Reader {
   [[noreturn]] void fail(const std::string& what) const { throw FileError(file_.string() + ": " + what); }
 
  private:
+  /// A log that was damaged may still be read, as another motion or one without end.
+  void check_sum() {
+    const std::size_t whole = bytes_.size() - std::min(bytes_.size() - at_, sizeof(std::uint64_t));
+    std::uint64_t sum = 0;
+    if (bytes_.size() - whole == sizeof sum) std::memcpy(&sum, bytes_.data() + whole, sizeof sum);
+    if (bytes_.size() - whole < sizeof sum || sum != fnv1a(std::string_view(bytes_).substr(0, whole)))
+      fail("is cut short or damaged; make the run again with --log");
+    bytes_.resize(whole);
+  }
   std::string_view take(std::uint64_t n) {
     if (n > bytes_.size() - at_) fail("is cut short or damaged; make the run again with --log");
     at_ += n;
@@ -133,11 +146,13 @@ std::string collision_log_bytes(const StoredRun& stored) {
   to.number(static_cast<std::uint64_t>(stored.log.digests.size()));
   for (const std::uint64_t digest : stored.log.digests) to.number(digest);
   to.text({reinterpret_cast<const char*>(stored.log.events.data()), stored.log.events.size()});
+  to.number(fnv1a(to.bytes));
   return to.bytes;
 }
 
 StoredRun read_collision_log(std::filesystem::path file, std::span<const EffectRecord* const> known) {
   if (std::filesystem::is_directory(file)) file /= collision_log_name;
+  keep_unchanged(file);
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw FileError(file.string() +
@@ -146,6 +161,7 @@ StoredRun read_collision_log(std::filesystem::path file, std::span<const EffectR
   contents << stream.rdbuf();
   Reader from(contents.str(), file);
   StoredRun stored;
+  stored.file = file;
   stored.program = from.text();
   const std::string setup(from.text());
   stored.setup = setup_of_log(setup, file, known);

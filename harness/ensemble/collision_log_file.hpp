@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A collision log as a file, from which a run can be replayed anywhere that the same program runs.
 // Little-endian:
-//   "shakedown collision log 1\n"
+//   "shakedown collision log 2\n"
 //   text: program that wrote it; text: setup (TOML)                          a text is its length (8 bytes)
 //   and its bytes run, end time, entries, impacts                                          8 bytes each
 //   number of grains, 1 where they spin; x_box, v_box; of each grain position, velocity, spin (if any),
 //   radius, mass    8 bytes a number number of digests and the digests; number of bytes of packed events and
-//   the events (hardsphere/event_log.hpp)
+//   the events (hardsphere/event_log.hpp); FNV-1a of all that
 #pragma once
 #include <filesystem>
 #include <span>
@@ -25,6 +25,7 @@ struct StoredRun {
   Setup setup;          ///< as used; grains that came from a file are in the log's initial state
   int run = 0;
   CollisionLog log;
+  std::filesystem::path file{};  ///< that it was read from; empty: none
 };
 
 std::string collision_log_bytes(const StoredRun& stored);

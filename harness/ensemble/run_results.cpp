@@ -36,23 +36,48 @@ std::string line_of(int run, const Trajectory& trajectory, const Observables& se
 
 /// The setup as used; a file of grains moves into the folder with it.
 void write_used_setup(const OutputFolder& folder, Setup setup) {
-  if (!setup.release.initial_grains.empty()) {
+  const std::string copy = "initial_grains.csv";
+  std::error_code apart;  // two files, or one of them is not there
+  if (!setup.release.initial_grains.empty() &&
+      !std::filesystem::equivalent(setup.release.initial_grains, folder.path() / copy, apart)) {
     std::ifstream file(setup.release.initial_grains, std::ios::binary);
     std::ostringstream contents;
     contents << file.rdbuf();
-    folder.write("initial_grains.csv", contents.str());
-    setup.release.initial_grains = "initial_grains.csv";
+    folder.write(copy, contents.str());
   }
+  if (!setup.release.initial_grains.empty()) setup.release.initial_grains = copy;
   folder.write("setup.toml", write_setup(setup));
 }
 
 }  // namespace
 
 RunResults::RunResults(OutputFolder folder, bool every_series)
-    : folder_(std::move(folder)), every_series_(every_series), lines_(run_columns) {}
+    : folder_(std::move(folder)), every_series_(every_series), lines_(run_columns) {
+  for (const char* name : {"setup.toml", "series.csv", collision_log_name})
+    expect_writable(folder_.path() / name);
+}
+
+/// What an earlier run left would stand beside the results of this one as if it belonged to them.
+void RunResults::remove_earlier_results() const {
+  std::vector<std::filesystem::path> names{"setup.toml",   "initial_grains.csv", "series.csv",
+                                           "runs.csv",     "mean_series.csv",    collision_log_name,
+                                           "summary.json", "provenance.json",    "report.json"};
+  for (const auto& [part, ending] : {std::pair{"series", ".csv"}, std::pair{"collisions", ".log"}}) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / part, none)) {
+      const std::filesystem::path file = entry.path().filename();
+      if (file.string().starts_with("run_") && file.extension() == ending)
+        names.push_back(std::filesystem::path(part) / file);
+    }
+  }
+  folder_.remove(names);
+}
 
 void RunResults::add(int run, const Trajectory& trajectory, const Observables& observables) {
-  if (++runs_ == 1) folder_.write("series.csv", series_csv(trajectory));
+  if (++runs_ == 1) {
+    remove_earlier_results();
+    folder_.write("series.csv", series_csv(trajectory));
+  }
   if (every_series_)
     folder_.write(std::filesystem::path("series") / fmt::format("run_{:04}.csv", run),
                   series_csv(trajectory));

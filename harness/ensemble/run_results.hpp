@@ -17,7 +17,8 @@ namespace shakedown {
 /// again).
 class RunResults {
  public:
-  /// Throws FileError when the folder cannot be written to.
+  /// Throws FileError when the folder cannot be written to. What an earlier run left there goes when the
+  /// first run of this one is added.
   RunResults(OutputFolder folder, bool every_series);
 
   /// Writes collision logs too: collisions.log of the first run and, with the series of every run,
@@ -33,6 +34,7 @@ class RunResults {
   const OutputFolder& folder() const { return folder_; }
 
  private:
+  void remove_earlier_results() const;
   void write_collisions(int run, const CollisionLog& log) const;
 
   OutputFolder folder_;

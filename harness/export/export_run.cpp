@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "npy_file.hpp"
 #include "output_file.hpp"
@@ -16,52 +15,37 @@ namespace shakedown {
 
 namespace {
 
-/// A long text, written piece by piece and put in its place when it is whole.
-class LongFile {
- public:
-  explicit LongFile(std::filesystem::path file) : file_(std::move(file)), partial_(file_) {
-    expect_writable(file_);
-    partial_ += ".partial";
-    stream_.open(partial_, std::ios::binary);
-  }
-  void add(const std::string& text) { stream_ << text; }
-  void finish() {
-    stream_.close();
-    std::error_code error;
-    if (stream_) std::filesystem::rename(partial_, file_, error);
-    if (stream_ && !error) return;
-    std::filesystem::remove(partial_, error);
-    throw FileError(file_.string() + ": cannot be written (the disk refused it); make room there");
-  }
-
- private:
-  std::filesystem::path file_, partial_;
-  std::ofstream stream_;
-};
-
 template <class Lines>
 std::filesystem::path write_text(const StoredRun& run, const FrameTimes& times,
                                  const std::filesystem::path& file, const std::string& header,
                                  Lines&& lines) {
-  LongFile to(file);
+  GrowingFile to(file);
   to.add(header);
   for_each_frame(run, times, [&](const Frame& frame) { to.add(lines(frame)); });
   to.finish();
   return file;
 }
 
+/// Two files a frame: where not all can be written, or the log ends before, those that were are taken back.
 std::filesystem::path write_paraview(const StoredRun& run, const FrameTimes& times,
                                      const OutputFolder& folder) {
   std::vector<PvdEntry> entries;
-  for_each_frame(run, times, [&](const Frame& frame) {
-    const std::string grains = fmt::format("frames/grains_{:06}.vtp", frame.number),
-                      box = fmt::format("frames/box_{:06}.vtp", frame.number);
-    folder.write(grains, grains_vtp(frame));
-    folder.write(box, box_vtp(frame));
-    entries.push_back({frame.time, 0, grains});
-    entries.push_back({frame.time, 1, box});
-  });
-  folder.write("motion.pvd", pvd(entries));
+  std::vector<std::filesystem::path> written;
+  const auto write = [&](int part, double time, const std::string& name, const std::string& contents) {
+    folder.write(name, contents);
+    written.push_back(name);
+    entries.push_back({time, part, name});
+  };
+  try {
+    for_each_frame(run, times, [&](const Frame& frame) {
+      write(0, frame.time, fmt::format("frames/grains_{:06}.vtp", frame.number), grains_vtp(frame));
+      write(1, frame.time, fmt::format("frames/box_{:06}.vtp", frame.number), box_vtp(frame));
+    });
+    folder.write("motion.pvd", pvd(entries));
+  } catch (...) {
+    folder.remove(written);
+    throw;
+  }
   return folder.path() / "motion.pvd";
 }
 
@@ -107,7 +91,7 @@ ExportFormat export_format_named(std::string_view name) {
 
 Exported export_run(const StoredRun& run, const FrameTimes& times, ExportFormat format,
                     const std::filesystem::path& folder) {
-  const OutputFolder to(folder);
+  const OutputFolder to(folder, OutputFolder::Use::alone);
   const auto written = [&]() -> std::filesystem::path {
     switch (format) {
       case ExportFormat::xyz: return write_text(run, times, folder / "motion.xyz", "", extended_xyz);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <atomic>
 #include <functional>
 #include <limits>
 
@@ -12,6 +13,7 @@ struct FrameTimes {
   double from = 0;                                      ///< s
   double to = std::numeric_limits<double>::infinity();  ///< s; later than the run's end: its end
   double rate = 500;                                    ///< Hz
+  const std::atomic<bool>* stop = nullptr;              ///< set to true: no more frames, Interrupted
 
   std::int64_t count(const CollisionLog& log) const;
   double time(std::int64_t k) const { return from + static_cast<double>(k) / rate; }
@@ -26,7 +28,8 @@ struct Frame {
 };
 
 /// Calls use(frame) for each moment in order, rebuilt from the log without searching for an event. Throws
-/// InputError for times outside the run, FileError where the log does not fit this build.
+/// InputError for times outside the run and for more than 5e7 positions of grains, FileError where the log
+/// does not fit this build.
 void for_each_frame(const StoredRun& run, const FrameTimes& times,
                     const std::function<void(const Frame&)>& use);
 

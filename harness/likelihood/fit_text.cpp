@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "fit.hpp"
@@ -22,9 +23,14 @@ Json runs_json(const std::vector<RunComparison>& runs) {
     list.push_back({{"run", run.run},
                     {"error_box_mm", 1e3 * run.error_box},
                     {"spread_box_mm", 1e3 * run.floor_box},
-                    {"error_com_mm", 1e3 * run.error_centre},
-                    {"spread_com_mm", 1e3 * run.floor_centre}});
+                    {"error_com_mm", run.floor_centre > 0 ? 1e3 * run.error_centre : std::nan("")},
+                    {"spread_com_mm", run.floor_centre > 0 ? 1e3 * run.floor_centre : std::nan("")}});
   return list;
+}
+
+/// "-" where the grains' centre was not tracked.
+std::string of_centre(const RunComparison& run, double metres) {
+  return run.floor_centre > 0 ? fmt::format("{:.3f}", 1e3 * metres) : "-";
 }
 
 std::string runs_text(const std::string& title, const std::vector<RunComparison>& runs) {
@@ -32,8 +38,9 @@ std::string runs_text(const std::string& title, const std::vector<RunComparison>
   std::string text =
       fmt::format("  {:<22} {:>9} {:>9} {:>12} {:>9}\n", title, "box, mm", "spread", "centre, mm", "spread");
   for (const RunComparison& run : runs)
-    text += fmt::format("    {:<20} {:>9.3f} {:>9.3f} {:>12.3f} {:>9.3f}\n", run.run, 1e3 * run.error_box,
-                        1e3 * run.floor_box, 1e3 * run.error_centre, 1e3 * run.floor_centre);
+    text +=
+        fmt::format("    {:<20} {:>9.3f} {:>9.3f} {:>12} {:>9}\n", run.run, 1e3 * run.error_box,
+                    1e3 * run.floor_box, of_centre(run, run.error_centre), of_centre(run, run.floor_centre));
   return text;
 }
 
@@ -68,6 +75,7 @@ std::string fit_json(const Fit& fit) {
                 {"simulations", fit.runs},
                 {"setup", write_setup(fit.fitted)}};
   explain_missing_numbers(document, [](const std::string& path) -> std::string {
+    if (path.ends_with("com_mm")) return "the grains' centre was not tracked";
     return path.rfind("/correlation/", 0) == 0 ? "the data do not tell one of the two" : "";
   });
   return document.dump(2) + "\n";

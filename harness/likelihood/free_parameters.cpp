@@ -34,6 +34,12 @@ Knob knob_of_setup_key(const SetupKey& key, double start) {
           true};
 }
 
+/// The beam formula's, other engines', how the exact engine works, and the speed of grains without a spring.
+bool moves_nothing(const SetupKey& key) {
+  return key.section() == "blade" || key.section() == "soft" || key.section() == "bullet" ||
+         key.section() == "hard" || key.path == "release.grain_speed";
+}
+
 Knob knob_of(const std::string& keys, const Setup& setup, std::span<const EffectRecord* const> known) {
   const std::string first = joined_keys(keys).front();
   const double start = get_number(setup, first, known);
@@ -43,6 +49,13 @@ Knob knob_of(const std::string& keys, const Setup& setup, std::span<const Effect
                          first,
                          "cannot be fitted (it is no property of the damper that varies smoothly)",
                          "sweep it instead"}});
+    if (moves_nothing(*key))
+      throw InputError(
+          {{{"--free", 0, 0},
+            first,
+            "cannot be fitted (the engine of the fit does not move otherwise, or only as exactly, "
+            "whatever it is)",
+            "free what the damper is: masses, lengths, restitutions, frequency, effects"}});
     Knob knob = knob_of_setup_key(*key, start);
     knob.key = keys;
     return knob;

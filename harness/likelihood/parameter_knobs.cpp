@@ -13,18 +13,47 @@ Knob exact_knob(const std::string& key, double value, double deviation) {
   return knob;
 }
 
-std::vector<Knob> as_given(const Setup& setup, const std::vector<KnownValue>& known) {
+namespace {
+
+constexpr double reach_as_given = 2.5;  // standard deviations
+constexpr double reach_of_a_fit = 1.5;  // of what is believed, as that of the restitutions
+
+/// One knob for each number of an effect that is known to an error, so many errors wide.
+std::vector<Knob> of_effects(const std::vector<KnownValue>& known,
+                             std::span<const EffectRecord* const> effects, double errors, bool curved) {
+  std::vector<Knob> knobs;
+  for (const KnownValue& said : known) {
+    const Parameter* parameter = find_component_number(effects, said.key);
+    if (parameter == nullptr || said.error == 0) continue;
+    Knob knob{said.key,        said.value, errors * said.error, parameter->low,
+              parameter->high, curved,     said.value,          said.error};
+    knobs.push_back(knob);
+  }
+  return knobs;
+}
+
+}  // namespace
+
+std::vector<Knob> as_given(const Setup& setup, const std::vector<KnownValue>& known,
+                           std::span<const EffectRecord* const> effects) {
   const auto knob = [&](const char* key, double value, double apart, double highest) {
     if (const KnownValue* said = find_known(known, key)) apart = std::hypot(apart, said->error);
-    const double reach = 2.5 * apart;
+    const double reach = reach_as_given * apart;
     return Knob{key,   value, reach, std::max(0.0, value - reach), std::min(highest, value + reach),
                 false, value, apart};
   };
   const double frequency = setup.spring.frequency;
   const Knob of_spring = knob("spring.frequency", frequency, code_frequency * frequency, 2 * frequency);
   if (setup.grains.count == 0) return {of_spring};  // nothing hits anything
-  return {knob("restitution.grain_grain", setup.restitution.grain_grain, code_restitution, 1),
-          knob("restitution.grain_wall", setup.restitution.grain_wall, code_restitution, 1), of_spring};
+  std::vector<Knob> knobs{knob("restitution.grain_grain", setup.restitution.grain_grain, code_restitution, 1),
+                          knob("restitution.grain_wall", setup.restitution.grain_wall, code_restitution, 1),
+                          of_spring};
+  for (Knob& of_effect : of_effects(known, effects, reach_as_given, false)) {
+    of_effect.low = std::max(of_effect.low, of_effect.centre - of_effect.width);
+    of_effect.high = std::min(of_effect.high, of_effect.centre + of_effect.width);
+    knobs.push_back(std::move(of_effect));
+  }
+  return knobs;
 }
 
 std::vector<Knob> free_parameters(const Setup& setup, double frequency, double width) {
@@ -42,7 +71,8 @@ std::vector<Knob> free_parameters(const Setup& setup) {
   return free_parameters(setup, setup.spring.frequency, 0.01 * setup.spring.frequency);
 }
 
-std::vector<Knob> believed(std::vector<Knob> knobs, const std::vector<KnownValue>& known) {
+std::vector<Knob> believed(std::vector<Knob> knobs, const std::vector<KnownValue>& known,
+                           std::span<const EffectRecord* const> effects) {
   std::erase_if(knobs, [&](const Knob& knob) {
     const KnownValue* said = find_known(known, knob.key);
     return said != nullptr && said->error == 0;
@@ -52,6 +82,8 @@ std::vector<Knob> believed(std::vector<Knob> knobs, const std::vector<KnownValue
       knob.believed = said->value, knob.believed_error = said->error;
       knob.low = std::min(knob.low, said->value), knob.high = std::max(knob.high, said->value);
     }
+  for (Knob& of_effect : of_effects(known, effects, reach_of_a_fit, true))
+    knobs.push_back(std::move(of_effect));
   return knobs;
 }
 

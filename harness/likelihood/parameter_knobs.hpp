@@ -23,7 +23,9 @@ constexpr double believed_restitution = 0.1;
 
 /// The parameters as given, as far as two codes of the same physics agree on what they mean.
 /// Where [known] gives an error they may be off by that too.
-std::vector<Knob> as_given(const Setup& setup, const std::vector<KnownValue>& known = {});
+/// Numbers of `effects` that [known] gives with an error are among them.
+std::vector<Knob> as_given(const Setup& setup, const std::vector<KnownValue>& known = {},
+                           std::span<const EffectRecord* const> effects = {});
 
 /// What a user may refit, about the setup's values; the spring's about `frequency` (Hz), which the momentum
 /// balance may know better, within
@@ -31,7 +33,9 @@ std::vector<Knob> as_given(const Setup& setup, const std::vector<KnownValue>& kn
 std::vector<Knob> free_parameters(const Setup& setup, double frequency, double width);
 std::vector<Knob> free_parameters(const Setup& setup);
 
-/// The same with what [known] says of them for the belief; what it knows exactly is no knob any more.
-std::vector<Knob> believed(std::vector<Knob> knobs, const std::vector<KnownValue>& known);
+/// The same with what [known] says of them for the belief; what it knows exactly is no knob any more. Numbers
+/// of `effects` that it gives with an error are added.
+std::vector<Knob> believed(std::vector<Knob> knobs, const std::vector<KnownValue>& known,
+                           std::span<const EffectRecord* const> effects = {});
 
 }  // namespace shakedown

@@ -76,11 +76,21 @@ Eigen::VectorXd Signature::weights(double strength) const {
 
 Eigen::VectorXd Signature::change(double strength) const { return shapes_ * weights(strength); }
 
+Signature::Squares Signature::squares(const Eigen::VectorXd& weights) const {
+  const double noise = weights.dot(noise_ * weights);
+  return {std::max(0.0, weights.dot(square_ * weights) - noise), noise * std::max(1.0, chi2_per_feature_)};
+}
+
 double Signature::log_likelihood(double strength) const {
   const Eigen::VectorXd v = weights(strength);
-  const double noise = v.dot(noise_ * v), square = std::max(0.0, v.dot(square_ * v) - noise);
+  const auto [square, noise] = squares(v);
   if (!(square > 0)) return 0;
-  return square * (overlap_.dot(v) - square / 2) / (square + noise * std::max(1.0, chi2_per_feature_));
+  return square * (overlap_.dot(v) - square / 2) / (square + noise);
+}
+
+double Signature::share_seen(double strength) const {
+  const auto [square, noise] = squares(weights(strength));
+  return square > 0 ? square / (square + noise) : 0;
 }
 
 StrengthPosterior posterior_of(const Signature& signature, const StrengthPrior& prior) {
@@ -104,6 +114,7 @@ StrengthPosterior posterior_of(const Signature& signature, const StrengthPrior& 
   found.log_evidence = most + std::log(relative.mean());
   found.gain = 2 * std::max(0.0, most);
   found.strength = strength[at];
+  found.share_seen = signature.share_seen(strength[at]);
   // Flat in the strength: each of the steps by its width.
   const Eigen::ArrayXd weight = relative * (1 + (strength / prior.typical).square());
   const double mean = (weight * strength).sum() / weight.sum();

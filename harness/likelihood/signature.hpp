@@ -38,7 +38,15 @@ class Signature {
   /// The mean change at this strength, the noise of the simulations in it.
   Eigen::VectorXd change(double strength) const;
 
+  /// a / (a + nu) at this strength: the share of the log likelihood that is left by the simulations' noise.
+  double share_seen(double strength) const;
+
  private:
+  /// |D|^2 without noise, and the noise, at these weights.
+  struct Squares {
+    double square, noise;
+  };
+  Squares squares(const Eigen::VectorXd& weights) const;
   /// Weights of the shapes at this strength.
   Eigen::VectorXd weights(double strength) const;
 
@@ -62,6 +70,7 @@ struct StrengthPosterior {
   double gain = 0;          ///< twice the largest ln likelihood, as a fall of chi2
   double strength = 0;      ///< where that is
   double error = 0;         ///< standard deviation of the strength, the likelihood alone counted
+  double share_seen = 1;    ///< of the gain, that the simulations' noise leaves there
 };
 
 /// By a sum over 2000 strengths, equally likely beforehand.

@@ -17,7 +17,13 @@ namespace {
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_violations = 20;  // a wrong column would otherwise print ten thousand
 
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
+/// Of a cell that is no number as much as somebody reads.
+std::string quoted(const std::string& text) {
+  constexpr std::size_t most = 60;
+  std::size_t end = std::min(text.size(), most);
+  while (end < text.size() && end > 0 && (text[end] & 0xc0) == 0x80) --end;  // no half of a character
+  return "'" + text.substr(0, end) + (end < text.size() ? "...'" : "'");
+}
 
 std::string remedy_for_column(const Table& table, const std::string& wanted) {
   std::vector<std::string_view> names;

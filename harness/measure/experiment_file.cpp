@@ -11,6 +11,7 @@
 #include "column_tables.hpp"
 #include "experiment_reader.hpp"
 #include "fnv.hpp"
+#include "kept_files.hpp"
 #include "prelude.hpp"
 #include "quantity.hpp"
 #include "table_text.hpp"
@@ -77,6 +78,7 @@ void split_run_keys(const TomlValue& table, const std::string& file, MeasuredRun
 struct Defaults {
   ClockAndScale scale;
   RunColumns columns;
+  std::span<const EffectRecord* const> effects{};  ///< whose numbers [known] may say
 };
 
 /// Without a declared time column and with an empty box there is nothing to miss.
@@ -186,7 +188,7 @@ void read_run(const TomlValue& table, const std::filesystem::path& folder, const
   run.place = table.place;
   run.start = start_of(reader);
   if (const TomlValue* known = reader.table("known"))
-    run.known = read_known(*known, "run.known.", violations);
+    run.known = read_known(*known, "run.known.", violations, defaults.effects);
   for (const KnownValue& one : run.known)
     if (!may_differ_between_runs(one.key))
       violations.push_back({one.place, "run.known." + one.key, "is the same in all runs of an experiment",
@@ -261,7 +263,8 @@ TomlValue parsed_experiment(std::string_view text, const std::string& name) {
 }  // namespace
 
 Experiment parse_experiment(std::string_view text, const std::string& name,
-                            const std::filesystem::path& folder) {
+                            const std::filesystem::path& folder,
+                            std::span<const EffectRecord* const> effects) {
   const TomlValue root = parsed_experiment(text, name);
   Experiment experiment;
   experiment.file = name;
@@ -269,6 +272,7 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
   const Reader reader(root, ExperimentTable::file, "", violations);
   experiment.title = reader.text("title");
   Defaults defaults;
+  defaults.effects = effects;
   const TomlValue* runs = reader.find("run");
   const TomlValue* columns = reader.table("column");
   std::string sensor;
@@ -281,7 +285,7 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
   }
   defaults.columns = read_column_tables(columns, "column.", {}, defaults.scale.pixel_size, violations);
   if (const TomlValue* known = reader.table("known"))
-    experiment.known = read_known(*known, "known.", violations);
+    experiment.known = read_known(*known, "known.", violations, effects);
   reader.report_unknown();
   if (!runs || runs->kind != Kind::array || runs->items.empty())
     violations.push_back(
@@ -294,8 +298,9 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
   return experiment;
 }
 
-Experiment read_experiment(const std::filesystem::path& file) {
-  return parse_experiment(read_text_file(file), file.string(), file.parent_path());
+Experiment read_experiment(const std::filesystem::path& file, std::span<const EffectRecord* const> effects) {
+  keep_unchanged(file);
+  return parse_experiment(read_text_file(file), file.string(), file.parent_path(), effects);
 }
 
 std::string digest(const Experiment& experiment) {

@@ -19,17 +19,20 @@ namespace shakedown {
 ///   [column.box_position]      from, unit ("m", "mm", "px"), uncertainty of one frame; origin (subtracted),
 ///   reversed = true, [column.grain_centre]      track = "1" or ["1", "2"] (mean) and track_from for tables
 ///   with one row a track and frame
-///   [known]                    "box.mass" = "434 g +- 2 g": what was weighed and measured (known_value.hpp)
+///   [known]                    "box.mass" = "434 g +- 2 g": what was weighed and measured (known_value.hpp),
+///   of `effects` too
 ///   [[run]]                    file, box_length; frame_rate, release_time (on the table's clock), known,
 ///   release = "unknown"
 ///   initial_grains, column.* of this
 ///                              run alone (from = "": not measured), any key of the setup, e.g. grains.count
 ///                              = 0
-Experiment read_experiment(const std::filesystem::path& file);
+Experiment read_experiment(const std::filesystem::path& file,
+                           std::span<const EffectRecord* const> effects = {});
 
 /// The same from text; tables are looked for in `folder`, `name` stands for the file in messages.
 Experiment parse_experiment(std::string_view text, const std::string& name,
-                            const std::filesystem::path& folder);
+                            const std::filesystem::path& folder,
+                            std::span<const EffectRecord* const> effects = {});
 
 /// A short digest of what was measured and in which setups: changes with any number.
 std::string digest(const Experiment& experiment);

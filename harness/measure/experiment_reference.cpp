@@ -148,7 +148,15 @@ std::string experiment_keys_markdown() {
       "error counts "
       "in every interval, `+- 0` fixes; other numbers of the setup's sections box, spring, blade, grains, "
       "release may "
-      "be said with `+- 0` alone. And of camera and clock (0: nothing wrong expected; else the value is put "
+      "be said with `+- 0` alone. Numbers of effects inside the contacts or on the grains, as a test of the "
+      "grains alone tells them, likewise: `\"velocity_dependent_restitution.exponent\" = \"0.08 +- 0.01\"` "
+      "(a "
+      "drop test, `shakedown bounce`), `\"grain_friction.grain_wall\" = \"0.2 +- 0.03\"` (a grain that "
+      "slides on "
+      "a tilted plate slips at the angle whose tangent mu is). The effect is then part of the model as "
+      "given, "
+      "and its number free within the error. And of camera and clock (0: nothing wrong expected; else the "
+      "value is put "
       "into "
       "the model)\n\n| key | example | bounds | meaning |\n|---|---|---|---|\n";
   for (const CameraKey& key : camera_keys())

@@ -39,7 +39,8 @@ std::vector<std::pair<std::string, double>> numbers_set_by(const KnownValue& val
 }  // namespace
 
 std::string setup_key_of(const KnownValue& value, std::span<const EffectRecord* const> known) {
-  if (find_setup_key(value.key) != nullptr) return value.key;
+  if (find_setup_key(value.key) != nullptr || find_component_number(known, value.key) != nullptr)
+    return value.key;
   const EffectRecord* record = camera_record(value.key, known);
   if (record == nullptr) return "";
   const Search search = search_of(*record);

@@ -53,6 +53,11 @@ bool can_be_known(const SetupKey& key) {
   return is_numeric(key) && std::find(measured.begin(), measured.end(), key.section()) != measured.end();
 }
 
+/// Films of the whole damper tell what acts on the box; of these a test of the grains alone tells more.
+bool is_in_contacts(const EffectRecord& record) {
+  return record.acts_on == ActsOn::contact || record.acts_on == ActsOn::grains;
+}
+
 /// What of the setup is weighed with its error. Of all else a value without error may be said.
 constexpr std::array<std::string_view, 6> weighed_keys{
     "box.mass",         "grains.mass",         "restitution.grain_grain", "restitution.grain_wall",
@@ -74,10 +79,12 @@ struct Target {
   bool low_excluded;
 };
 
-std::optional<Target> target_of(std::string_view path) {
+std::optional<Target> target_of(std::string_view path, std::span<const EffectRecord* const> effects) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (const CameraKey* key = find_camera_key(path))
     return Target{key->unit, key->positive ? 0 : -infinity, infinity, false};
+  if (const Parameter* parameter = find_component_number(effects, path))
+    return Target{parameter->unit, parameter->low, parameter->high, false};
   const SetupKey* key = find_setup_key(path);
   if (!key || !can_be_known(*key)) return std::nullopt;
   return Target{key->unit, key->low, key->high, key->low_excluded};
@@ -100,8 +107,16 @@ std::string meant_by(std::string_view path) {
   return near.empty() ? "" : "'" + std::string(near) + "'";
 }
 
-Violation unknown_key(const TomlEntry& entry, std::string_view key, const std::string& path) {
+Violation unknown_key(const TomlEntry& entry, std::string_view key, const std::string& path,
+                      std::span<const EffectRecord* const> effects) {
   const std::string full = path + std::string(key);
+  if (const EffectRecord* record = find_record(effects, effect_of(key)))
+    return {entry.place, full,
+            is_in_contacts(*record) ? "is no number of that effect that can be measured by itself"
+                                    : "is of an effect that the films themselves tell",
+            is_in_contacts(*record)
+                ? "name one of its numbers (shakedown effects " + std::string(record->name) + ")"
+                : "add the effect to the setup if it is there, or leave this out"};
   if (const SetupKey* found = find_setup_key(key))
     return {entry.place, full,
             is_numeric(*found) ? "is not measured: it only steers a simulation" : "is not a number",
@@ -212,16 +227,17 @@ std::optional<Problem> take(const TomlValue& from, const Target& target, KnownVa
 }
 
 void read_entries(const TomlValue& table, const std::string& above, const std::string& path,
-                  std::vector<KnownValue>& all, std::vector<Violation>& violations) {
+                  std::span<const EffectRecord* const> effects, std::vector<KnownValue>& all,
+                  std::vector<Violation>& violations) {
   for (const TomlEntry& entry : table.entries) {
     const std::string key = above + entry.key;
     if (entry.value.kind == Kind::table) {  // box.mass without quotation marks
-      read_entries(entry.value, key + ".", path, all, violations);
+      read_entries(entry.value, key + ".", path, effects, all, violations);
       continue;
     }
-    const std::optional<Target> target = target_of(key);
+    const std::optional<Target> target = target_of(key, effects);
     if (!target) {
-      violations.push_back(unknown_key(entry, key, path));
+      violations.push_back(unknown_key(entry, key, path, effects));
       continue;
     }
     if (find_known(all, key)) {
@@ -231,7 +247,7 @@ void read_entries(const TomlValue& table, const std::string& above, const std::s
     KnownValue known{key, 0, 0, entry.place};
     if (const std::optional<Problem> problem = take(entry.value, *target, known))
       violations.push_back({entry.value.place, path + key, problem->problem, problem->remedy});
-    else if (known.error > 0 && !is_weighed(key))
+    else if (known.error > 0 && !is_weighed(key) && find_component_number(effects, key) == nullptr)
       violations.push_back({entry.value.place, path + key, "has an error that nothing here weighs",
                             "write the value alone, " + key + " = " +
                                 toml_string(write_quantity(known.value, target->unit)) +
@@ -261,6 +277,7 @@ std::vector<const SetupKey*> knowable_setup_keys() {
 }
 
 bool may_differ_between_runs(std::string_view key) {
+  if (find_camera_key(key) == nullptr && find_setup_key(key) == nullptr) return false;  // of an effect
   const auto starts = [&](std::string_view with) { return key.substr(0, with.size()) == with; };
   return !starts("restitution.") && !starts("spring.") && !starts("camera.wander");
 }
@@ -271,9 +288,10 @@ bool is_of_each_run(std::string_view key) {
 }
 
 std::vector<KnownValue> read_known(const TomlValue& table, const std::string& path,
-                                   std::vector<Violation>& violations) {
+                                   std::vector<Violation>& violations,
+                                   std::span<const EffectRecord* const> effects) {
   std::vector<KnownValue> known;
-  read_entries(table, "", path, known, violations);
+  read_entries(table, "", path, effects, known, violations);
   return known;
 }
 
@@ -283,8 +301,16 @@ const KnownValue* find_known(const std::vector<KnownValue>& known, std::string_v
   return nullptr;
 }
 
-std::string known_line(const KnownValue& known) {
-  const std::optional<Target> target = target_of(known.key);
+const Parameter* find_component_number(std::span<const EffectRecord* const> effects, std::string_view key) {
+  const EffectRecord* record = find_record(effects, effect_of(key));
+  const Parameter* parameter = find_parameter(effects, key);
+  const bool is_number = parameter != nullptr && parameter->kind == ParameterKind::number &&
+                         std::count(key.begin(), key.end(), '.') == 1;
+  return is_number && is_in_contacts(*record) ? parameter : nullptr;
+}
+
+std::string known_line(const KnownValue& known, std::span<const EffectRecord* const> effects) {
+  const std::optional<Target> target = target_of(known.key, effects);
   EXPECT(target.has_value());
   return toml_string(known.key) + " = " +
          toml_string(write_quantity(known.value, target->unit) + " +- " +

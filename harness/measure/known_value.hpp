@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "errors.hpp"
+#include "known_effects.hpp"
 #include "toml_document.hpp"
 
 namespace shakedown {
@@ -14,7 +15,8 @@ namespace shakedown {
 struct SetupKey;
 
 /// A value goes before the setup's own; an error of 0 fixes it. `key` is a numeric key of the setup
-/// ("box.mass", "restitution.grain_grain") or one of camera_keys().
+/// ("box.mass", "restitution.grain_grain"), one of camera_keys(), or a number of an effect inside the
+/// contacts or on the grains, as a component test tells it ("grain_friction.grain_wall").
 struct KnownValue {
   std::string key;
   double value = 0;   ///< SI; of camera and clock as a rule 0: nothing wrong expected
@@ -46,14 +48,21 @@ bool is_of_each_run(std::string_view key);
 bool may_differ_between_runs(std::string_view key);
 
 /// Reads [known]: keys in quotes ("box.mass") or with a dot, values as `value +- error [unit]` with the unit
-/// once or with both. What is wrong goes to `violations`; `path` stands before the keys there.
+/// once or with both. What is wrong goes to `violations`; `path` stands before the keys there. `effects`:
+/// those whose numbers may be said.
 std::vector<KnownValue> read_known(const TomlValue& table, const std::string& path,
-                                   std::vector<Violation>& violations);
+                                   std::vector<Violation>& violations,
+                                   std::span<const EffectRecord* const> effects = {});
 
 /// The value of this key, nullptr when it is not known.
 const KnownValue* find_known(const std::vector<KnownValue>& known, std::string_view key);
 
+/// The number of an effect that a component test tells: of what acts inside the contacts or on the grains, a
+/// number by itself. Null: what acts on the box the momentum balance measures, and all else is no such
+/// number.
+const Parameter* find_component_number(std::span<const EffectRecord* const> effects, std::string_view key);
+
 /// As a line of an experiment file, without its end: "box.mass" = "434 g +- 2 g".
-std::string known_line(const KnownValue& known);
+std::string known_line(const KnownValue& known, std::span<const EffectRecord* const> effects = {});
 
 }  // namespace shakedown

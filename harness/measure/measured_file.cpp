@@ -3,27 +3,15 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
+#include <sstream>
 
+#include "output_file.hpp"
 #include "quantity.hpp"
 #include "setup_file.hpp"
-#include "toml_document.hpp"
 
 namespace shakedown {
 
 namespace {
-
-std::ofstream opened(const std::filesystem::path& file) {
-  std::ofstream output(file, std::ios::binary);
-  if (!output)
-    throw FileError(file.string() + ": cannot be written; check that the folder exists and its permissions");
-  return output;
-}
-
-void close(std::ofstream& output, const std::filesystem::path& file) {
-  output.flush();
-  if (!output) throw FileError(file.string() + ": could not be written to its end; is the disk full?");
-}
 
 std::string micrometres(double metres) {
   if (!std::isfinite(metres)) return "";
@@ -32,7 +20,7 @@ std::string micrometres(double metres) {
   return text;
 }
 
-void write_column(std::ofstream& output, const char* name, const char* from, const char* unit,
+void write_column(std::ostream& output, const char* name, const char* from, const char* unit,
                   double uncertainty) {
   output << "\n[column." << name << "]\nfrom = \"" << from << "\"\nunit = \"" << unit << "\"\n";
   if (std::isfinite(uncertainty))
@@ -42,7 +30,7 @@ void write_column(std::ofstream& output, const char* name, const char* from, con
 }  // namespace
 
 void write_measured_run(const std::filesystem::path& file, const MeasuredRun& run) {
-  std::ofstream output = opened(file);
+  std::ostringstream output;
   output << (run.has_com() ? "t_s,x_box_m,x_com_m\n" : "t_s,x_box_m\n");
   char time[32];
   for (std::size_t i = 0; i < run.time.size(); ++i) {
@@ -53,11 +41,11 @@ void write_measured_run(const std::filesystem::path& file, const MeasuredRun& ru
     if (run.has_com()) output << "," << micrometres(run.x_com[i]);
     output << "\n";
   }
-  close(output, file);
+  write_file(file, output.str());
 }
 
 void write_experiment(const std::filesystem::path& file, const Experiment& experiment) {
-  std::ofstream output = opened(file);
+  std::ostringstream output;
   output << "title = " << toml_string(experiment.title) << "\n";
   double box_uncertainty = NAN, com_uncertainty = NAN;
   bool com = false;
@@ -86,7 +74,7 @@ void write_experiment(const std::filesystem::path& file, const Experiment& exper
     for (const Override& override : run.overrides)
       if (override.key != "box.length") output << override.key << " = " << toml_value(override) << "\n";
   }
-  close(output, file);
+  write_file(file, output.str());
 }
 
 }  // namespace shakedown

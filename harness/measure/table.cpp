@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 
+#include "kept_files.hpp"
 #include "table_text.hpp"
 
 namespace shakedown {
@@ -198,6 +199,9 @@ void drop_shadow_columns(Table& table) {
     table.columns.pop_back();
 }
 
+/// Names are searched for words and units, which takes memory that grows with their length.
+constexpr std::size_t longest_name = 200;
+
 [[noreturn]] void refuse(const std::string& name, const std::string& problem, const std::string& remedy) {
   throw InputError({{{name, 1, 1}, "", problem, remedy}});
 }
@@ -220,7 +224,11 @@ void refuse_other_formats(std::string_view text, const std::string& name) {
   if (text.starts_with("\x1F\x8B")) refuse(name, "is compressed", "unpack it first (gunzip)");
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     refuse(name, "is UTF-16 text (a spreadsheet's \"Unicode text\")", "save it as CSV UTF-8");
-  if (text.find('\0') != text.npos) refuse(name, "is not text", "export the table as CSV");
+  if (const std::size_t at = text.find('\0'); at != text.npos)
+    throw InputError({{{name, 1 + static_cast<int>(std::count(text.begin(), text.begin() + at, '\n')), 1},
+                       "",
+                       "is not text (the line holds a zero byte)",
+                       "export the table as CSV"}});
 }
 
 }  // namespace
@@ -262,6 +270,12 @@ Table parse_table(std::string_view text, const std::string& name) {
   if (header.empty() && last_comment.size() == width) header.push_back(last_comment);
   table.header_lines = lines[first].number - 1;
   table.columns = columns_of(header, width);
+  for (const TableColumn& column : table.columns)
+    if (column.name.size() > longest_name)
+      refuse(name,
+             "has a column name of " + std::to_string(column.name.size()) + " characters (" +
+                 std::to_string(longest_name) + " are the most)",
+             "export the table with short names in one line above the numbers");
   // Spreadsheets write lines of nothing but delimiters below the last row.
   std::size_t end = lines.size();
   while (end > first + 1 && filled(split_cells(trimmed(lines[end - 1].text), table.delimiter)) == 0) --end;
@@ -273,13 +287,14 @@ Table parse_table(std::string_view text, const std::string& name) {
 }
 
 Table read_table(const std::filesystem::path& file) {
+  keep_unchanged(file);
   std::ifstream input(file, std::ios::binary);
   std::stringstream text;
   std::error_code unreadable;  // of a path that leads nowhere
   const bool is_folder = std::filesystem::is_directory(file, unreadable);
   if (!is_folder) text << input.rdbuf();
-  if (!input || is_folder)
-    throw FileError(file.string() + ": cannot be read; check the path and its permissions");
+  if (is_folder) throw FileError(file.string() + ": is a folder, not a table; name the file in it");
+  if (!input) throw FileError(file.string() + ": cannot be read; check the path and its permissions");
   return parse_table(text.str(), file.string());
 }
 

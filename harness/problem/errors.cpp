@@ -2,27 +2,10 @@
 #include "errors.hpp"
 
 #include <algorithm>
-#include <string_view>
+
+#include "text.hpp"
 
 namespace shakedown {
-
-namespace {
-
-/// Control characters of the input would reach the terminal, and a NUL would end the message: they are
-/// written as \\x1b.
-std::string printable(std::string_view text) {
-  std::string shown;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte >= 0x20 && byte != 0x7f) || c == '\n' || c == '\t')
-      shown += c;
-    else
-      shown += std::string("\\x") + "0123456789abcdef"[byte >> 4] + "0123456789abcdef"[byte & 15];
-  }
-  return shown;
-}
-
-}  // namespace
 
 std::string to_string(const Violation& violation) {
   std::string text;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "kept_files.hpp"
 #include "text.hpp"
 
 namespace shakedown {
@@ -25,6 +26,17 @@ std::vector<double> numbers_of(const std::string& line) {
     numbers.push_back(number);
   }
   return numbers;
+}
+
+/// The bounds of the setup's keys: beyond, an engine does not keep its promises.
+bool is_absurd(const std::vector<double>& cells) {
+  constexpr double longest = 1e3, fastest = 1e6;
+  const auto beyond = [&](std::size_t first, double bound) {
+    return std::any_of(cells.begin() + static_cast<std::ptrdiff_t>(first),
+                       cells.begin() + static_cast<std::ptrdiff_t>(first + 3),
+                       [&](double number) { return std::abs(number) > bound; });
+  };
+  return beyond(1, longest) || beyond(4, fastest);
 }
 
 void check_room(const Setup& setup, const State& state, const std::string& file,
@@ -139,6 +151,7 @@ std::string note_on_measured_grains(const Setup& setup) {
 
 void read_grains(const Setup& setup, State& state) {
   const std::string& file = setup.release.initial_grains;
+  keep_unchanged(file);
   std::ifstream input(file);
   if (!input)
     throw FileError(file + ": cannot be read (release.initial_grains); check the path and its permissions");
@@ -153,6 +166,14 @@ void read_grains(const Setup& setup, State& state) {
     if (cells.size() != 7) {
       found.push_back(
           {{file, number, 1}, "", "is not seven finite numbers", "write id,x,y,z,vx,vy,vz in m and m/s"});
+      if (found.size() >= 20) break;
+      continue;
+    }
+    if (is_absurd(cells)) {
+      found.push_back({{file, number, 1},
+                       "",
+                       "holds a place beyond 1 km or a speed beyond 1e6 m/s",
+                       "check the units: id,x,y,z,vx,vy,vz in m and m/s"});
       if (found.size() >= 20) break;
       continue;
     }

@@ -2,6 +2,7 @@
 #include "packing.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -36,13 +37,16 @@ void check_room_of_the_largest(const Setup& setup, const std::vector<double>& ra
                      "make the box larger, or the grains smaller or less unequal"}});
 }
 
+/// Of sites in a row; more than that no packing fills.
+int whole(double number) { return static_cast<int>(std::min(std::floor(number), 1e9)); }
+
 /// Cubic-close layers from the outer (+x) wall inwards: alternate sites of a square grid of spacing a/2, a
 /// = 1.42 diameters.
 std::vector<Vec3> fcc_layers(const Setup& setup) {
   const double diameter = setup.grains.diameter, half_constant = 0.71 * diameter;
   const double front = (setup.box.length - diameter) / 2;
   const auto sites = [&](double width) {
-    return static_cast<int>(std::floor((width - diameter) / half_constant * (1 + 1e-12))) + 1;
+    return whole((width - diameter) / half_constant * (1 + 1e-12)) + 1;
   };
   const int rows = sites(setup.box.width[0]), columns = sites(setup.box.width[1]);
   const double first_y = -half_constant * (rows - 1) / 2, first_z = -half_constant * (columns - 1) / 2;
@@ -64,9 +68,7 @@ std::vector<Vec3> fcc_layers(const Setup& setup) {
 std::vector<Vec3> square_layers(const Setup& setup) {
   const double diameter = setup.grains.diameter, spacing = 1.1 * diameter;
   const double front = (setup.box.length - diameter) / 2;
-  const auto sites = [&](double width) {
-    return static_cast<int>(std::floor((width - diameter) / spacing * (1 + 1e-12))) + 1;
-  };
+  const auto sites = [&](double width) { return whole((width - diameter) / spacing * (1 + 1e-12)) + 1; };
   const int rows = sites(setup.box.width[0]), columns = sites(setup.box.width[1]);
   const std::size_t count = static_cast<std::size_t>(setup.grains.count);
   std::vector<Vec3> centres;
@@ -158,6 +160,14 @@ std::vector<Vec3> sparsely_filled_cell(const Setup& setup, int run) {
   return sites;
 }
 
+std::atomic<const std::atomic<bool>*> asked_to_stop{nullptr};
+
+void expect_not_stopped() {
+  const std::atomic<bool>* asked = asked_to_stop.load(std::memory_order_relaxed);
+  if (asked != nullptr && asked->load(std::memory_order_relaxed))
+    throw Interrupted("the grains were not packed yet");
+}
+
 /// Pushes overlapping grains apart and back into the box until none overlap; false when that does not come
 /// about.
 bool relax(const Setup& setup, const std::vector<double>& radius, std::vector<Vec3>& centres) {
@@ -166,6 +176,7 @@ bool relax(const Setup& setup, const std::vector<double>& radius, std::vector<Ve
   for (int sweep = 0; sweep < 20000; ++sweep) {
     bool overlapping = false;
     for (std::size_t i = 0; i < centres.size(); ++i) {
+      expect_not_stopped();
       for (std::size_t j = i + 1; j < centres.size(); ++j) {
         const Vec3 apart = centres[i] - centres[j];
         const double reach = radius[i] + radius[j], distance = apart.norm();
@@ -191,6 +202,7 @@ bool free_of_overlap(const Setup& setup, const std::vector<double>& radius,
   const bool periodic = setup.domain == Domain::periodic;
   const Vec3 cell(setup.box.length, setup.box.width[0], setup.box.width[1]);
   for (std::size_t i = 0; i < centres.size(); ++i) {
+    expect_not_stopped();
     if (!periodic && ((cell / 2 - centres[i].cwiseAbs()).array() < radius[i]).any()) return false;
     for (std::size_t j = i + 1; j < centres.size(); ++j) {
       Vec3 apart = centres[i] - centres[j];
@@ -223,6 +235,8 @@ std::vector<Vec3> placed_centres(const Setup& setup, Packing packing, int run) {
 }
 
 }  // namespace
+
+void stop_packing_when(const std::atomic<bool>* asked) { asked_to_stop = asked; }
 
 std::vector<Vec3> packed_centres(const Setup& setup, Packing packing, const std::vector<double>& radius,
                                  int run) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <atomic>
 #include <vector>
 
 #include "physics.hpp"
@@ -7,8 +8,11 @@
 namespace shakedown {
 
 /// Centres of grains of the given radii at release, in the frame of the box (x = 0 its centre). Deterministic
-/// in (seed, run). Throws InputError when they do not fit.
+/// in (seed, run). Throws InputError when they do not fit, Interrupted when it is asked to stop.
 std::vector<Vec3> packed_centres(const Setup& setup, Packing packing, const std::vector<double>& radius,
                                  int run);
+
+/// From now on a packing that takes long stops once this is true. It must outlive every packing.
+void stop_packing_when(const std::atomic<bool>* asked);
 
 }  // namespace shakedown

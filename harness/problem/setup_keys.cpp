@@ -19,6 +19,13 @@ auto& field(Setup& setup) {
 Domain& domain_field(Setup& setup) { return setup.domain; }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+// No box on a spring is near these. Beyond, doubles do not keep places 1e-12 m apart (1 km), or times and
+// energies of a run (the others).
+constexpr double longest = 1e3, thinnest = 1e-7;        // m
+constexpr double heaviest = 1e9;                        // kg
+constexpr double fastest = 1e6;                         // m/s
+constexpr double quickest = 1e9;                        // Hz
+constexpr double latest = 1e9;                          // s
 constexpr double largest_seed = 9.2233720368547748e18;  // TOML's whole numbers end at 2^63 - 1
 
 using S = Setup;
@@ -27,33 +34,33 @@ const std::vector<SetupKey>& table() {
       {"domain.kind", &domain_field, "", 0, 0, false,
        "Where the grains live: a box on a spring (damper), a box held still (closed), or a cell without "
        "walls (periodic)."},
-      {"box.mass", &field<&S::box, &S::Box::mass>, "g", 0, infinity, true, "Mass of the box without grains."},
-      {"box.length", &field<&S::box, &S::Box::length>, "mm", 0, infinity, true,
+      {"box.mass", &field<&S::box, &S::Box::mass>, "g", 0, heaviest, true, "Mass of the box without grains."},
+      {"box.length", &field<&S::box, &S::Box::length>, "mm", 0, longest, true,
        "Inner length along the motion."},
-      {"box.width", &field<&S::box, &S::Box::width>, "mm", 0, infinity, true,
+      {"box.width", &field<&S::box, &S::Box::width>, "mm", 0, longest, true,
        "Inner widths across, along y and z."},
-      {"spring.frequency", &field<&S::spring, &S::Spring::frequency>, "Hz", 0, infinity, true,
+      {"spring.frequency", &field<&S::spring, &S::Spring::frequency>, "Hz", 0, quickest, true,
        "Frequency of the empty box; the spring constant is M (2 pi f)^2."},
       {"blade.youngs_modulus", &field<&S::blade, &S::Blade::youngs_modulus>, "GPa", 0, infinity, true,
        "Young's modulus of the blade; only for the beam formula that is reported beside the spring constant "
        "used."},
-      {"blade.width", &field<&S::blade, &S::Blade::width>, "mm", 0, infinity, true,
+      {"blade.width", &field<&S::blade, &S::Blade::width>, "mm", 0, longest, true,
        "Width of the blade; beam formula only."},
-      {"blade.thickness", &field<&S::blade, &S::Blade::thickness>, "mm", 0, infinity, true,
+      {"blade.thickness", &field<&S::blade, &S::Blade::thickness>, "mm", 0, longest, true,
        "Thickness of the blade; beam formula only."},
-      {"blade.length", &field<&S::blade, &S::Blade::length>, "mm", 0, infinity, true,
+      {"blade.length", &field<&S::blade, &S::Blade::length>, "mm", 0, longest, true,
        "Free length of the blade; beam formula only."},
       {"grains.count", &field<&S::grains, &S::Grains::count>, "", 0, 1e8, false,
        "Number of grains; 0 is the empty box."},
-      {"grains.diameter", &field<&S::grains, &S::Grains::diameter>, "mm", 0, infinity, true,
+      {"grains.diameter", &field<&S::grains, &S::Grains::diameter>, "mm", thinnest, longest, false,
        "Diameter of a grain."},
-      {"grains.mass", &field<&S::grains, &S::Grains::mass>, "g", 0, infinity, true, "Mass of a grain."},
+      {"grains.mass", &field<&S::grains, &S::Grains::mass>, "g", 0, heaviest, true, "Mass of a grain."},
       {"restitution.grain_grain", &field<&S::restitution, &S::Restitution::grain_grain>, "", 0, 1, false,
        "Coefficient of normal restitution between grains."},
       {"restitution.grain_wall", &field<&S::restitution, &S::Restitution::grain_wall>, "", 0, 1, false,
        "Coefficient of normal restitution of a grain and the box, end walls and side walls."},
-      {"release.displacement", &field<&S::release, &S::Release::displacement>, "mm", -infinity, infinity,
-       false, "Displacement at which the box is released at rest."},
+      {"release.displacement", &field<&S::release, &S::Release::displacement>, "mm", -longest, longest, false,
+       "Displacement at which the box is released at rest."},
       {"release.packing", &field<&S::release, &S::Release::packing>, "", 0, 0, false,
        "Arrangement of the grains at release."},
       {"release.initial_grains", &field<&S::release, &S::Release::initial_grains>, "", 0, 0, false,
@@ -61,19 +68,19 @@ const std::vector<SetupKey>& table() {
        "the setup file."},
       {"release.kinetic_energy_fraction", &field<&S::release, &S::Release::kinetic_energy_fraction>, "", 0, 1,
        false, "Kinetic energy of the grains at release as a fraction of the spring's energy (damper)."},
-      {"release.grain_speed", &field<&S::release, &S::Release::grain_speed>, "m/s", 0, infinity, false,
+      {"release.grain_speed", &field<&S::release, &S::Release::grain_speed>, "m/s", 0, fastest, false,
        "Root mean square speed of the grains at release in domains without a spring."},
-      {"run.duration", &field<&S::run, &S::Run::duration>, "s", 0, infinity, true, "Simulated time."},
-      {"run.sample_rate", &field<&S::run, &S::Run::sample_rate>, "Hz", 0, infinity, true,
+      {"run.duration", &field<&S::run, &S::Run::duration>, "s", 0, latest, true, "Simulated time."},
+      {"run.sample_rate", &field<&S::run, &S::Run::sample_rate>, "Hz", 0, quickest, true,
        "Samples recorded per second."},
       {"run.seed", &field<&S::run, &S::Run::seed>, "", 0, largest_seed, false, "Seed of all random numbers."},
       {"hard.wall_elastic_fraction", &field<&S::hard, &S::Hard::wall_elastic_fraction>, "", 0, 1, false,
        "End-wall impacts slower than this times the box's current top speed are elastic."},
-      {"hard.pair_elastic_speed", &field<&S::hard, &S::Hard::pair_elastic_speed>, "m/s", 0, infinity, false,
+      {"hard.pair_elastic_speed", &field<&S::hard, &S::Hard::pair_elastic_speed>, "m/s", 0, fastest, false,
        "Impacts between grains slower than this are elastic; 10 mm/s at least where something presses layers "
        "on "
        "walls or impacts give little back."},
-      {"hard.wall_elastic_speed", &field<&S::hard, &S::Hard::wall_elastic_speed>, "m/s", 0, infinity, false,
+      {"hard.wall_elastic_speed", &field<&S::hard, &S::Hard::wall_elastic_speed>, "m/s", 0, fastest, false,
        "End- and side-wall impacts slower than this are elastic; 1 mm/s at least where something presses "
        "layers on walls, grains are unequal or impacts give little back, more the harder layers are "
        "pressed."},

@@ -29,6 +29,18 @@ std::string csv_cell(std::string_view text) {
   return cell + '"';
 }
 
+std::string printable(std::string_view text) {
+  std::string shown;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte >= 0x20 && byte != 0x7f) || c == '\n' || c == '\t')
+      shown += c;
+    else
+      shown += std::string("\\x") + "0123456789abcdef"[byte >> 4] + "0123456789abcdef"[byte & 15];
+  }
+  return shown;
+}
+
 std::string millimetres(double metres) {
   std::array<char, 40> text;
   std::snprintf(text.data(), text.size(), "%.3g mm", metres * 1e3);

@@ -16,6 +16,10 @@ std::string joined(const std::vector<std::string>& words, std::string_view betwe
 /// A cell of a CSV table that may hold commas and quotation marks: in quotation marks, those inside doubled.
 std::string csv_cell(std::string_view text);
 
+/// With control characters written as \\x1b: those of an input or of a file's name would reach the terminal,
+/// and a NUL would end the message. Line ends and tabs stay.
+std::string printable(std::string_view text);
+
 /// "40.1 mm": three significant digits.
 std::string millimetres(double metres);
 

@@ -22,9 +22,9 @@ struct Ledger {
 /// How well an engine kept its promises; every result carries it and every report shows it.
 struct Health {
   double deepest_overlap = 0;  ///< m, positive when surfaces interpenetrate (soft engines: by design)
-  double ledger_error = 0;     ///< max |energy + losses - E0| / E0; E0 <= 0: over the largest energy
-  /// max |momentum - outer impulse| / (M Omega Delta0); Delta0 = 0: over the sum of m |v| at release, from
-  /// rest over the largest momentum
+  double ledger_error = 0;     ///< max |energy + losses - E0| / E0; where more was held: over the most
+  /// max |momentum - outer impulse| / (M Omega Delta0); Delta0 = 0: over the sum of m |v| at release; where
+  /// more was held: over the most
   double momentum_error = 0;
   std::int64_t elastic_rescues = 0;  ///< impacts made elastic by the regularisation of inelastic collapse
   std::int64_t elastic_pair_rescues = 0;  ///< those of them between grains

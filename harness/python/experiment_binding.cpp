@@ -4,6 +4,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "effects.hpp"
 #include "experiment_file.hpp"
 #include "import_tables.hpp"
 
@@ -37,7 +38,7 @@ py::tuple imported(const std::vector<std::string>& files, const std::string& fra
 
 void bind_experiment(py::module_& module) {
   py::class_<Experiment>(module, "Experiment")
-      .def_static("read", [](const std::string& file) { return read_experiment(file); })
+      .def_static("read", [](const std::string& file) { return read_experiment(file, all_effects()); })
       .def_static("parse", [](const std::string& text, const std::string& name,
                               const std::string& folder) { return parse_experiment(text, name, folder); })
       .def_readonly("title", &Experiment::title)

@@ -53,7 +53,7 @@ ReportTable validation_table(const std::vector<Validation>& rows) {
 
 Report report_of(const Refit& fit, const MomentumAudit& momentum, const ModelJudgement& judgement,
                  const Measurement& measurement, const Setup& setup,
-                 const std::vector<MeasuredAgainstModel>& curves) {
+                 const std::vector<MeasuredAgainstModel>& curves, ReportKnobs knobs) {
   const bool holds = judgement.holds();
   Report report;
   report.kind = "compare";
@@ -76,6 +76,7 @@ Report report_of(const Refit& fit, const MomentumAudit& momentum, const ModelJud
   if (momentum.possible)
     report.facts.push_back({"Momentum balance", "p = " + for_people(momentum.as_given.p_value),
                             "forces from outside, no simulation", Tone::plain});
+  report.knobs = std::move(knobs);
   if (!curves.empty()) {
     report.replays = replays_of(curves);
     report.sections = {curves_section(curves, "Measured against model"), failure_section(curves)};

@@ -9,10 +9,11 @@
 
 namespace shakedown {
 
-/// The report of a comparison; the curves must come from measured_against_model() with this setup alone.
+/// The report of a comparison; the curves must come from measured_against_model() with this setup alone;
+/// `knobs`: what the reader may turn.
 Report report_of(const Refit& fit, const MomentumAudit& momentum, const ModelJudgement& judgement,
                  const Measurement& measurement, const Setup& setup,
-                 const std::vector<MeasuredAgainstModel>& curves);
+                 const std::vector<MeasuredAgainstModel>& curves, ReportKnobs knobs = {});
 
 /// Error of each run as bars beside what noise and spread make.
 /// E, u_num, u_input, u_D and u_val of each observable of each run.

@@ -247,12 +247,12 @@ std::vector<std::string> health_lines(const std::vector<MeasuredAgainstModel>& r
     }
   std::vector<std::string> lines = health_in_words(
       worst, fmt::format("Worst of the {} simulations drawn here ({} collisions)", simulations, collisions));
-  lines.insert(lines.begin() + 1,
-               fmt::format("{:.1f} % of the impacts were slow enough to be made elastic (what keeps layers "
-                           "from endless impacts).",
-                           collisions > 0 ? 100.0 * static_cast<double>(worst.elastic_rescues) /
-                                                static_cast<double>(collisions)
-                                          : 0.0));
+  if (collisions > 0)
+    lines.insert(
+        lines.begin() + 1,
+        fmt::format("{:.1f} % of the impacts were slow enough to be made elastic (what keeps layers "
+                    "from endless impacts).",
+                    100.0 * static_cast<double>(worst.elastic_rescues) / static_cast<double>(collisions)));
   return lines;
 }
 

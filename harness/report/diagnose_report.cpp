@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "answer_sections.hpp"
 #include "compare_report.hpp"
 #include "effects.hpp"
 #include "known_effects.hpp"
 #include "page_figures.hpp"
 #include "report_parts.hpp"
-#include "setup_file.hpp"
-#include "setup_keys.hpp"
 #include "text.hpp"
 
 namespace shakedown {
@@ -56,33 +55,53 @@ std::vector<ReportFact> facts_of(const Diagnosis& diagnosis) {
                        last.error_box < 1.2 * last.floor_box ? Tone::good : Tone::unsure});
     facts.push_back(
         {"Noise floor", readable_mm(last.floor_box), "camera and run-to-run spread", Tone::plain});
-    facts.push_back({"Fit of the final model", fmt::format("p = {}", for_people(last.p_value)),
-                     diagnosis.judgement.reason, Tone::plain});
+    if (std::isfinite(last.p_value))
+      facts.push_back({"Fit of the final model", fmt::format("p = {}", for_people(last.p_value)),
+                       fmt::format("{} times the misfit of its own runs", for_people(last.scatter)),
+                       Tone::plain});
   }
-  facts.push_back({"Simulations", fmt::format("{}", diagnosis.runs_simulated),
-                   fmt::format("in {:.0f} s", diagnosis.seconds), Tone::plain});
+  if (diagnosis.runs_simulated > 0)
+    facts.push_back({"Simulations", fmt::format("{}", diagnosis.runs_simulated),
+                     fmt::format("in {:.0f} s", diagnosis.seconds), Tone::plain});
+  else
+    facts.push_back(
+        {"Time", fmt::format("{:.1f} s", diagnosis.seconds), "no simulation was needed", Tone::plain});
   return facts;
 }
 
 ReportSection ladder_section(const Diagnosis& diagnosis) {
   ReportSection section;
   section.title = "How the error fell";
+  const std::vector<LadderStep>& steps = diagnosis.ladder;
+  const auto any = [&](auto&& number) {
+    return std::any_of(steps.begin(), steps.end(),
+                       [&](const LadderStep& step) { return std::isfinite(number(step)); });
+  };
+  const bool held_out = any([](const LadderStep& step) { return step.held_out_error_box; });
+  const bool judged = any([](const LadderStep& step) { return step.p_value; });
   ReportBars bars{"",           "rms of measured less mean of the model, position of the box, over all runs.",
-                  "mm",         {"fitted to", "held out (each box length predicted from the others)"},
+                  "mm",         {"fitted to"},
                   {},           std::nan(""),
                   "noise floor"};
+  if (held_out) bars.names.push_back("held out (each box length predicted from the others)");
   MoreColumn centre{"centre of the grains, mm", {}}, floor{"floor of the box, mm", {}}, p{"p", {}};
-  for (const LadderStep& step : diagnosis.ladder) {
-    bars.lines.push_back({step.step,
-                          fmt::format("p = {}", for_people(step.p_value)),
-                          {step.error_box * 1e3, step.held_out_error_box * 1e3}});
+  bool has_centre = false;
+  for (const LadderStep& step : steps) {
+    const std::string note =
+        std::isfinite(step.p_value) ? fmt::format("p = {}", for_people(step.p_value)) : "";
+    bars.lines.push_back({step.step, note, {step.error_box * 1e3}});
+    if (held_out) bars.lines.back().values.push_back(step.held_out_error_box * 1e3);
+    has_centre = has_centre || step.floor_centre > 0;
     centre.cells.push_back(step.floor_centre > 0 ? for_people(step.error_centre * 1e3) : "–");
     floor.cells.push_back(for_people(step.floor_box * 1e3));
     p.cells.push_back(for_people(step.p_value));
   }
-  if (!diagnosis.ladder.empty()) bars.floor = diagnosis.ladder.back().floor_box * 1e3;
+  if (!steps.empty()) bars.floor = steps.back().floor_box * 1e3;
   section.bars = {bars};
-  section.tables = {numbers_of(bars, "step", {centre, floor, p})};
+  std::vector<MoreColumn> more{floor};
+  if (has_centre) more.insert(more.begin(), centre);
+  if (judged) more.push_back(p);
+  section.tables = {numbers_of(bars, "step", more)};
   return section;
 }
 
@@ -94,22 +113,20 @@ std::string sentence_of(const std::string& effect) {
 
 ReportSection suspects_section(const Diagnosis& diagnosis) {
   ReportSection section;
-  section.title = diagnosis.ranking.empty() ? "What to measure next" : "Suspects";
-  section.list = diagnosis.next_experiments;
-  if (diagnosis.ranking.empty()) {
-    section.paragraphs = {"No effect had to be ranked."};
-    return section;
-  }
+  section.title = "Suspects, by what each would explain";
+  section.folded = true;
   section.paragraphs = {
       "What each effect would explain if it were added and everything else refitted: fall of the misfit, on "
       "the runs fitted to and on box lengths left out. Of what the momentum balance asks for, which needs no "
       "simulation, it is the misfit of the balance."};
-  if (!section.list.empty()) section.paragraphs.push_back("Experiments that would tell more:");
   ReportBars bars;
-  bars.names = {"fall of the misfit", "of held-out lengths"};
+  bars.names = {"fall of the misfit"};
+  const auto was_held_out = [](const RankedEffect& r) { return std::isfinite(r.held_out_gain); };
+  const bool any_held_out = std::any_of(diagnosis.ranking.begin(), diagnosis.ranking.end(), was_held_out);
+  if (any_held_out) bars.names.push_back("of held-out lengths");
   for (const RankedEffect& r : diagnosis.ranking) {
     if (bars.lines.size() == 10) break;
-    const bool held_out = std::isfinite(r.held_out_gain);
+    const bool held_out = was_held_out(r);
     ReportBars::Line line{
         r.effect,
         r.look_alikes.empty() ? sentence_of(r.effect) : "looks like " + joined(r.look_alikes),
@@ -120,39 +137,20 @@ ReportSection suspects_section(const Diagnosis& diagnosis) {
       line.values.push_back(std::max(0.0, r.held_out_gain)), line.errors.push_back(r.standard_error);
     bars.lines.push_back(line);
   }
-  bars.caption =
-      "In units of chi squared. Effects without a second bar were judged by their signatures or by the "
-      "balance only.";
+  bars.caption = "In units of chi squared.";
+  if (any_held_out)
+    bars.caption += " Effects without a second bar were judged by their signatures or by the balance only.";
   if (!bars.lines.empty()) section.bars = {bars};
-  ReportTable table{"All suspects as numbers",
-                    "",
-                    {"effect", "fall of misfit", "held out", "standard error", "strength", "looks like"},
-                    {},
-                    true};
-  for (const RankedEffect& r : diagnosis.ranking)
-    table.rows.push_back({r.effect, for_people(r.gain), for_people(r.held_out_gain),
-                          for_people(r.standard_error), for_people(r.value), joined(r.look_alikes)});
-  section.tables = {table};
-  return section;
-}
-
-/// An effect that the setup does not have has no value there.
-double value_in(const Setup& setup, const std::string& key) {
-  if (find_setup_key(key) == nullptr && find_choice(setup, effect_of(key)) == nullptr) return std::nan("");
-  try {
-    return get_number(setup, key, all_effects());
-  } catch (const InputError&) {
-    return std::nan("");
+  ReportTable table{"All suspects as numbers", "", {"effect", "fall of misfit"}, {}, true};
+  if (any_held_out) table.columns.insert(table.columns.end(), {"held out", "standard error"});
+  table.columns.insert(table.columns.end(), {"strength, SI", "looks like"});
+  for (const RankedEffect& r : diagnosis.ranking) {
+    std::vector<std::string> row{r.effect, for_people(r.gain)};
+    if (any_held_out) row.insert(row.end(), {for_people(r.held_out_gain), for_people(r.standard_error)});
+    row.insert(row.end(), {for_people(r.value), joined(r.look_alikes)});
+    table.rows.push_back(std::move(row));
   }
-}
-
-ReportSection parameters_section(const Diagnosis& diagnosis, const Setup& given) {
-  ReportSection section;
-  section.title = "Parameters";
-  section.paragraphs = {"Best values with 95 % intervals; dashed: the value in the setup as given."};
-  for (const DiagnosedParameter& p : diagnosis.parameters)
-    section.intervals.push_back({p.name, p.unit, p.word, p.value, p.low, p.high,
-                                 p.word.empty() ? value_in(given, p.name) : std::nan("")});
+  section.tables = {table};
   return section;
 }
 
@@ -209,12 +207,15 @@ ReportSection momentum_section(const MomentumAudit& momentum) {
                           momentum.why_not};
     return section;
   }
-  section.paragraphs = {
-      fmt::format("Whatever happens in the contacts, box and grains together obey one balance of momentum; "
-                  "no simulation is needed. As given it closes with "
-                  "chi squared {} a degree of freedom (p = {}), with the terms below {} (p = {}).",
-                  for_people(momentum.as_given.chi2_per_degree()), for_people(momentum.as_given.p_value),
-                  for_people(momentum.final_fit.chi2_per_degree()), for_people(momentum.final_fit.p_value))};
+  if (!std::isfinite(momentum.as_given.p_value) && !std::isfinite(momentum.final_fit.p_value))
+    section.paragraphs = {"The balance of momentum gave no p-value."};
+  else
+    section.paragraphs = {fmt::format(
+        "Whatever happens in the contacts, box and grains together obey one balance of momentum; "
+        "no simulation is needed. As given it closes with "
+        "chi squared {} a degree of freedom (p = {}), with the terms below {} (p = {}).",
+        for_people(momentum.as_given.chi2_per_degree()), for_people(momentum.as_given.p_value),
+        for_people(momentum.final_fit.chi2_per_degree()), for_people(momentum.final_fit.p_value))};
   for (const FoundTerm& term : momentum.terms)
     section.intervals.push_back(
         {term.effect + "." + term.parameter, term.unit, "", term.value, term.low, term.high, std::nan("")});
@@ -247,7 +248,7 @@ ReportSection momentum_section(const MomentumAudit& momentum) {
 }
 
 Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, const Setup& given,
-                 const std::vector<MeasuredAgainstModel>& curves) {
+                 const std::vector<MeasuredAgainstModel>& curves, ReportKnobs knobs) {
   Report report;
   report.kind = "diagnose";
   report.title = measurement.title.empty() ? measurement.file : measurement.title;
@@ -257,6 +258,13 @@ Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, con
   report.facts = facts_of(diagnosis);
   if (!diagnosis.force_formula.empty())
     report.subtitle = "A force ready to try as user_force: " + diagnosis.force_formula;
+  report.opening = answer_of(diagnosis, given);
+  if (!diagnosis.next_experiments.empty()) {
+    report.opening.emplace_back();
+    report.opening.back().title = "What to measure next";
+    report.opening.back().list = diagnosis.next_experiments;
+  }
+  report.knobs = std::move(knobs);
   if (!curves.empty()) {
     report.replays = replays_of(curves);
     report.sections.push_back(curves_section(curves, "Measured against model"));
@@ -265,9 +273,7 @@ Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, con
   if (!diagnosis.validation.empty())
     report.sections.back().tables.push_back(validation_table(diagnosis.validation));
   if (!curves.empty()) report.sections.push_back(failing_cells(diagnosis, failure_section(curves)));
-  if (!diagnosis.ranking.empty() || !diagnosis.next_experiments.empty())
-    report.sections.push_back(suspects_section(diagnosis));
-  report.sections.push_back(parameters_section(diagnosis, given));
+  if (!diagnosis.ranking.empty()) report.sections.push_back(suspects_section(diagnosis));
   report.sections.push_back(momentum_section(diagnosis.momentum));
   if (!curves.empty()) report.sections.push_back(energy_section(curves));
   if (!diagnosis.notes.empty()) {

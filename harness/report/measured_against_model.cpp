@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "camera.hpp"
 #include "ensemble.hpp"
@@ -31,9 +32,10 @@ struct CurveStatistics {
   }
 };
 
-ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine& engine,
+/// `begin`: s, time at which the model is let go.
+ModelMotion motion_of(Setup setup, const std::vector<double>& time, double begin, const Engine& engine,
                       const CurveOptions& options) {
-  setup.run.duration = time.back() + 0.1;
+  setup.run.duration = std::max(0.1, time.back() - begin + 0.1);
   setup.run.sample_rate = 250;
   const Camera camera = physics_of(setup).camera;
   CurveStatistics box(time.size()), centre(time.size()), energy(time.size());
@@ -47,11 +49,12 @@ ModelMotion motion_of(Setup setup, const std::vector<double>& time, const Engine
   many.each = [&](int, const Trajectory& trajectory, const Observables&) {
     const Recording seen = recorded_by(camera, trajectory);
     for (std::size_t i = 0; i < time.size(); ++i) {
-      box.at[i].add(interpolated(seen.time, seen.x_box, time[i]));
-      if (!seen.x_com.empty()) centre.at[i].add(interpolated(seen.time, seen.x_com, time[i]));
-      energy.at[i].add(interpolated(trajectory.time, trajectory.total_energy, time[i]));
+      const double at = std::max(0.0, time[i] - begin);
+      box.at[i].add(interpolated(seen.time, seen.x_box, at));
+      if (!seen.x_com.empty()) centre.at[i].add(interpolated(seen.time, seen.x_com, at));
+      energy.at[i].add(interpolated(trajectory.time, trajectory.total_energy, at));
       for (std::size_t c = 0; c < loss.size(); ++c)
-        loss[c].at[i].add(interpolated(trajectory.time, trajectory.loss[c], time[i]));
+        loss[c].at[i].add(interpolated(trajectory.time, trajectory.loss[c], at));
     }
     motion.health = worse_of(std::move(motion.health), trajectory.health);
     for (const std::int64_t n : trajectory.collisions) motion.collisions += n;
@@ -75,17 +78,33 @@ std::vector<double> residual(const std::vector<double>& measured, const Ensemble
   return result;
 }
 
-/// The frame nearest to each time, none further than one frame away.
-std::vector<double> measured_at(const std::vector<double>& time, const MeasuredRun& run,
-                                const std::vector<double>& values, double interval) {
-  std::vector<double> result(time.size(), std::nan(""));
-  if (values.empty()) return result;
-  for (std::size_t k = 0; k < time.size(); ++k) {
-    auto i = static_cast<std::size_t>(std::lower_bound(run.time.begin(), run.time.end(), time[k]) -
-                                      run.time.begin());
-    if (i == run.time.size() || (i > 0 && time[k] - run.time[i - 1] < run.time[i] - time[k])) --i;
-    if (i < run.time.size() && std::abs(run.time[i] - time[k]) <= interval) result[k] = values[i];
+/// What is drawn of a run: the frames next to moments of equal distance, at their own times, for a box that
+/// is fast goes far in half a frame. Where a frame is missing the moment stays, so that the model is drawn
+/// there.
+struct Moments {
+  std::vector<double> time;                       ///< s
+  std::vector<std::optional<std::size_t>> frame;  ///< of the run
+};
+Moments moments_of(const MeasuredRun& run, double rate, double end, double interval) {
+  Moments moments;
+  for (std::int64_t k = 0; static_cast<double>(k) / rate <= end; ++k) {
+    double time = static_cast<double>(k) / rate;
+    std::optional<std::size_t> frame;
+    auto i =
+        static_cast<std::size_t>(std::lower_bound(run.time.begin(), run.time.end(), time) - run.time.begin());
+    if (i == run.time.size() || (i > 0 && time - run.time[i - 1] < run.time[i] - time)) --i;
+    if (std::abs(run.time[i] - time) <= interval) frame = i, time = run.time[i];
+    if (!moments.time.empty() && time <= moments.time.back()) continue;
+    moments.time.push_back(time);
+    moments.frame.push_back(frame);
   }
+  return moments;
+}
+
+std::vector<double> measured_at(const Moments& moments, const std::vector<double>& values) {
+  std::vector<double> result(moments.time.size(), std::nan(""));
+  for (std::size_t k = 0; k < result.size() && !values.empty(); ++k)
+    if (moments.frame[k]) result[k] = values[*moments.frame[k]];
   return result;
 }
 
@@ -99,8 +118,10 @@ std::vector<MeasuredAgainstModel> measured_against_model(const Measurement& meas
     const MeasuredRun& run = measurement.runs[r].recorded;
     const RunAudit& found = measurement.runs[r].audit;
     if (run.time.empty()) continue;
-    const Setup last = setup_of_run(final_setup, run, options.known);
+    const Setup last = options.final_of_run.empty() ? setup_of_run(final_setup, run, options.known)
+                                                    : options.final_of_run[r];
     const Setup first = given != nullptr ? setup_of_run(*given, run, options.known) : last;
+    const double begin = options.from_first_frame ? run.time.front() : 0;
     MeasuredAgainstModel one;
     one.run = run.name;
     one.given = first;
@@ -108,13 +129,13 @@ std::vector<MeasuredAgainstModel> measured_against_model(const Measurement& meas
     one.box_noise = found.box.standard_deviation;
     one.centre_noise = found.com.standard_deviation;
     const double end = std::min(run.time.back(), 60.0);
-    for (std::int64_t k = 0; static_cast<double>(k) / options.rate <= end; ++k)
-      one.time.push_back(static_cast<double>(k) / options.rate);
-    one.box = measured_at(one.time, run, found.x_box, found.frame_interval);
-    one.centre = measured_at(one.time, run, found.x_com, found.frame_interval);
-    one.final_model = motion_of(last, one.time, engine, options);
+    const Moments moments = moments_of(run, options.rate, end, found.frame_interval);
+    one.time = moments.time;
+    one.box = measured_at(moments, found.x_box);
+    one.centre = measured_at(moments, found.x_com);
+    one.final_model = motion_of(last, one.time, begin, engine, options);
     if (given != nullptr) {
-      one.as_given = motion_of(first, one.time, engine, options);
+      one.as_given = motion_of(first, one.time, begin, engine, options);
       one.given_box_residual = residual(one.box, one.as_given.box, one.box_noise, one.as_given.runs);
       one.given_centre_residual =
           residual(one.centre, one.as_given.centre, one.centre_noise, one.as_given.runs);

@@ -31,8 +31,8 @@ struct ModelMotion {
 struct MeasuredAgainstModel {
   std::string run;
   Setup given, amended;
-  std::vector<double> time;                ///< s
-  std::vector<double> box, centre;         ///< m, the measured frame next to each time; NaN where none is
+  std::vector<double> time;                ///< s, of frames, CurveOptions::rate of them a second
+  std::vector<double> box, centre;         ///< m, measured then; NaN where no frame is
   double box_noise = 0, centre_noise = 0;  ///< m, standard deviation of one frame
   ModelMotion as_given, final_model;       ///< as_given.runs == 0: there is nothing to compare with
   /// Measured less mean over its expected spread (of run to run, of the mean, and of the camera).
@@ -49,6 +49,9 @@ struct CurveOptions {
   std::span<const EffectRecord* const> known;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double fraction)> progress;
+  /// The final model of each measured run; empty: `final_setup` with the run's own keys.
+  std::vector<Setup> final_of_run{};
+  bool from_first_frame = false;  ///< models begin at the first frame and not at time 0
 };
 
 /// `given` may be null: only the final model is simulated. Throws what engines throw, and Interrupted.

@@ -44,12 +44,12 @@ void append_track(std::string& bytes, const ReportReplay::Track& track, const Pa
 
 }  // namespace
 
-PackedNumbers packed(const std::vector<double>& values) {
+PackedNumbers packed(const std::vector<double>& values, double parts) {
   double largest = 0;
   for (const double value : values)
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
   PackedNumbers result;
-  if (largest > 0) result.quantum = std::pow(10, std::floor(std::log10(largest / 40000)));
+  if (largest > 0) result.quantum = std::pow(10, std::floor(std::log10(largest / parts)));
   std::int64_t last = 0;
   for (const double value : values) {
     if (!std::isfinite(value)) {

@@ -11,14 +11,15 @@
 
 namespace shakedown {
 
-/// Numbers in units of a quantum, as differences from one to the next. The quantum is a power of ten below a
-/// 40000th of the largest, far below what a screen shows.
+/// Numbers in units of a quantum, as differences from one to the next. The quantum is a power of ten below
+/// the largest divided by `parts`: as a rule far below what a screen shows.
 struct PackedNumbers {
   double quantum = 1;
   std::vector<std::optional<std::int64_t>>
       steps;  ///< nothing for a gap (NaN), over which the next one goes on
 };
-PackedNumbers packed(const std::vector<double>& values);
+constexpr double parts_of_a_screen = 40000;
+PackedNumbers packed(const std::vector<double>& values, double parts = parts_of_a_screen);
 
 /// Points of a replay in whole time and length units, columns of zigzag 7-bit numbers (page/replay.js reads
 /// them).

@@ -48,20 +48,19 @@ double longest(const ReportBars& bars) {
 /// Bars end at this fraction of the lane: what is right of it holds the numbers.
 constexpr double lane = 0.74;
 
-std::string bar_html(double value, double error, std::size_t kind, double top, const std::string& unit,
+std::string bar_html(double value, double error, const std::string& kind, double top, const std::string& unit,
                      const std::string& name) {
   if (!std::isfinite(value))
-    return fmt::format("<div class=\"bar k{}\" title=\"{}\"><span>no number</span></div>", kind,
+    return fmt::format("<div class=\"bar {}\" title=\"{}\"><span>no number</span></div>", kind,
                        escaped(name));
   std::string whisker;
   if (std::isfinite(error) && value > 0)
     whisker = fmt::format("<s style=\"left:{:.1f}%;width:{:.1f}%\"></s>",
                           100 * std::max(0.0, value - error) / value,
                           100 * (std::min(error, value) + error) / value);
-  return fmt::format(
-      "<div class=\"bar k{}\" title=\"{}\"><i style=\"width:{}\">{}</i><span>{}{}</span></div>", kind,
-      escaped(name), percent(lane * std::max(0.0, value) / top), whisker, for_people(value),
-      unit.empty() ? "" : " " + escaped(unit));
+  return fmt::format("<div class=\"bar {}\" title=\"{}\"><i style=\"width:{}\">{}</i><span>{}{}</span></div>",
+                     kind, escaped(name), percent(lane * std::max(0.0, value) / top), whisker,
+                     for_people(value), unit.empty() ? "" : " " + escaped(unit));
 }
 
 }  // namespace
@@ -130,8 +129,9 @@ std::string bars_html(const ReportBars& bars) {
             (line.note.empty() ? "" : "<small>" + escaped(line.note) + "</small>") +
             "</div><div class=\"lane\">";
     for (std::size_t k = 0; k < line.values.size(); ++k)
-      text += bar_html(line.values[k], k < line.errors.size() ? line.errors[k] : std::nan(""), k, top,
-                       bars.unit, k < bars.names.size() ? bars.names[k] : "");
+      text += bar_html(line.values[k], k < line.errors.size() ? line.errors[k] : std::nan(""),
+                       fmt::format("k{}{}", k, line.tone == Tone::unsure ? " tied" : ""), top, bars.unit,
+                       k < bars.names.size() ? bars.names[k] : "");
     if (std::isfinite(bars.floor))
       text += "<b class=\"floor\" style=\"left:" + percent(lane * bars.floor / top) + "\"></b>";
     text += "</div>";
@@ -178,10 +178,15 @@ std::string intervals_html(const std::vector<ReportInterval>& intervals) {
     }
     double low = whiskers ? v.low : v.value, high = whiskers ? v.high : v.value;
     if (given) low = std::min(low, v.given), high = std::max(high, v.given);
+    const bool known = std::isfinite(v.known_low) && std::isfinite(v.known_high);
+    if (known) low = std::min(low, v.known_low), high = std::max(high, v.known_high);
     const double margin = high > low ? 0.15 * (high - low) : 1e-12 + 0.02 * std::abs(v.value),
                  from = low - margin, across = high - low + 2 * margin;
     const auto at = [&](double x) { return percent((x - from) / across); };
     text += "<span class=\"track\">";
+    if (known)
+      text += fmt::format("<em style=\"left:{};width:{}\" title=\"known before\"></em>", at(v.known_low),
+                          percent((v.known_high - v.known_low) / across));
     if (given) text += "<u style=\"left:" + at(v.given) + "\" title=\"in the setup\"></u>";
     if (whiskers)
       text +=
@@ -192,6 +197,9 @@ std::string intervals_html(const std::vector<ReportInterval>& intervals) {
             number.substr(0, interval) + " " + escaped(v.unit);
     if (interval < number.size()) text += "<small>" + number.substr(interval) + "</small>";
     if (given) text += fmt::format(" <small>setup: {}</small>", for_people(v.given));
+    if (known)
+      text +=
+          fmt::format(" <small>known: {} to {}</small>", for_people(v.known_low), for_people(v.known_high));
     text += "</span>";
   }
   return text + "</div>";

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "report_knobs.hpp"
+
 namespace shakedown {
 
 /// How a sentence, a fact or a bar is meant; shown by a word and a mark, not by colour alone.
@@ -59,7 +61,7 @@ struct ReportBars {
     std::string label, note;
     std::vector<double> values;    ///< NaN: none
     std::vector<double> errors{};  ///< standard errors; may be empty
-    Tone tone = Tone::plain;
+    Tone tone = Tone::plain;       ///< unsure: striped, not told from the others that are
   };
   std::vector<Line> lines;
   double floor = std::numeric_limits<double>::quiet_NaN();  ///< drawn as a line, e.g. the noise floor
@@ -86,6 +88,9 @@ struct ReportInterval {
   double value = 0, low = std::numeric_limits<double>::quiet_NaN(),
          high = std::numeric_limits<double>::quiet_NaN();
   double given = std::numeric_limits<double>::quiet_NaN();  ///< what the setup said before
+  /// What was known before anything was measured; NaN: nothing was.
+  double known_low = std::numeric_limits<double>::quiet_NaN(),
+         known_high = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct ReportSection {
@@ -97,6 +102,7 @@ struct ReportSection {
   std::vector<ReportInterval> intervals;
   std::vector<ReportTable> tables;
   std::vector<std::string> list;
+  bool folded = false;  ///< opened by a click
 };
 
 struct ReportFact {
@@ -128,7 +134,9 @@ struct Report {
   std::string verdict;   ///< one word or two: "missing effect"
   std::string sentence;  ///< the verdict in a sentence
   Tone tone = Tone::plain;
-  std::vector<ReportFact> facts;  ///< a few key numbers
+  std::vector<ReportFact> facts;       ///< a few key numbers
+  std::vector<ReportSection> opening;  ///< what is answered, before anything is shown
+  ReportKnobs knobs;
   std::vector<ReportReplay> replays;
   std::vector<ReportSection> sections;
   std::string command;                 ///< that makes it again

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A report as JSON and back. One list of fields for each struct serves both directions.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "errors.hpp"
+#include "kept_files.hpp"
 #include "report.hpp"
 
 namespace shakedown {
@@ -56,13 +58,13 @@ void fields(F& f, ReportStrip& s) {
 template <class F>
 void fields(F& f, ReportInterval& i) {
   f("name", i.name), f("unit", i.unit), f("word", i.word), f("value", i.value), f("low", i.low),
-      f("high", i.high), f("given", i.given);
+      f("high", i.high), f("given", i.given), f("known_low", i.known_low), f("known_high", i.known_high);
 }
 template <class F>
 void fields(F& f, ReportSection& s) {
   f("title", s.title), f("paragraphs", s.paragraphs), f("plots", s.plots), f("strips", s.strips),
       f("bars", s.bars), f("intervals", s.intervals);
-  f("tables", s.tables), f("list", s.list);
+  f("tables", s.tables), f("list", s.list), f("folded", s.folded);
 }
 template <class F>
 void fields(F& f, ReportFact& x) {
@@ -82,9 +84,44 @@ void fields(F& f, ReportReplay& r) {
       f("measured_x_box", r.measured_x_box);
 }
 template <class F>
+void fields(F& f, ReportKnobs::Number& n) {
+  f("key", n.key), f("label", n.label), f("effect", n.effect), f("role", n.role), f("unit", n.unit);
+  f("factor", n.factor), f("inverse", n.inverse), f("given", n.given), f("best", n.best);
+  f("absent", n.absent), f("from", n.from), f("to", n.to), f("low", n.low), f("high", n.high);
+}
+template <class F>
+void fields(F& f, ReportKnobs::Term& t) {
+  f("numbers", t.numbers), f("weights", t.weights), f("power", t.power);
+}
+template <class F>
+void fields(F& f, ReportKnobs::Curve& c) {
+  f("name", c.name), f("time", c.time), f("measured", c.measured), f("spread", c.spread);
+  f("best", c.best), f("given", c.given), f("columns", c.columns);
+}
+template <class F>
+void fields(F& f, ReportKnobs::Run& r) {
+  f("name", r.name), f("curves", r.curves), f("square", r.square), f("start", r.start);
+  f("place", r.place), f("speed", r.speed), f("origin", r.origin), f("displacement", r.displacement);
+  f("amplitude", r.amplitude);
+}
+template <class F>
+void fields(F& f, ReportKnobs::Value& v) {
+  f("key", v.key), f("value", v.value);
+}
+template <class F>
+void fields(F& f, ReportKnobs::Effect& e) {
+  f("name", e.name), f("toml", e.toml);
+}
+template <class F>
+void fields(F& f, ReportKnobs& k) {
+  f("kind", k.kind), f("note", k.note), f("numbers", k.numbers), f("terms", k.terms), f("runs", k.runs);
+  f("values", k.values), f("effects", k.effects);
+}
+template <class F>
 void fields(F& f, Report& r) {
   f("kind", r.kind), f("title", r.title), f("subtitle", r.subtitle), f("verdict", r.verdict),
       f("sentence", r.sentence), f("tone", r.tone);
+  f("opening", r.opening), f("knobs", r.knobs);
   f("facts", r.facts), f("replays", r.replays), f("sections", r.sections), f("command", r.command),
       f("setup", r.setup), f("program", r.program);
   f("health", r.health), f("citations", r.citations);
@@ -146,6 +183,46 @@ struct FromJson {
   }
 };
 
+bool is_whole(const ReportReplay::Track& track) {
+  const std::size_t n = track.time.size();
+  return track.x.size() == n && track.y.size() == n && track.z.size() == n &&
+         (track.contact.empty() || track.contact.size() == n);
+}
+
+bool is_whole(const ReportReplay& replay) {
+  return is_whole(replay.box) && replay.measured_time.size() == replay.measured_x_box.size() &&
+         replay.radius.size() == replay.grains.size() &&
+         std::all_of(replay.grains.begin(), replay.grains.end(),
+                     [](const ReportReplay::Track& track) { return is_whole(track); });
+}
+
+bool is_known(Tone tone) { return tone >= Tone::plain && tone <= Tone::unsure; }
+
+bool is_whole(const ReportSection& section) {
+  bool whole = true;
+  for (const ReportPlot& plot : section.plots)
+    for (const ReportCurve& curve : plot.curves)
+      whole = whole && curve.y.size() == plot.x.size() && curve.role >= CurveRole::measured &&
+              curve.role <= CurveRole::points;
+  for (const ReportStrip& strip : section.strips)
+    for (const ReportStrip::Row& row : strip.rows)
+      whole = whole && row.values.size() + 1 == strip.edges.size();
+  for (const ReportBars& bars : section.bars)
+    for (const ReportBars::Line& line : bars.lines) whole = whole && is_known(line.tone);
+  return whole;
+}
+
+/// The page takes for granted that what belongs together is equally long.
+bool is_whole(const Report& report) {
+  return is_known(report.tone) &&
+         std::all_of(report.facts.begin(), report.facts.end(),
+                     [](const ReportFact& fact) { return is_known(fact.tone); }) &&
+         std::all_of(report.sections.begin(), report.sections.end(),
+                     [](const ReportSection& section) { return is_whole(section); }) &&
+         std::all_of(report.replays.begin(), report.replays.end(),
+                     [](const ReportReplay& replay) { return is_whole(replay); });
+}
+
 }  // namespace
 
 std::string report_json(const Report& report) {
@@ -158,6 +235,7 @@ std::string report_json(const Report& report) {
 
 Report read_report(std::filesystem::path file) {
   if (std::filesystem::is_directory(file)) file /= report_file_name;
+  keep_unchanged(file);
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw FileError(file.string() +
@@ -172,6 +250,11 @@ Report read_report(std::filesystem::path file) {
     Report report;
     FromJson reader{json};
     fields(reader, report);
+    if (!is_whole(report))
+      throw FileError(
+          file.string() +
+          ": is damaged (curves without a number for each moment, or words that do not exist); run "
+          "its command again");
     return report;
   } catch (const nlohmann::json::exception& error) {
     throw FileError(file.string() + ": is not a report (" + error.what() + "); run its command again");

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "output_file.hpp"
+#include "packed_json.hpp"
 #include "packed_numbers.hpp"
 #include "page_figures.hpp"
 #include "page_files.hpp"
@@ -23,21 +24,14 @@ using Json = nlohmann::ordered_json;
 /// The policy of the page names its scripts by their digests: nothing that a report holds can run.
 std::string script_sources() {
   std::string sources;
-  for (const std::string_view digest : {plot_script_sha256, replay_script_sha256, page_script_sha256}) {
+  for (const std::string_view digest : {plot_script_sha256, replay_script_sha256, model_script_sha256,
+                                        knobs_script_sha256, page_script_sha256}) {
     std::string bytes;
     for (std::size_t i = 0; i < digest.size(); i += 2)
       bytes += static_cast<char>(std::stoi(std::string(digest.substr(i, 2)), nullptr, 16));
     sources += (sources.empty() ? "'sha256-" : " 'sha256-") + base64(bytes) + "'";
   }
   return sources;
-}
-
-/// {"q": quantum, "d": [steps]}, null for a gap.
-Json packed_json(const std::vector<double>& values) {
-  const PackedNumbers numbers = packed(values);
-  Json steps = Json::array();
-  for (const auto& step : numbers.steps) steps.push_back(step ? Json(*step) : Json(nullptr));
-  return {{"q", numbers.quantum}, {"d", std::move(steps)}};
 }
 
 Json plot_json(const ReportPlot& plot) {
@@ -110,7 +104,9 @@ class Page {
   explicit Page(const Report& report) : report_(report) {}
 
   std::string body() {
-    std::string text = header() + tools() + stage();
+    std::string text = header();
+    for (const ReportSection& one : report_.opening) text += section(one, "answer");
+    text += tools() + knobs() + stage();
     for (std::size_t s = 1; s < report_.sections.size(); ++s) text += section(report_.sections[s], "");
     return text + reproduce();
   }
@@ -169,6 +165,12 @@ class Page {
     }
     return text +
            "<span class=\"spring\"></span><button id=\"theme\" type=\"button\">Light or dark</button></nav>";
+  }
+
+  std::string knobs() const {
+    if (report_.knobs.kind.empty()) return "";
+    return "<section><h2>Turn the numbers</h2><p>" + escaped(report_.knobs.note) +
+           "</p><div data-knobs></div></section>";
   }
 
   /// The first section stands beside the replay.
@@ -234,8 +236,9 @@ class Page {
   }
 
   std::string section(const ReportSection& section, const char* css) {
-    std::string text = fmt::format("<section{}><h2>{}</h2>", *css ? fmt::format(" class=\"{}\"", css) : "",
-                                   escaped(section.title));
+    std::string text = fmt::format("<section{}>", *css ? fmt::format(" class=\"{}\"", css) : "");
+    text += (section.folded ? "<details class=\"fold\"><summary><h2>" : "<h2>") + escaped(section.title) +
+            (section.folded ? "</h2></summary>" : "</h2>");
     for (const std::string& paragraph : section.paragraphs) text += "<p>" + escaped(paragraph) + "</p>";
     if (!section.list.empty()) {
       text += "<ul>";
@@ -249,7 +252,7 @@ class Page {
     if (section.bars.size() > 1) text += "</div>";
     text += intervals_html(section.intervals);
     for (const ReportTable& table : section.tables) text += table_html(table);
-    return text + "</section>";
+    return text + (section.folded ? "</details></section>" : "</section>");
   }
 
   std::string reproduce() const {
@@ -295,7 +298,10 @@ std::string report_html(const Report& report) {
   for (std::size_t i = 0; i < report.replays.size(); ++i)
     html += fmt::format("<script type=\"text/plain\" id=\"replay-{}\">{}</script>\n", i,
                         base64(gzip(packed(report.replays[i]).bytes)));
-  for (const char* script : {plot_script, replay_script, page_script})
+  if (!report.knobs.kind.empty())
+    html += fmt::format("<script type=\"text/plain\" id=\"knobs\">{}</script>\n",
+                        base64(gzip(knobs_json(report.knobs))));
+  for (const char* script : {plot_script, replay_script, model_script, knobs_script, page_script})
     html += fmt::format("<script>{}</script>\n", script);
   return html + "</body></html>\n";
 }

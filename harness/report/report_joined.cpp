@@ -15,6 +15,7 @@ void put_before(std::string& group, const std::string& name) {
 
 void rename_groups(Report& report, const std::string& name) {
   for (ReportReplay& replay : report.replays) put_before(replay.group, name);
+  for (ReportSection& section : report.opening) section.title = name + ": " + section.title;
   for (ReportSection& section : report.sections) {
     section.title = name + ": " + section.title;
     for (ReportPlot& plot : section.plots) put_before(plot.group, name);
@@ -46,6 +47,7 @@ Report joined(std::vector<NamedReport> reports) {
     all.setup += "# " + name + "\n" + report.setup + "\n";
     all.program = report.program;
     move_to_end(all.replays, report.replays);
+    move_to_end(all.sections, report.opening);
     move_to_end(all.sections, report.sections);
     for (std::string& line : report.health) line = name + ": " + line;
     move_to_end(all.health, report.health);

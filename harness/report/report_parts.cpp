@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "page_figures.hpp"
 #include "provenance.hpp"
@@ -43,14 +44,42 @@ std::vector<ReportCurve> band(std::string name, std::vector<double> low, std::ve
           {std::move(name), CurveRole::band_high, std::move(high)}};
 }
 
+namespace {
+
+bool is_nothing(const std::vector<double>& values) {
+  return std::none_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && v != 0; });
+}
+
+/// What the other curves leave of the energy at the beginning: effects took it, or put it in where it is less
+/// than nothing.
+std::vector<double> taken_by_effects(const std::vector<double>& left,
+                                     const std::array<std::vector<double>, contact_classes>& lost) {
+  double whole = std::nan("");
+  std::vector<double> taken;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    double sum = left[i];
+    for (const std::vector<double>& of_class : lost) sum += of_class[i];
+    if (!std::isfinite(whole)) whole = sum;
+    taken.push_back(whole - sum);
+  }
+  constexpr double shown = 1e-3;  // of the whole: less is what the ledgers of the engines leave open at most
+  const bool some =
+      std::any_of(taken.begin(), taken.end(), [&](double e) { return std::abs(e) > shown * whole; });
+  return some ? taken : std::vector<double>{};
+}
+
+}  // namespace
+
 ReportPlot energy_plot(std::string group, std::vector<double> time, std::vector<double> left,
                        const std::array<std::vector<double>, contact_classes>& lost) {
   ReportPlot plot = time_plot("Energy", "energy, mJ", std::move(group), std::move(time));
+  std::vector<double> taken = taken_by_effects(left, lost);
   plot.curves = {{"left", CurveRole::model, std::move(left)}};
   const std::array<const char*, contact_classes> names{"lost between grains", "lost at end walls",
                                                        "lost at side walls"};
   for (std::size_t c = 0; c < contact_classes; ++c)
-    plot.curves.push_back({names[c], CurveRole::other, lost[c]});
+    if (!is_nothing(lost[c])) plot.curves.push_back({names[c], CurveRole::other, lost[c]});
+  if (!taken.empty()) plot.curves.push_back({"taken by effects", CurveRole::other, std::move(taken)});
   return plot;
 }
 

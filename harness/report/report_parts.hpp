@@ -21,7 +21,9 @@ ReportPlot time_plot(std::string title, std::string y_label, std::string group, 
 /// The curves of a band; the second carries the name.
 std::vector<ReportCurve> band(std::string name, std::vector<double> low, std::vector<double> high);
 
-/// Box and grains' energy over time, mJ: what is left and what each class of contact took.
+/// Box and grains' energy over time, mJ: what is left, what each class of contact took, and what effects
+/// took, so that all of it adds up to what there was at the beginning. Classes that took nothing are left
+/// out.
 ReportPlot energy_plot(std::string group, std::vector<double> time, std::vector<double> left,
                        const std::array<std::vector<double>, contact_classes>& lost);
 

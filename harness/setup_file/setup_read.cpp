@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "kept_files.hpp"
 #include "known_effects.hpp"
 #include "quantity.hpp"
 #include "setup_file.hpp"
@@ -387,6 +388,7 @@ Setup with_overrides(Setup setup, std::span<const Override> overrides, Known kno
 }
 
 Setup read_setup(const std::filesystem::path& file, Known known, std::span<const Override> overrides) {
+  keep_unchanged(file);
   const std::string text = read_text_file(file);
   if (parse_toml(text, file.string()).entries.empty())
     throw InputError({{{file.string(), 0, 0},

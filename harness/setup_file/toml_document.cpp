@@ -194,6 +194,7 @@ TomlValue parse_toml(std::string_view text, const std::string& name) {
 }
 
 std::string read_text_file(const std::filesystem::path& file) {
+  if (file.empty()) throw FileError("the name of a file is empty; name the file to read");
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw FileError(file.string() + ": is a folder, not a file; name the file in it");

@@ -17,6 +17,7 @@
 
 #include "errors.hpp"
 #include "fnv.hpp"
+#include "kept_files.hpp"
 #include "quantity.hpp"
 #include "run_numbers.hpp"
 #include "series_file.hpp"
@@ -27,10 +28,17 @@ namespace shakedown {
 
 namespace {
 
-constexpr const char* schema_version = "1";
+constexpr const char* schema_version = "2";
 
 [[noreturn]] void refuse(const std::filesystem::path& file, std::string problem, std::string remedy) {
   throw InputError({{{file.string(), 0, 0}, "", std::move(problem), std::move(remedy)}});
+}
+
+[[noreturn]] void refuse_damaged(const std::filesystem::path& file) {
+  throw FileError(
+      file.string() +
+      ": is damaged (what it holds is not what was written); take a copy of it, or sweep again into "
+      "another file");
 }
 
 std::string column_name(std::string_view name) { return "\"" + std::string(name) + "\""; }
@@ -40,6 +48,7 @@ std::string tables_for(const SweepIdentity& identity) {
   std::string varied, numbers;
   for (const SweepAxis& axis : identity.axes) varied += ", " + column_name(axis.column()) + " REAL";
   for (const RunNumber& number : run_numbers()) numbers += ", " + column_name(number.name) + " REAL";
+  numbers += ", record TEXT";
   return "CREATE TABLE IF NOT EXISTS about(name TEXT PRIMARY KEY, value TEXT);"
          "CREATE TABLE IF NOT EXISTS sessions(program TEXT, started TEXT DEFAULT CURRENT_TIMESTAMP);"
          "CREATE TABLE IF NOT EXISTS runs(point TEXT, run INTEGER" +
@@ -121,6 +130,20 @@ class OpeningTurn {
   int folder_;
 };
 
+/// Over everything in a row but the time that it took: a row that was damaged is not taken for a result.
+std::string record_of(const ResultRow& row) {
+  std::string text = fmt::format("{} {} {}", row.point, row.run, row.failure);
+  for (const std::vector<double>& numbers : {row.varied, row.numbers})
+    for (const double number : numbers) text += " " + write_number(number);
+  return hexadecimal(fnv1a(text));
+}
+
+/// Pages that are missing or of another time.
+void expect_sound(const Database& database, const std::filesystem::path& file) {
+  SqlStatement check(database, "PRAGMA quick_check(1)");
+  if (!check.step() || check.text(0) != "ok") refuse_damaged(file);
+}
+
 int column_count(const Database& database) {
   SqlStatement columns(database, "SELECT count(*) FROM pragma_table_info('runs')");
   columns.step();
@@ -138,7 +161,7 @@ struct ResultFile::Inside {
 
   Inside(const std::filesystem::path& path, Database::Access access) : file(path), database(path, access) {}
   int first_number() const { return 4 + static_cast<int>(identity.axes.size()); }
-  int columns() const { return first_number() + static_cast<int>(run_numbers().size()); }
+  int columns() const { return first_number() + static_cast<int>(run_numbers().size()) + 1; }
 
   void prepare_insert() {
     std::string places = "?";
@@ -155,6 +178,7 @@ struct ResultFile::Inside {
     insert->bind(place++, row.failure);
     insert->bind(place++, row.engine_seconds);
     for (const double number : row.numbers) insert->bind(place++, number);
+    insert->bind(place++, record_of(row));
     insert->run();
   }
 };
@@ -166,6 +190,7 @@ ResultFile::ResultFile(const std::filesystem::path& file, const SweepIdentity& i
   in.identity = identity;
   in.database.execute(
       fmt::format("PRAGMA journal_mode = {}; PRAGMA synchronous = NORMAL;", journal_for(file)));
+  expect_sound(in.database, file);
   Transaction transaction(in.database);
   const std::map<std::string, std::string> held = about(in.database);
   if (!held.empty()) {
@@ -184,10 +209,12 @@ ResultFile::ResultFile(const std::filesystem::path& file, const SweepIdentity& i
 }
 
 ResultFile::ResultFile(const std::filesystem::path& file) {
+  keep_unchanged(file);
   if (!std::filesystem::exists(file))
     throw FileError(file.string() + ": is not there; name a file that `shakedown sweep` wrote");
   // a killed writer's journal may have to be rolled back
   inside_ = std::make_unique<Inside>(file, Database::Access::write);
+  expect_sound(inside_->database, file);
   std::map<std::string, std::string> held = about(inside_->database);
   if (held["schema_version"] != schema_version)
     refuse(file, "holds no results of a sweep by this version of the program",
@@ -233,7 +260,8 @@ std::vector<ResultRow> ResultFile::rows() const {
       row.varied.push_back(lines.number(place++));
     row.failure = lines.text(place++);
     row.engine_seconds = lines.number(place++);
-    while (place < inside_->columns()) row.numbers.push_back(lines.number(place++));
+    while (place + 1 < inside_->columns()) row.numbers.push_back(lines.number(place++));
+    if (lines.text(place) != record_of(row)) refuse_damaged(inside_->file);
     rows.push_back(std::move(row));
   }
   return rows;

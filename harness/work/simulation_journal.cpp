@@ -6,6 +6,7 @@
 
 #include "errors.hpp"
 #include "fnv.hpp"
+#include "output_file.hpp"
 
 namespace shakedown {
 
@@ -69,14 +70,17 @@ bool read_record(Reader& reader, std::string_view text, std::uint64_t& key,
 SimulationJournal::SimulationJournal(fs::path file, const std::string& work, bool resume)
     : file_(std::move(file)) {
   const std::string title = "shakedown simulations of " + work + "\n";
-  const bool go_on = resume && fs::exists(file_);
+  std::error_code none;
+  const bool go_on = resume && fs::exists(file_) && fs::file_size(file_, none) > 0;
   if (go_on) read(title);
   std::error_code problem;
   if (!go_on && fs::exists(file_)) fs::rename(file_, file_.string() + ".old", problem);
   if (problem) throw FileError(file_.string() + ": cannot be kept under another name: " + problem.message());
+  if (!go_on) expect_writable(file_);
   stream_.open(file_, go_on ? std::ios::binary | std::ios::app : std::ios::binary | std::ios::trunc);
   if (!go_on) stream_ << title << std::flush;
-  if (!stream_) throw FileError(file_.string() + ": cannot be written");
+  if (!stream_)
+    throw FileError(file_.string() + ": cannot be written; check its permissions, or name another folder");
 }
 
 void SimulationJournal::read(const std::string& title) {

@@ -148,7 +148,9 @@ TEST(BounceAnswer, WritesWhatASetupReads) {
   const BounceReading reading = weigh_drops(read, {});
   const std::string lines = known_lines(reading, "grain_wall");
   EXPECT_NE(lines.find("[known]\n\"restitution.grain_wall\" = \"0."), std::string::npos) << lines;
-  EXPECT_NE(lines.find("# law = \"power\"\n# exponent = 0."), std::string::npos) << lines;
+  EXPECT_NE(lines.find("\"velocity_dependent_restitution.exponent\" = \"0.0"), std::string::npos) << lines;
+  EXPECT_NE(lines.find("\"velocity_dependent_restitution.reference_speed\" = \""), std::string::npos)
+      << lines;
   EXPECT_NE(lines.find("# name = \"fluctuating_restitution\""), std::string::npos) << lines;
   EXPECT_EQ(bounce_json(reading)["law"], "power");
   EXPECT_NE(bounce_text(reading).find("by the law power"), std::string::npos);

@@ -119,3 +119,44 @@ TEST_F(BadInput, NumbersOfOptionsAreNumbers) {
   expect_refused({"crosscheck", setup, "--slope-margin", "nan"}, {"--slope-margin", "nan"}, 2);
   expect_refused({"diagnose", setup, "--data", setup, "--seconds", "nan"}, {"--seconds", "nan"}, 2);
 }
+
+TEST_F(BadInput, WordsThatNameNoFile) {
+  const std::string setup = example("L040.toml");
+  expect_refused({"run", setup, "--out", in_folder("\xff")}, {"\\xff", "UTF-8"});
+  expect_refused({"run", setup, "--out", ""}, {"--out", "empty"});
+  expect_refused({"run", setup, "--report="}, {"--report", "empty"});
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
+/// What the file system refuses is the user's to mend, not a bug.
+TEST_F(BadInput, PathsThatLeadNowhere) {
+  const std::string long_name = in_folder(std::string(300, 'a'));
+  fs::create_symlink("loop", folder / "loop");
+  for (const std::string& path : {long_name, in_folder("loop"), in_folder("loop/a.toml")}) {
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+             {"run", path},
+             {"import", path},
+             {"report", path, "--out", in_folder("r.html")},
+             {"export", path},
+             {"compare", example("L040.toml"), "--data", path},
+             {"merge", in_folder("m.sqlite"), path},
+             {"merge", path, path},
+             {"import", example("L040.toml"), "--out", path},
+             {"diagnose", example("L040.toml"), "--data", example("L040.toml"), "--out", path},
+             {"sweep", example("L040.toml"), "--vary", "box.length=40mm,50mm", "--estimate", "--out",
+              path}}) {
+      const Outcome outcome = shakedown_program(arguments);
+      EXPECT_TRUE(outcome.code == 4 || outcome.code == 2)
+          << arguments[0] << " " << path << ": " << outcome.err;
+    }
+  }
+}
+
+TEST_F(BadInput, ControlCharactersDoNotReachTheTerminal) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"x\033[31m"}, {"run", "a\033[31m"}, {"run", "a", "--b\033[31m"}}) {
+    const Outcome outcome = shakedown_program(arguments);
+    EXPECT_EQ(outcome.err.find('\033'), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("\\x1b[31m"), std::string::npos) << outcome.err;
+  }
+}

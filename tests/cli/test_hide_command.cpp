@@ -43,3 +43,21 @@ TEST_F(HideCommand, PowerCountsAnswersAndWritesNothing) {
   EXPECT_EQ(power["detected"]["low"], 0.0);
   EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
+
+TEST_F(HideCommand, LeavesNothingOfItsEarlierCaseAndTouchesNobodyElses) {
+  const auto hide = [&](const std::string& lengths) {
+    return shakedown_program({"hide", example("L040.toml"), "--engine", "hard", "--lengths", lengths,
+                              "--duration", "0.2 s", "--out", in_folder("case")});
+  };
+  ASSERT_EQ(hide("40mm,65mm").code, 0);
+  file("case/mine.csv", "t,x\n");
+  ASSERT_EQ(hide("85mm").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(in_folder("case/L040.csv")));
+  EXPECT_TRUE(std::filesystem::exists(in_folder("case/L085.csv")));
+  EXPECT_TRUE(std::filesystem::exists(in_folder("case/mine.csv")));
+  file("case/setup.toml", "[box]\nlength = \"40 mm\"\n");
+  const Outcome refused = hide("40mm");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("is an experiment that this command did not make"), std::string::npos)
+      << refused.err;
+}

@@ -195,7 +195,10 @@ TEST(EmptyBox, AFrequencyKnownExactlyStays) {
   DiagnoseOptions options = of_all_effects();
   options.fixed = {"spring.frequency"};
   const double stated = 1.02 * empty_box().spring.frequency;
-  EXPECT_NEAR(of_damped_box({}, options, 1.02).momentum.frequency, stated, 1e-6 * stated);
+  const Diagnosis held = of_damped_box({}, options, 1.02);
+  EXPECT_NEAR(held.momentum.frequency, stated, 1e-6 * stated);
+  EXPECT_EQ(held.amended.spring.frequency, stated);
+  for (const DiagnosedParameter& p : held.parameters) EXPECT_NE(p.name, "spring.frequency");
   const double right = empty_box().spring.frequency;
   EXPECT_NEAR(of_damped_box({{"spring.frequency", right, 0, {}}}, of_all_effects(), 1.02).momentum.frequency,
               right, 1e-6 * right);

@@ -125,3 +125,16 @@ TEST(Verdict, ALateTriggerIsNoErrorThatRose) {
 }
 
 }  // namespace
+
+// 17.4 as given and 2.7 with what was found: less than nine tenths.
+TEST(Verdict, WhatFailsAndExplainsTooLittleIsNoExplanation) {
+  EXPECT_NEAR(share_taken_away(17.4, 2.7), 14.7 / 16.4, 1e-12);
+  EXPECT_EQ(share_taken_away(0.9, 0.8), 1);
+  Findings findings;
+  findings.anything_missing = true;
+  findings.features = {.p_value = 0.0025, .misfit = 2.7};
+  findings.explained = share_taken_away(17.4, 2.7);
+  EXPECT_EQ(verdict_of(findings), Verdict::unknown);
+  findings.explained = share_taken_away(17.4, 1.6);
+  EXPECT_EQ(verdict_of(findings), Verdict::missing);
+}

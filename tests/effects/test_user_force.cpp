@@ -86,6 +86,11 @@ TEST(UserForce, ErrorsHaveTheirPlaceInTheFormula) {
               std::string::npos);
   EXPECT_TRUE(complaint("2*a b*x", "constants = {\"a b\" = 3}\n").find("cannot be read") !=
               std::string::npos);
+  for (const char* name : {"1c", "a b", "", "c-d"})
+    EXPECT_NE(complaint("-0.1*v", "constants = {\"" + std::string(name) + "\" = 3}\n")
+                  .find("the constant '" + std::string(name) + "' has a name"),
+              std::string::npos)
+        << complaint("-0.1*v", "constants = {\"" + std::string(name) + "\" = 3}\n");
   EXPECT_TRUE(
       complaint("v*sqr(x)").find("'sqr' is neither x, v, t, a constant nor a function; did you mean sqrt?") !=
       std::string::npos)

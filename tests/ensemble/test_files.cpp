@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <unistd.h>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -70,16 +69,6 @@ TEST_F(Files, SayBeforehandThatTheyCannotBeWritten) {
   }
 }
 
-TEST_F(Files, AFullDiskIsHeardAndLeavesTheOldFile) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  // A neighbour that is a link to the full device stands for a full disk.
-  write_file(folder / "a.txt", "old");
-  fs::create_symlink("/dev/full", folder / ("a.txt.partial-" + std::to_string(::getpid())));
-  EXPECT_THROW(write_file(folder / "a.txt", std::string(100000, 'x')), FileError);
-  EXPECT_EQ(contents(folder / "a.txt"), "old");
-  EXPECT_EQ(entries(), 1u);
-}
-
 TEST(SeriesFile, TenDigitsAndEmptyCells) {
   EXPECT_EQ(
       series_csv(two_samples()),
@@ -122,4 +111,31 @@ TEST_F(Files, ResultsOfAnEnsemble) {
     EXPECT_TRUE(fs::exists(folder / name)) << name;
   EXPECT_EQ(contents(folder / "series.csv"), contents(folder / "series" / "run_0000.csv"));
   EXPECT_EQ(entries(), 7u);
+}
+
+TEST_F(Files, NothingOfAnEarlierRunStaysBesideTheResults) {
+  const ClosedFormEngine engine;
+  shakedown::Setup setup;
+  setup.run.duration = 1;
+  setup.run.sample_rate = 50;
+  const auto write = [&](int count, bool every_series) {
+    RunResults results(OutputFolder(folder), every_series);
+    EnsembleOptions options;
+    options.runs = count;
+    options.each = [&](int run, const Trajectory& trajectory, const Observables& seen) {
+      results.add(run, trajectory, seen);
+    };
+    results.finish(run_ensemble(engine, setup, options), setup, provenance_of_this_program());
+  };
+  write(3, true);
+  write_file(folder / "collisions.log", "of the first");
+  write_file(folder / "collisions" / "run_0002.log", "of the first");
+  write_file(folder / "series" / "mine.csv", "not of a run");
+  write(1, false);
+  for (const char* gone :
+       {"collisions.log", "collisions", "runs.csv", "mean_series.csv", "series/run_0000.csv"})
+    EXPECT_FALSE(fs::exists(folder / gone)) << gone;
+  EXPECT_EQ(contents(folder / "series" / "mine.csv"), "not of a run");
+  for (const char* name : {"series.csv", "summary.json", "provenance.json", "setup.toml"})
+    EXPECT_TRUE(fs::exists(folder / name)) << name;
 }

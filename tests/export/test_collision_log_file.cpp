@@ -60,3 +60,20 @@ TEST(CollisionLogFile, NamesADamagedFile) {
   }
   EXPECT_THROW(read_collision_log(folder / "missing.log", all_effects()), FileError);
 }
+
+/// One byte makes another motion, or one without end.
+TEST(CollisionLogFile, NamesAFileWithOneChangedByte) {
+  const ScratchFolder folder;
+  const std::string bytes = collision_log_bytes(logged_run());
+  for (std::size_t at = 0; at < bytes.size(); at += bytes.size() / 97) {
+    std::string changed = bytes;
+    changed[at] = static_cast<char>(changed[at] ^ 0x20);
+    write_file(folder / "changed.log", changed);
+    try {
+      read_collision_log(folder / "changed.log", all_effects());
+      ADD_FAILURE() << "byte " << at;
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find("changed.log: is"), std::string::npos) << error.what();
+    }
+  }
+}

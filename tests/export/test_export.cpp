@@ -121,3 +121,36 @@ TEST(Export, TextIsExact) {
   EXPECT_EQ(numbers[7], frame.state.velocity[0].z());
   EXPECT_EQ(numbers[8], frame.state.spin[0].x());
 }
+
+TEST(Export, MoreThanADiskHoldsIsRefused) {
+  const StoredRun run = logged_run();
+  try {
+    frames_of(run, {0, 1, 1e12});
+    FAIL() << "was not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("--rate: gives 1.85e+13 positions"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_P(ExportAs, LeavesNothingWhenItIsStopped) {
+  const StoredRun run = logged_run();
+  const ScratchFolder folder;
+  const std::atomic<bool> stop{true};
+  EXPECT_THROW(export_run(run, {0.2, 0.3, 200, &stop}, export_format_named(GetParam()), folder), Interrupted);
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+TEST(Export, TakesBackItsFramesWhereTheLogDoesNotFit) {
+  StoredRun run = logged_run();
+  run.log.digests.back() ^= 1;
+  run.file = "some.log";
+  const ScratchFolder folder;
+  try {
+    export_run(run, {0, 1, 100}, ExportFormat::vtp, folder);
+    FAIL() << "was not refused";
+  } catch (const FileError& error) {
+    EXPECT_EQ(std::string(error.what()).substr(0, 10), "some.log: ") << error.what();
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+}

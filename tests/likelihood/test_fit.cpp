@@ -105,8 +105,9 @@ TEST(Fit, TwoThatOnlyTheirProductTellsAreConfounded) {
 
 TEST(Fit, BadInput) {
   EXPECT_THROW(fitted("restitution.grain_grain", {"L041"}), InputError);
-  for (const char* bad : {"", "restitution.grain_grian", "grains.count",
-                          "restitution.grain_grain,restitution.grain_grain", "release.packing"})
+  for (const char* bad :
+       {"", "restitution.grain_grian", "grains.count", "restitution.grain_grain,restitution.grain_grain",
+        "release.packing", "blade.length", "soft.contact_time", "hard.kick_interval"})
     EXPECT_THROW(free_parameters(bad, believed(), all_effects()), InputError) << bad;
   const std::vector<Knob> together =
       free_parameters("grain_friction.grain_grain&grain_friction.grain_wall", believed(), all_effects());

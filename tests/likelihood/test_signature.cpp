@@ -118,3 +118,13 @@ TEST(Signature, WhatIsNoNumberIsNoEvidence) {
   EXPECT_TRUE(
       std::isnan(posterior_of(Signature({{1.0, shape(1), 0}}, {residual, 0}), {1, -1, 1}).log_evidence));
 }
+
+TEST(Signature, TheShareSeenIsThatOfTheSquareWithoutNoise) {
+  const Eigen::VectorXd line = 10 * shape(3);
+  const double nu = 50;
+  const Signature signature({{1.0, line, nu}}, {0.5 * line, 0}, false);
+  const double square = line.squaredNorm() - nu;
+  // As long as the residual leaves less than one a feature, straight: the same at every strength.
+  for (const double s : {0.2, 1.0, 1.7}) EXPECT_NEAR(signature.share_seen(s), square / (square + nu), 1e-12);
+  EXPECT_EQ(Signature({{1.0, line, 200}}, {line, 0}).share_seen(1), 0);
+}

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "effects.hpp"
 #include "experiment_file.hpp"
 #include "measured_file.hpp"
 #include "scratch_folder.hpp"
@@ -19,10 +20,10 @@ struct ReadKnown {
   std::string wrong;
 };
 
-ReadKnown known_of_text(const std::string& lines) {
+ReadKnown known_of_text(const std::string& lines, std::span<const EffectRecord* const> effects = {}) {
   ReadKnown result;
   std::vector<Violation> violations;
-  result.values = read_known(parse_toml(lines, "experiment.toml"), "known.", violations);
+  result.values = read_known(parse_toml(lines, "experiment.toml"), "known.", violations, effects);
   for (const Violation& violation : violations) result.wrong += to_string(violation) + "\n";
   return result;
 }
@@ -51,6 +52,26 @@ TEST(KnownValue, IsAValueWithItsErrorAndTheUnitOnceOrTwice) {
   expect_value("\"camera.wander_time\" = \"0.3 s +- 0.1 s\"", 0.3, 0.1);
   expect_value("\"release.displacement\" = \"-107.5 mm +- 5e-1 mm\"", -0.1075, 0.0005);
   expect_value("\"clock\" = \"0 +- 0.01 %\"", 0, 1e-4);
+}
+
+TEST(KnownValue, IsANumberOfAnEffectInsideTheContacts) {
+  const ReadKnown read = known_of_text(
+      "\"grain_friction.grain_wall\" = \"0.2 +- 0.03\"\n"
+      "\"velocity_dependent_restitution.reference_speed\" = \"2 m/s +- 0\"\n",
+      all_effects());
+  ASSERT_EQ(read.values.size(), 2u) << read.wrong;
+  EXPECT_DOUBLE_EQ(read.values[0].value, 0.2);
+  EXPECT_DOUBLE_EQ(read.values[0].error, 0.03);
+  EXPECT_DOUBLE_EQ(read.values[1].value, 2);
+  EXPECT_EQ(known_line(read.values[0], all_effects()), "\"grain_friction.grain_wall\" = \"0.2 +- 0.03\"");
+  EXPECT_FALSE(may_differ_between_runs("grain_friction.grain_wall"));
+  // The balance tells what acts on the box; a law is no number.
+  EXPECT_NE(known_of_text("\"clamp_dry_friction.force\" = \"8 mN +- 1 mN\"", all_effects())
+                .wrong.find("the films themselves tell"),
+            std::string::npos);
+  EXPECT_NE(known_of_text("\"velocity_dependent_restitution.law\" = \"0.1 +- 0.1\"", all_effects())
+                .wrong.find("is no number of that effect"),
+            std::string::npos);
 }
 
 TEST(KnownValue, WrongOnesSayWhatToWrite) {

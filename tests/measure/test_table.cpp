@@ -53,6 +53,7 @@ TEST(Table, LettersOfOneByte) {
 }
 
 TEST(Table, NotATable) {
+  EXPECT_THROW(parse_table("t," + std::string(30000, 'x') + "\n0,0.1\n1,0.2\n", "t.csv"), InputError);
   EXPECT_THROW(parse_table("", "t.csv"), InputError);
   EXPECT_THROW(parse_table("only words\nand more\n", "t.csv"), InputError);
   EXPECT_THROW(parse_table("\xFF\xFEt", "t.csv"), InputError);

@@ -69,3 +69,15 @@ TEST(HostileSetups, ControlCharactersDoNotReachTheTerminal) {
       Violation{{"s.toml", 1, 1}, "k\x1b[31m", std::string("holds \0 and \x07", 13), "write \u00b5m"});
   EXPECT_EQ(message, "s.toml:1:1: k\\x1b[31m: holds \\x00 and \\x07; write \u00b5m");
 }
+
+/// Beyond these bounds an engine keeps no promise, or never comes to an end.
+TEST(HostileSetups, NumbersBeyondWhatDoublesHoldAreRefused) {
+  for (const auto& [key, value] : {std::pair{"box.length", "1e9 m"},
+                                   {"release.displacement", "-1e50 m"},
+                                   {"spring.frequency", "1e300 Hz"},
+                                   {"grains.diameter", "1e-9 mm"},
+                                   {"grains.mass", "1e22 g"},
+                                   {"run.duration", "1e22 s"}})
+    EXPECT_NE(complaint("", {{key, value}}).find("it must lie between"), std::string::npos)
+        << complaint("", {{key, value}});
+}

@@ -17,7 +17,7 @@ const expect = (good, sentence) => { if (!good) wrong.push(sentence); };
 const figures = { bytes: statSync(file).size };
 
 const context = await chromium.launchPersistentContext(mkdtempSync(join(tmpdir(), "report-check-")), {
-  executablePath: process.env.CHROMIUM || "/usr/bin/chromium", headless: true, acceptDownloads: true, viewport: { width: 1280, height: 900 }, colorScheme: "light",
+  executablePath: process.env.CHROMIUM || "/usr/bin/chromium", headless: true, acceptDownloads: true, hasTouch: true, viewport: { width: 1280, height: 900 }, colorScheme: "light",
   args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
     "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
 });
@@ -46,13 +46,74 @@ async function open(options = {}) {
   return page;
 }
 
+/// Every knob moves curves, what is drawn, errors and the setup's lines; the buttons bring back what the program has printed. One knob is
+/// turned by key and one by touch, the others by the events that these make.
+async function check_knobs(page) {
+  if (!(await page.locator("[data-knobs]").count())) return;
+  const found = await page.evaluate(() => {
+    for (const fold of document.querySelectorAll("[data-knobs] details")) fold.open = true;
+    const knobs = report.knobs, { data } = knobs, wrong = [];
+    const expect = (good, sentence) => { if (!good) wrong.push(sentence); };
+    const press = (mode) => document.querySelector(`[data-mode="${mode}"]`).click();
+    const state = () => ({
+      sums: knobs.answers.flatMap((run) => run.curves.map((curve) => curve.reduce((sum, x, i) => sum + x * Math.sin(i), 0))), chi2: knobs.answers.map((run) => run.chi2),
+      drawn: report.plots.filter((entry) => entry.u && entry.mine !== undefined).map((entry) => entry.u.data[entry.mine + 1].reduce((sum, x, i) => sum + (x ?? 0) * Math.cos(i), 0)).join(),
+      error: report.knob_error, lines: document.querySelector("[data-knobs] pre").textContent, said: document.querySelector(".knob-error").textContent });
+    const told = (name) => {
+      const answers = data.runs.map((run) => ({ curves: run.curves.map((curve) => curve[name].map((x) => x ?? NaN)) }));
+      return knob_model.error_of(data, answers, "box", data.kind !== "swing");
+    };
+    for (const mode of ["given", "best"]) {
+      press(mode);
+      const page_says = state().error, program_says = told(mode);
+      expect(!(Math.abs(page_says - program_says) > 0.01 * program_says), `${mode}: the page says ${page_says} mm, the program ${program_says}`);
+    }
+    const inputs = [...document.querySelectorAll("[data-knobs] input[type=range]")];
+    expect(inputs.length === data.numbers.length, "not every number has a slider");
+    let slowest = 0;
+    for (const input of inputs.filter((one) => !one.disabled)) {
+      press("best");
+      const before = state(), key = input.dataset.key;
+      input.value = Number(input.value) + 0.07 * (Number(input.max) - Number(input.value) > 0.1 * (input.max - input.min) ? input.max - input.min : input.min - input.max);
+      input.dispatchEvent(new Event("input", { bubbles: true }));
+      const begun = performance.now();
+      knobs.show_place();
+      slowest = Math.max(slowest, performance.now() - begun);
+      const after = state();
+      expect(after.sums.some((sum, i) => sum !== before.sums[i]), `${key} moves no curve`);
+      expect(after.drawn !== before.drawn || after.sums.every((sum, i) => i === 0 || sum !== before.sums[i]), `${key} moves nothing that is drawn`);
+      expect(after.chi2.some((x, i) => x !== before.chi2[i]), `${key} leaves chi squared as it is`);
+      expect(after.lines !== before.lines, `${key} leaves the lines of the setup as they are`);
+      expect(document.querySelector('[data-mode="own"]').getAttribute("aria-pressed") === "true", `${key} does not make the place one's own`);
+    }
+    const own = state().error;
+    press("best");
+    press("own");
+    expect(state().error === own, "one's own place is not kept");
+    press("best");
+    expect(!/NaN|undefined/.test(document.querySelector("[data-knobs]").innerText), "a knob says what is no number");
+    return { wrong, numbers: data.numbers.length, slowest };
+  });
+  for (const sentence of found.wrong) expect(false, sentence);
+  figures.knobs = found.numbers;
+  figures.milliseconds_a_move = found.slowest;
+  const first = page.locator("[data-knobs] input[type=range]").first(), at = () => page.evaluate(() => report.knobs.place[0]), before = await at();
+  await first.focus();
+  await page.keyboard.press("ArrowLeft");
+  const by_key = await at();
+  expect(by_key !== before, "the arrow keys do not move a knob");
+  const place = await first.boundingBox();
+  await first.tap({ position: { x: 0.3 * place.width, y: place.height / 2 } });
+  await page.waitForFunction((key) => report.knobs.place[0] !== key, by_key, { timeout: 60000 }).catch(() => expect(false, "a touch does not move a knob"));
+}
+
 const page = await open();
 figures.seconds_to_ready = page.own_seconds;
 figures.seconds_with_the_browser = page.seconds;
 figures.cpu_seconds_to_ready = page.cpu_seconds;
 expect(page.own_seconds < 2 || page.cpu_seconds < 0.5, `ready after ${page.own_seconds} s (${page.cpu_seconds} s of computing), not within 2 s`);
 expect(/default-src 'none'/.test((await page.getAttribute("meta[http-equiv=Content-Security-Policy]", "content")) || ""), "no content-security policy that forbids the network");
-expect(figures.bytes <= 1.5e6, `${figures.bytes} bytes, more than 1.5 MB`);
+expect(figures.bytes <= 1.8e6, `${figures.bytes} bytes, more than 1.8 MB`);
 expect((await page.getAttribute("html", "data-ready")) === "yes", "the page did not become ready");
 expect(page.requests.length === 1, `asked for ${page.requests.length} things: ${page.requests.join(" ")}`);
 figures.requests = page.requests.length;
@@ -101,6 +162,7 @@ if (await replay.count()) {
   expect(plays, "the space bar does not play");
   await page.keyboard.press("Space");
 }
+await check_knobs(page);
 const [download] = await Promise.all([page.waitForEvent("download"), page.locator("[data-csv]:visible").first().click()]);
 expect(download.suggestedFilename().endsWith(".csv"), "no CSV to download");
 expect(page.complaints.length === 0, `the console complains: ${page.complaints.join(" | ")}`);

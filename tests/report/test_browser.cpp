@@ -61,6 +61,34 @@ TEST(SlowBrowser, ShowsAStudyOfFourLengthsWithAHiddenEffect) {
   EXPECT_EQ(check(report), 0);
 }
 
+TEST(SlowBrowser, ShowsADiagnosisOfABoxAloneWithItsKnobs) {
+  if (const std::string missing = what_is_missing(); !missing.empty()) GTEST_SKIP() << missing;
+  const shakedown::ScratchFolder folder;
+  const fs::path report = folder / "ring_down.html";
+  ASSERT_EQ(status_of("cd " TEST_DATA "/leaf_spring && " SHAKEDOWN
+                      " diagnose setup.toml --data experiment.toml --report " +
+                      report.string() + " > /dev/null 2>&1"),
+            1);
+  EXPECT_EQ(check(report), 0);
+}
+
+TEST(SlowBrowser, ShowsADiagnosisWithGrainsAndItsKnobs) {
+  if (const std::string missing = what_is_missing(); !missing.empty()) GTEST_SKIP() << missing;
+  const shakedown::ScratchFolder folder;
+  const fs::path study = folder / "study", report = folder / "diagnosis.html";
+  ASSERT_EQ(status_of(SHAKEDOWN " hide " PROJECT_ROOT
+                                "/harness/examples/L040.toml --effect blade_viscous_damping --engine hard "
+                                "--duration '6 s' --out " +
+                      study.string() + " > /dev/null"),
+            0);
+  ASSERT_LE(status_of(SHAKEDOWN " diagnose " + (study / "setup.toml").string() + " --data " +
+                      (study / "experiment.toml").string() + " --seconds 60 --report " + report.string() +
+                      " > /dev/null 2>&1"),
+            1);
+  EXPECT_LT(fs::file_size(report), 1'800'000u);
+  EXPECT_EQ(check(report), 0);
+}
+
 TEST(SlowBrowser, ShowsASweepWithoutGrains) {
   if (const std::string missing = what_is_missing(); !missing.empty()) GTEST_SKIP() << missing;
   const shakedown::ScratchFolder folder;

@@ -6,8 +6,10 @@
 #include <zlib.h>
 
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
+#include "diagnose_report.hpp"
 #include "engines.hpp"
 #include "errors.hpp"
 #include "measured_against_model.hpp"
@@ -15,6 +17,7 @@
 #include "packed_numbers.hpp"
 #include "paper_report.hpp"
 #include "report_joined.hpp"
+#include "report_parts.hpp"
 #include "scratch_folder.hpp"
 
 using namespace shakedown;
@@ -90,6 +93,33 @@ TEST(Report, SurvivesItsFile) {
   EXPECT_THROW(read_report(folder / "missing.json"), FileError);
 }
 
+TEST(Report, DamagedFilesAreNamed) {
+  const ScratchFolder folder;
+  const auto complaint = [&](const std::function<void(Report&)>& damage) -> std::string {
+    Report report = small_report();
+    damage(report);
+    write_file(folder / report_file_name, report_json(report));
+    try {
+      report_html(read_report(folder.path()));
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint([](Report&) {}), "");
+  const std::vector<std::function<void(Report&)>> damages{
+      [](Report& r) { r.sections[0].plots[0].curves[0].y.pop_back(); },
+      [](Report& r) { r.sections[0].plots[0].curves[0].role = static_cast<CurveRole>(99); },
+      [](Report& r) { r.sections[0].strips[0].rows[0].values.clear(); },
+      [](Report& r) { r.tone = static_cast<Tone>(-3); },
+      [](Report& r) { r.replays.emplace_back().radius = {0.005}; },
+      [](Report& r) {
+        r.replays.emplace_back().box.time = {0, 1};
+      }};
+  for (const auto& damage : damages)
+    EXPECT_NE(complaint(damage).find("report.json: is damaged"), std::string::npos) << &damage - &damages[0];
+}
+
 TEST(Report, SeveralAreJoinedWithoutMixingTheirRuns) {
   const Report all = joined({{"a", small_report()}, {"b", small_report()}});
   ASSERT_EQ(all.sections.size(), 3u);
@@ -124,6 +154,44 @@ TEST(Report, ShowsWhereTheGrainsCentreFailsWhereItWasSeen) {
   run.centre.assign(50, std::nan(""));
   EXPECT_EQ(curves_section({run}, "curves").plots.size(), 3u);
   EXPECT_EQ(failure_section({run}).strips.size(), 2u);
+}
+
+// An empty box has no p-value and no length left out; nothing is said of what there is not.
+TEST(Report, OfADiagnosisAnswersFirstAndSaysNoMoreThanThereIs) {
+  Diagnosis d;
+  d.verdict = Verdict::missing;
+  d.sentence = "Missing in the model: something.";
+  d.missing = {"clamp_dry_friction"};
+  d.hypotheses = d.answers = {{{"clamp_dry_friction"}, 0, 0.6}, {{"blade_viscous_damping"}, 0, 0.37}};
+  d.judgement.reason = "holds: the box is left 1 times noise and spread";
+  d.parameters = {{"clamp_dry_friction.force", 8e-3, 7.9e-3, 8.1e-3, "N", ""}};
+  d.camera = {{"camera_origin.origin of a", "m", 1e-3, 2e-4, 1e-4}};
+  d.left = {{"box", 1e-4, 1e-4, std::nan(""), 0.1, ""}};
+  LadderStep step;
+  step.error_box = 1e-4, step.floor_box = 1e-4;
+  step.p_value = step.scatter = step.held_out_error_box = std::nan("");
+  d.ladder = {step, step};
+  const Report report = report_of(d, Measurement{}, shakedown::Setup{}, {});
+  ASSERT_EQ(report.opening.size(), 4u);
+  EXPECT_EQ(report.opening[0].bars[0].lines[0].tone, Tone::unsure);
+  EXPECT_EQ(report.opening[1].intervals[0].unit, "mN");
+  EXPECT_DOUBLE_EQ(report.opening[1].intervals[0].value, 8);
+  EXPECT_EQ(report.opening[2].tables[0].rows[0][2], "0.100");  // per cent of the swing
+  EXPECT_EQ(report.opening[3].intervals[0].name, "origin of the recorded positions of a");
+  const std::string html = report_html(report);
+  const std::string body = html.substr(html.find("<main>"), html.find("<script type") - html.find("<main>"));
+  for (const char* nothing : {"nan", "inf ", "no number", "p = –"})
+    EXPECT_EQ(body.find(nothing), std::string::npos) << nothing;
+  EXPECT_LT(body.find("What is missing"), body.find("How the error fell"));
+}
+
+// Each line of an energy plot is a share of one whole.
+TEST(Report, EnergiesAddUp) {
+  const ReportPlot plot = energy_plot("", {0, 1}, {10, 4}, {std::vector<double>{0, 1}, {0, 2}, {0, 0}});
+  ASSERT_EQ(plot.curves.size(), 4u);  // nothing was lost at side walls
+  EXPECT_EQ(plot.curves.back().name, "taken by effects");
+  EXPECT_EQ(plot.curves.back().y, (std::vector<double>{0, 3}));
+  EXPECT_EQ(energy_plot("", {0, 1}, {10, 7}, {std::vector<double>{0, 1}, {0, 2}, {0, 0}}).curves.size(), 3u);
 }
 
 TEST(PackedNumbers, KeepFourDigitsOfTheLargestAndTheGaps) {

@@ -101,3 +101,21 @@ TEST_F(SoftEffects, FormulasOnTheBoxEnterTheirLine) {
   }}));
   EXPECT_GT(result.ledger.effect_loss[0], 0.1 * result.initial_energy);
 }
+
+/// A spring that turns the box within a few steps: what the steps do not follow is no result.
+TEST_F(SoftEffects, ARunThatDoesNotBalanceIsRefused) {
+  shakedown::Setup setup =
+      with({[](const EffectChoice&, int, Physics& physics) { physics.spring_cubic = 4e22; }});
+  setup.box.length = 0.024442;
+  setup.spring.frequency = 2688.8;
+  setup.grains.mass = 42.966;
+  setup.release.displacement = 1e-12;
+  setup.release.packing = Packing::spread;
+  setup.release.kinetic_energy_fraction = 0;
+  try {
+    make_soft_engine()->run(setup);
+    FAIL() << "was not refused";
+  } catch (const PhysicsError& error) {
+    EXPECT_NE(std::string(error.what()).find("do not balance"), std::string::npos) << error.what();
+  }
+}

@@ -81,7 +81,13 @@ TEST(SoftEngine, RefusesWhatItCannotRun) {
 TEST(SoftEngine, StopsWhenContactsAreTooSoftForTheSetup) {
   shakedown::Setup setup = short_run(1);
   setup.soft.contact_time = 0.03;
-  EXPECT_THROW(make_soft_engine()->run(setup), PhysicsError);
+  try {
+    make_soft_engine()->run(setup);
+    FAIL() << "was not refused";
+  } catch (const PhysicsError& error) {
+    const std::string said = error.what();
+    EXPECT_LE(std::count(said.begin(), said.end(), '\n'), 12) << said;  // of contacts as many as are read
+  }
 }
 
 TEST(SoftEngine, ClosedBoxConservesEnergyOfElasticGrains) {

@@ -16,6 +16,7 @@
 #include "run_numbers.hpp"
 #include "scratch_folder.hpp"
 #include "setup_file.hpp"
+#include "sql.hpp"
 
 using namespace shakedown;
 namespace fs = std::filesystem;
@@ -172,6 +173,27 @@ TEST_F(Sweep, FilesThatDisagreeAreNotMerged) {
   file("b.sqlite").add(rows);
   EXPECT_THROW(merge_results(folder / "merged.sqlite", {folder / "a.sqlite", folder / "b.sqlite"}),
                InputError);
+}
+
+TEST_F(Sweep, DamagedFilesAreNamed) {
+  sweep("a.sqlite", {.threads = 1});
+  {
+    const Database database(folder / "a.sqlite", Database::Access::write);
+    database.execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE;");
+  }
+  fs::copy_file(folder / "a.sqlite", folder / "cut.sqlite");
+  fs::resize_file(folder / "cut.sqlite", fs::file_size(folder / "cut.sqlite") / 2);
+  EXPECT_THROW(merge_results(folder / "merged.sqlite", {folder / "cut.sqlite"}), FileError);
+  EXPECT_THROW(file("cut.sqlite"), FileError);
+  const std::string name(run_numbers().front().name);
+  Database(folder / "a.sqlite", Database::Access::write)
+      .execute("UPDATE runs SET \"" + name + "\" = 1.5 WHERE run = 1;");
+  try {
+    ResultFile(folder / "a.sqlite").rows();
+    FAIL() << "was not refused";
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("a.sqlite: is damaged"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(Sweep, PointsThatAreNoSetupAreNamedBeforeAnythingRuns) {

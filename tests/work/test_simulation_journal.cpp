@@ -91,7 +91,11 @@ TEST_F(Journal, OfOtherWorkIsRefusedAndLeftAlone) {
 }
 
 TEST_F(Journal, ThatCannotBeWrittenIsAFileError) {
-  file = folder / "none" / "simulations.journal";
+  std::ofstream(folder / "plain") << "no folder";
+  file = folder / "plain" / "simulations.journal";
+  EXPECT_THROW(opened(false), FileError);
+  fs::create_symlink("nowhere", folder / "link");
+  file = folder / "link";
   EXPECT_THROW(opened(false), FileError);
 }
 

@@ -22,8 +22,9 @@ async function unpack(id) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/// Numbers are stored as differences in units of a quantum; null is a gap.
+/// Numbers are stored as differences in units of a quantum; null is a gap. What is unpacked stays as it is.
 function numbers(packed) {
+  if (Array.isArray(packed)) return packed;
   const values = new Array(packed.d.length);
   let last = 0;
   for (let i = 0; i < values.length; ++i) values[i] = packed.d[i] === null ? null : (last += packed.d[i]) * packed.q;
@@ -34,6 +35,7 @@ const styles = {
   measured: { stroke: "--measured", width: 1.6, dash: [1.5, 3.5], cap: "round" },
   model: { stroke: "--model", width: 1.7 },
   as_given: { stroke: "--given", width: 1.4, dash: [6, 4] },
+  mine: { stroke: "--mine", width: 1.9 }, best: { stroke: "--other", width: 1.2 },
   other: { stroke: "--other", width: 1.5 },
   points: { stroke: "--given", width: 0 },
   band_low: { stroke: null, width: 0 }, band_high: { stroke: null, width: 0 },
@@ -45,8 +47,11 @@ function series_of(plot) {
   return plot.curves.map((curve) => {
     const style = styles[curve.r];
     const stroke = curve.r === "other" ? more_colours[others++ % more_colours.length] : style.stroke;
+    // Moments a tenth of a second apart: what was measured there are dots, what a model has between them is smooth.
+    if (plot.smooth && curve.r === "measured") return { label: curve.n, stroke: () => colour(stroke), width: 0, points: { show: true, size: 4, fill: () => colour(stroke) } };
     return {
       label: curve.n, stroke: stroke ? () => colour(stroke) : null, width: style.width, dash: style.dash, cap: style.cap,
+      paths: plot.smooth && style.stroke ? uPlot.paths.spline() : undefined,
       points: { show: curve.r === "points" || (plot.x.length < 40 && style.width > 0), size: curve.r === "points" ? 7 : 5 }, spanGaps: false,
     };
   });
@@ -90,7 +95,7 @@ function make_plot(element, plot) {
   plot.x = numbers(plot.x);
   const data = [plot.x, ...plot.curves.map((curve) => numbers(curve.y))];
   const axis = (label, size) => ({
-    label, labelSize: 20, size, labelFont: "12px system-ui, sans-serif", font: "12px system-ui, sans-serif",
+    label: label || undefined, labelSize: 20, size, space: size > 40 ? 26 : 50, labelFont: "12px system-ui, sans-serif", font: "12px system-ui, sans-serif",
     stroke: () => colour("--soft"), grid: { stroke: () => colour("--hair"), width: 1 }, ticks: { stroke: () => colour("--line"), width: 1, size: 4 },
   });
   const marker = document.createElement("div");
@@ -220,6 +225,7 @@ async function start() {
   page.replays = page.data.replays.map((replay, i) => start_replay(page, replay, i));
   const first = document.querySelector("[role=tab][aria-selected=true]");
   if (page.data.replays.length) page.time = page.data.replays[0].from;
+  await start_knobs(page);
   const grains = show_group(first ? first.dataset.tab : "");
   page.ready = performance.now();
   root.dataset.ready = "yes";

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "arguments.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "errors.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// How many bytes the character takes that begins with this one; 0: none begins so.
+std::size_t length_of_character(unsigned char first) {
+  if (first < 0x80) return 1;
+  if (first >= 0xc2 && first < 0xe0) return 2;
+  if (first >= 0xe0 && first < 0xf0) return 3;
+  return first >= 0xf0 && first < 0xf5 ? 4 : 0;
+}
+
+bool is_utf8(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = length_of_character(byte(at));
+    if (length == 0 || at + length > text.size()) return false;
+    for (std::size_t i = at + 1; i < at + length; ++i)
+      if ((byte(i) & 0xc0) != 0x80) return false;
+    // longer than need be, half of a pair, or beyond the last character
+    if (length > 2 &&
+        ((byte(at) == 0xe0 && byte(at + 1) < 0xa0) || (byte(at) == 0xed && byte(at + 1) > 0x9f) ||
+         (byte(at) == 0xf0 && byte(at + 1) < 0x90) || (byte(at) == 0xf4 && byte(at + 1) > 0x8f)))
+      return false;
+    at += length;
+  }
+  return true;
+}
+
+/// As the message can show it.
+std::string with_bytes_named(std::string_view text) {
+  std::string shown;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    shown += byte < 0x80 ? std::string(1, c)
+                         : std::string("\\x") + "0123456789abcdef"[byte >> 4] + "0123456789abcdef"[byte & 15];
+  }
+  return shown;
+}
+
+constexpr std::array<std::string_view, 4> outputs{"--out", "--report", "--table", "--truth"};
+
+bool names_no_output(const std::vector<std::string>& words, std::size_t i) {
+  return std::any_of(outputs.begin(), outputs.end(), [&](std::string_view option) {
+    return words[i] == std::string(option) + "=" ||
+           (words[i] == option && i + 1 < words.size() && words[i + 1].empty());
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> parser_words(int count, char** words) {
+  std::vector<std::string> arguments(words + std::min(count, 1), words + count);
+  std::vector<Violation> found;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (!is_utf8(arguments[i]))
+      found.push_back({{},
+                       with_bytes_named(arguments[i]),
+                       "is no UTF-8 text (results could not name it)",
+                       "rename the file or folder"});
+    if (names_no_output(arguments, i))
+      found.push_back({{},
+                       arguments[i].substr(0, arguments[i].find('=')),
+                       "has an empty name",
+                       "name a file or folder, or leave the option out"});
+    // "--json" may go without a file; a setup after it is the setup, not a file to overwrite.
+    if (i + 1 < arguments.size() && arguments[i] == "--json" && arguments[i + 1].ends_with(".toml"))
+      arguments[i] = "--json=-";
+  }
+  if (!found.empty()) throw InputError(std::move(found));
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
+}
+
+}  // namespace shakedown

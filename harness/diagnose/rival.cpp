@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "rival.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <numbers>
+#include <tuple>
+
+#include "key_unit.hpp"
+#include "nuisance.hpp"
+#include "rules.hpp"
+
+namespace shakedown {
+
+namespace {
+
+/// Without the effect the restitutions were led astray: the box reaches from there to what the user gave.
+std::vector<Knob> covering_the_users_values(std::vector<Knob> knobs) {
+  for (Knob& knob : knobs) {
+    if (!is_believed(knob)) continue;
+    const double apart = std::abs(knob.centre - knob.believed);
+    knob.centre = (knob.centre + knob.believed) / 2;
+    knob.width = apart / 2 + 0.8 * knob.believed_error;
+  }
+  return knobs;
+}
+
+/// The fit of a candidate begins at the strength that its signature asks for.
+std::vector<Knob> knobs_of(const Candidate& candidate, const ScreenedEffect& screened) {
+  std::vector<Knob> added = candidate.fitted_knobs();
+  for (Knob& knob : added) {
+    if (std::isinf(knob.absent))  // a length, known by what it does
+      knob.width *= screened.value / knob.centre;
+    else
+      knob.width = std::max(knob.width, 0.5 * std::abs(screened.value - knob.absent));
+    knob.centre = std::clamp(screened.value, knob.low, knob.high);
+  }
+  return added;
+}
+
+/// An exact knob of the camera that the candidate itself moves is no nuisance beside it.
+std::vector<Knob> without(std::vector<Knob> knobs, const std::vector<Knob>& these) {
+  std::erase_if(knobs, [&](const Knob& knob) {
+    return std::any_of(these.begin(), these.end(), [&](const Knob& other) { return other.key == knob.key; });
+  });
+  return knobs;
+}
+
+/// The fitted strength of a rival, as the prior counts it.
+StrengthSeen strength_fitted(const Rival& rival) {
+  StrengthSeen seen = rival.screened.seen;
+  const std::vector<Knob> added = rival.candidate->fitted_knobs();
+  const Refit& fit = rival.state.fit;
+  for (std::size_t k = 0; k < fit.values.size(); ++k)
+    for (const Knob& knob : added)
+      if (fit.values[k].key == knob.key && rival.candidate->knobs.size() > 0) {
+        std::tie(seen.value, seen.error) = strength_of(fit, k);
+        if (seen.one_sided) seen.value = std::abs(seen.value);
+      }
+  return seen;
+}
+
+/// What a fit leaves, in the metric of these covariances of each run.
+double chi2_left(const Refit& fit, const std::vector<Eigen::MatrixXd>& covariances) {
+  double sum = 0;
+  for (std::size_t r = 0; r < fit.runs.size(); ++r)
+    sum += Eigen::LLT<Eigen::MatrixXd>(covariances[r]).matrixL().solve(fit.runs[r].residual).squaredNorm();
+  return sum;
+}
+
+}  // namespace
+
+bool is_arithmetic(const Rival& rival) { return rival.candidate->fitted_knobs().front().exact; }
+
+bool is_found(const Rival& rival) { return rival.fitted && rival.log_odds > 0; }
+
+std::vector<Knob> at_values(const Refit& fit) {
+  std::vector<Knob> knobs = fit.knobs;
+  for (std::size_t k = 0; k < knobs.size(); ++k)
+    if (!knobs[k].exact) knobs[k].centre = fit.values[k].value;
+  return knobs;
+}
+
+void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
+               double lowest, Effort effort) {
+  const Candidate& candidate = *rival.candidate;
+  DiagnosisState& state = rival.state = before;
+  state.setup = prepared(before.setup, candidate, tools.known());
+  const std::vector<Knob> added = knobs_of(candidate, rival.screened);
+  state.found = together(before.found, added);
+  state.camera = without(before.camera, added);
+  if (std::find(state.missing.begin(), state.missing.end(), candidate.effect) == state.missing.end())
+    state.missing.push_back(candidate.effect);  // else of another component
+  const std::vector<Knob> knobs =
+      together(together(covering_the_users_values(before.theta), state.found), state.camera);
+  const std::string stage = "trying " + candidate.effect;
+  state.fit = tools.fit(state, stage, knobs, effort, &before.fit, lowest);
+  state.dear = before.dear || candidate.dear;
+  rival.fitted = true;
+  rival.held_out_gain = before.fit.judged_held_out_chi2 - state.fit.judged_held_out_chi2;
+  if (is_arithmetic(rival)) return;
+  const ScreenEffort& weighing = state.dear ? effort::rank_when_dear : effort::rank;
+  try {
+    rival.log_ratio =
+        screen.log_likelihood_ratio(tools.features(state.setup), at_values(state.fit), weighing.nothing);
+  } catch (const BudgetSpent&) {  // the signature's evidence stands
+  }
+}
+
+/// The table is of what the signatures say, and of fitted models where they were weighed. The chi2 of two
+/// fits differ by chaos alone as much as effects that matter do.
+void weigh_rival(Rival& rival, double candidates) {
+  rival.weighed = rival.fitted || rival.screened.weighed;
+  const StrengthSeen& seen = rival.screened.seen;
+  rival.log_odds = prior_log_odds(seen.odds, candidates);
+  if (rival.screened.weighed) rival.log_odds += rival.screened.log_evidence;
+  if (!std::isfinite(rival.log_ratio)) return;
+  StrengthSeen fitted = strength_fitted(rival);
+  fitted.gain = 2 * rival.log_ratio;
+  rival.log_odds = log_odds_of(fitted, candidates);
+}
+
+void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
+  const auto holds = [](const Rival& rival) {
+    return is_found(rival) && std::isfinite(rival.log_ratio) && rival.state.fit.p_value > rules::holds;
+  };
+  const Rival* best = nullptr;
+  for (const Rival& rival : rivals)
+    if (holds(rival) && (best == nullptr || rival.log_odds > best->log_odds)) best = &rival;
+  if (best == nullptr) return;
+  const std::vector<Eigen::MatrixXd>& covariances = best->state.fit.covariances;
+  const auto prior = [&](const Rival& rival) { return prior_log_odds(rival.screened.seen.odds, candidates); };
+  // The difference of two fits has an error of its own. Averaged over it the odds are those of a difference
+  // that is so much smaller (D. J. C. MacKay, Neural Computation 4, 720 (1992)).
+  const double error = rules::emulator_noise / 2,
+               smaller = 1 / std::sqrt(1 + std::numbers::pi / 8 * error * error);
+  const double of_best = chi2_left(best->state.fit, covariances), from = best->log_odds - prior(*best);
+  for (Rival& rival : rivals)
+    if (&rival != best && holds(rival))
+      rival.log_odds =
+          from + prior(rival) + smaller * (of_best - chi2_left(rival.state.fit, covariances)) / 2;
+}
+
+double probability_among(const std::vector<Rival>& rivals, const Rival& one) {
+  std::vector<Hypothesis> table{{{}, 0, 0}};
+  for (const Rival& rival : rivals)
+    if (std::isfinite(rival.log_odds)) table.push_back({{rival.candidate->effect}, rival.log_odds, 0});
+  weigh(table);
+  double sum = 0;
+  for (const Hypothesis& h : table)
+    if (h.effects == std::vector<std::string>{one.candidate->effect}) sum += h.probability;
+  return sum;
+}
+
+RankedEffect ranked_as(const Rival& rival) {
+  RankedEffect ranked{rival.candidate->effect, rival.screened.gain,       std::nan(""), std::nan(""),
+                      rival.screened.value,    rival.screened.look_alikes};
+  if (!rival.fitted) return ranked;
+  ranked.fitted = true;
+  if (std::isfinite(rival.log_ratio)) ranked.gain = 2 * rival.log_ratio;
+  ranked.held_out_gain = rival.held_out_gain;
+  // of a difference of two chi2 of nested models
+  ranked.standard_error = 2 * std::sqrt(std::abs(rival.held_out_gain));
+  for (const FittedValue& value : rival.state.fit.values)
+    for (const Knob& knob : rival.candidate->fitted_knobs())
+      if (value.key == knob.key) ranked.value = value.value;
+  return ranked;
+}
+
+}  // namespace shakedown

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// A candidate on its way through a round of the search: screened, fitted, weighed.
+#pragma once
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "effect_screen.hpp"
+#include "state.hpp"
+
+namespace shakedown {
+
+struct Rival {
+  const Candidate* candidate;
+  ScreenedEffect screened;
+  double log_odds = 0;
+  double held_out_gain = 0;         ///< of chi2, fitted
+  double log_ratio = std::nan("");  ///< ln likelihood of the fitted model over that before, means and spreads
+  bool fitted = false;
+  DiagnosisState state{};  ///< where it was fitted
+  bool weighed = false;    ///< log_odds is more than its prior
+  bool attempted = false;  ///< its fit had its turn
+};
+
+/// What it does to the features is arithmetic on the recording: its signature is exact, and the gain of a
+/// fit, which chaos makes, would tell less.
+bool is_arithmetic(const Rival& rival);
+
+/// A fit found it.
+bool is_found(const Rival& rival);
+
+/// The knobs of a fit at its values.
+std::vector<Knob> at_values(const Refit& fit);
+
+/// Fits it beside the state `before`; `lowest`: chi2 of the best fit so far, of which a poor first look is
+/// worth another. BudgetSpent, PhysicsError and InputError pass.
+void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
+               double lowest, Effort effort);
+
+/// Its odds beside nothing by what is known so far: its prior, its signature, its fitted model. `candidates`:
+/// the number of known effects.
+void weigh_rival(Rival& rival, double candidates);
+
+/// Where the data reject the model without them all, the likelihood of each over it is told in the metric of
+/// a model that is wrong: 2 % of thousands. Fitted rivals which the data accept are weighed beside the best
+/// of them by what each leaves, in the metric of that one.
+void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates);
+
+/// Of this effect in any of its forms, among these, each alone, and nothing.
+double probability_among(const std::vector<Rival>& rivals, const Rival& one);
+
+RankedEffect ranked_as(const Rival& rival);
+
+}  // namespace shakedown

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// How the mean motion of every measured run changes as the numbers of the model are turned: from the slopes
+// of the last fit, and from simulations at some places that are made for it. A page moves its curves by this
+// without simulating anything.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "last_fit.hpp"
+
+namespace shakedown {
+
+enum class NumberRole { parameter, effect, suspect, camera };
+std::string_view name_of(NumberRole role);
+
+/// A number that can be turned. Its places are its values in SI; of a length, infinite without the effect,
+/// 1/value^2.
+struct TurnedNumber {
+  std::string key;  ///< path in the setup; keys that move together joined by &
+  NumberRole role = NumberRole::parameter;
+  bool inverse = false;
+  double given = 0, best = 0;
+  double absent = std::numeric_limits<double>::quiet_NaN();  ///< of an effect
+  double from = 0, to = 0;   ///< where simulations or arithmetic tell the answer
+  double low = 0, high = 0;  ///< ends of what is offered
+};
+
+/// A share of a column: (sum of weight x (place - best) over some numbers)^power. Power 0 is a hill about the
+/// numbers as given: (1 - sum of (weight x (place - given))^2)^2, nothing where that sum is above 1.
+struct TurnedTerm {
+  std::vector<std::pair<std::size_t, double>> weights;
+  int power = 1;
+};
+
+struct TurnedModel {
+  std::vector<TurnedNumber> numbers;
+  std::vector<TurnedTerm> terms;
+  std::vector<Eigen::MatrixXd> columns;  ///< of each run, features x terms, m
+  /// Of each run: chi2 is l' square l with l = (1, less the share of each term).
+  std::vector<Eigen::MatrixXd> square;
+  std::vector<std::string> left_out;  ///< what there was no time to simulate, in words
+
+  /// The share of each term with the numbers at these places.
+  Eigen::VectorXd shares(const Eigen::VectorXd& place) const;
+  Eigen::VectorXd places(double TurnedNumber::*which) const;
+};
+
+struct TurnedOptions {
+  std::span<const EffectRecord* const> known;
+  std::vector<std::string> missing;   ///< effects found
+  std::vector<std::string> suspects;  ///< effects that are offered besides, most wanted first
+  int count = 24;                     ///< simulations of each different setup at each place
+  int first_run = 7000000;            ///< addresses their random numbers
+  double seconds = 60;                ///< for simulations, at most
+  int threads = 0;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// `user`: the setup as given. Simulates with `engine`; what it cannot simulate, or has no time for, is left
+/// to straight lines and named.
+TurnedModel turned_model(const EnsembleFit& fit, const Setup& user, const Engine& engine,
+                         const TurnedOptions& options);
+
+/// The numbers of a box alone: spring, laws found, and the laws and numbers of the camera that may be tried;
+/// its motion follows by integrating the equation. Empty where something acts that a page cannot integrate (a
+/// formula).
+std::vector<TurnedNumber> turned_numbers(const SwingFound& found, const Setup& user,
+                                         const std::vector<std::string>& missing,
+                                         std::span<const EffectRecord* const> known);
+
+}  // namespace shakedown

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What the momentum balance found, as knobs of a fit.
+#include <gtest/gtest.h>
+
+#include "effects.hpp"
+#include "engines.hpp"
+#include "from_balance.hpp"
+#include "known_effects.hpp"
+#include "setup_file.hpp"
+
+using namespace shakedown;
+
+// A sine that is hardly known: a fit may move its phase, but not to where no setup can have it.
+TEST(FromBalance, ASineStaysWithinTheBoundsOfASetup) {
+  FoundTerm sine;
+  sine.effect = "oscillating_acceleration";
+  sine.parameter = "amplitude";
+  sine.value = 0.1, sine.low = 0, sine.high = 0.5;
+  sine.frequency = 1.4, sine.phase = 3;
+  DiagnosisState state;
+  state.setup = read_setup(std::string(PROJECT_ROOT) + "/harness/examples/L040.toml", all_effects());
+  DiagnoseOptions options;
+  options.known = all_effects();
+  std::vector<std::string> notes;
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  state = with_balance(state, {sine}, {}, *engine, options, notes);
+  ASSERT_EQ(state.found.size(), 3u);
+  for (const Knob& knob : state.found) {
+    const Parameter* parameter = find_parameter(all_effects(), knob.key);
+    ASSERT_NE(parameter, nullptr);
+    EXPECT_GE(knob.at(-1e3), parameter->low) << knob.key;
+    EXPECT_LE(knob.at(1e3), parameter->high) << knob.key;
+  }
+}
