@@ -54,8 +54,9 @@ Rung climb(const std::string& file, const Setup& setup, const Measurement& measu
   RefitOptions options;
   options.count = arguments.runs;
   // Refitted, so that a rung with few effects does not lose because its parameters were chosen worse.
-  std::vector<Knob> knobs = arguments.refit ? believed(free_parameters(setup), measurement.known, all_effects())
-                                            : as_given(setup, measurement.known, all_effects());
+  std::vector<Knob> knobs = arguments.refit
+                                ? believed(free_parameters(setup), measurement.known, all_effects())
+                                : as_given(setup, measurement.known, all_effects());
   const Measurement beside =
       from_first_turns(with_setup(measurement, setup, all_effects()), *workshop.engine);
   for (Knob& knob : camera_knobs(setup, beside, all_effects())) knobs.push_back(std::move(knob));
