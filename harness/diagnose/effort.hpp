@@ -22,7 +22,7 @@ namespace effort {
 constexpr Effort look{1, 128, 0}, refit{2, 160, 128}, beside{2, 160, 128, true},
     attempt{.rounds = 2, .count = 128, .confirming = 96, .looks = 1},
     attempt_when_dear{.rounds = 1, .count = 72, .confirming = 48, .looks = 1},
-    conclude{1, 192, 160, false, false, true}, apart{2, 160, 128, false, false, true},
+    conclude{1, 192, 160, false, false, true}, apart{2, 160, 128, true, false, true},
     least{1, 64, 0, false, true};
 constexpr int most_when_dear = 80;
 constexpr ScreenEffort rank{}, rank_when_dear{32, 48, {8, 8, 8}, {12, 12, 12}};
