@@ -61,10 +61,6 @@ std::vector<FittedCurve> curves_of(const SwingFound& found, std::size_t most) {
   return curves;
 }
 
-}  // namespace
-
-namespace {
-
 /// A number of the camera that the fit took beyond what a setup may say stays as the setup has it.
 void put(Setup& setup, const std::string& key, double value, std::span<const EffectRecord* const> known) {
   try {

@@ -82,31 +82,6 @@ const std::vector<Knob> theta{{"restitution.grain_grain", 0.75, 0.15, 0.2, 0.999
                               {"restitution.grain_wall", 0.76, 0.15, 0.2, 0.999, true},
                               {"spring.frequency", 1.23, 0.01, 1, 1.5, true}};
 
-TEST(ParameterKnobs, StayWithinWhatTheKeysMayBe) {
-  for (const double restitution : {0.02, 0.2, 0.75, 0.995, 1.0}) {
-    shakedown::Setup setup = believed_setup();
-    setup.restitution.grain_wall = restitution;
-    for (const std::vector<Knob>& knobs : {as_given(setup), free_parameters(setup)})
-      for (const Knob& knob : knobs) {
-        EXPECT_LE(knob.low, knob.centre) << knob.key << ' ' << restitution;
-        EXPECT_GE(knob.high, knob.centre) << knob.key << ' ' << restitution;
-        if (knob.key.starts_with("restitution")) {
-          EXPECT_GE(knob.low, 0);
-          EXPECT_LE(knob.high, 1);
-        }
-      }
-  }
-}
-
-TEST(ParameterKnobs, AnEmptyBoxHasNoRestitutions) {
-  shakedown::Setup setup = believed_setup();
-  setup.grains.count = 0;
-  for (const std::vector<Knob>& knobs : {as_given(setup), free_parameters(setup)}) {
-    ASSERT_EQ(knobs.size(), 1u);
-    EXPECT_EQ(knobs.front().key, "spring.frequency");
-  }
-}
-
 TEST(Refit, RefusesRecordingsThatHoldNoMotion) {
   Experiment experiment;
   experiment.runs.emplace_back();
