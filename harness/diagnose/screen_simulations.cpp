@@ -70,12 +70,17 @@ ScreenSimulations::ScreenSimulations(std::vector<MeasuredFeatures> measured, std
 void ScreenSimulations::look_at_the_middle(const Candidate& candidate, const LevelEffort& effort,
                                            Looked& looked) {
   if (candidate.fitted_knobs().front().exact) return look(candidate, effort, looked);
-  std::vector<Candidate::Level> levels = candidate.levels;
-  std::stable_sort(levels.begin(), levels.end(), [](const Candidate::Level& a, const Candidate::Level& b) {
-    return std::abs(a.strength) < std::abs(b.strength);
-  });
+  std::vector<Candidate::Level> middle;
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<Candidate::Level> levels = candidate.levels;
+    std::erase_if(levels, [&](const Candidate::Level& level) { return !(level.strength * sign > 0); });
+    std::stable_sort(levels.begin(), levels.end(), [](const Candidate::Level& a, const Candidate::Level& b) {
+      return std::abs(a.strength) < std::abs(b.strength);
+    });
+    if (!levels.empty()) middle.push_back(levels[levels.size() / 2]);
+  }
   looked.count = count_of(candidate, effort);
-  add_levels(candidate, {levels[levels.size() / 2]}, looked.count, looked);
+  add_levels(candidate, middle, looked.count, looked);
 }
 
 void ScreenSimulations::look(const Candidate& candidate, const LevelEffort& effort, Looked& looked) {

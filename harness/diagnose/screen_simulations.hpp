@@ -52,11 +52,11 @@ class ScreenSimulations {
                     const Workshop& workshop, const ScreenEffort& effort, int first_run,
                     const ScreenStart& start);
 
-  /// Simulates the candidate's middle level alone so many times.
+  /// Simulates the candidate's middle level alone, of each sign that it has, so many times.
   void look_at_the_middle(const Candidate& candidate, const LevelEffort& effort, Looked& looked);
 
-  /// Simulates the candidate's levels so many times more; those not looked at yet as often as the middle one
-  /// was, where only that was. Those that the engine cannot simulate are left out, with the reason.
+  /// Simulates the candidate's levels so many times more; those not looked at yet as often as the middle ones
+  /// were, where only those were. Those that the engine cannot simulate are left out, with the reason.
   void look(const Candidate& candidate, const LevelEffort& effort, Looked& looked);
 
   /// What the model without candidates leaves, and a candidate's signature as far as it was looked at.

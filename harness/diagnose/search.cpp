@@ -169,13 +169,18 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   // Fits confirm the most probable, and what has more than a tenth of its probability; where a fit takes back
   // what a signature promised, the next has its turn.
   const bool rejected = is_rejected(state.fit);
+  // A fit may find more than any signature promised: it is to be weighed beside fits of those that promised
+  // as much, not beside their signatures.
+  double promised = -std::numeric_limits<double>::infinity();
+  for (const Rival& rival : rivals)
+    if (rival.weighed) promised = std::max(promised, rival.log_odds);
   for (bool more = true; more && tried < static_cast<int>(rules::most_tried);) {
     more = false;
     std::stable_sort(order.begin(), order.end(), by_odds);
     // A model that the data reject is not what is there: while nothing was found, the best of a bad lot are
     // fitted whatever their odds.
     const bool all_bad = rejected && std::none_of(rivals.begin(), rivals.end(), is_found);
-    const double best = order.front()->log_odds;
+    const double best = std::min(promised, order.front()->log_odds);
     const double worth_a_fit =
         all_bad ? -std::numeric_limits<double>::infinity()
                 : std::max(worth_asking, best - std::max(std::log(10), effort::signature_errs * best));
