@@ -83,19 +83,26 @@ class RoughNoise {
     for (Eigen::Index i = 0; i < length_; ++i)
       for (Eigen::Index j = 0; j < length_; ++j) own_[i - j + length_ - 1] += filter[i] * filter[j];
   }
-  double autocovariance(double r, Eigen::Index lag) const {
+  /// r to the power of each number of frames that a lag and the filter span.
+  Eigen::VectorXd powers(double r) const {
+    Eigen::VectorXd all(length_ + std::max(length_, static_cast<Eigen::Index>(lags)));
+    for (Eigen::Index k = 0; k < all.size(); ++k) all[k] = std::pow(r, static_cast<double>(k));
+    return all;
+  }
+  double autocovariance(const Eigen::VectorXd& powers_of_r, Eigen::Index lag) const {
     double value = 0;
     for (Eigen::Index d = 0; d < own_.size(); ++d)
-      value += own_[d] * std::pow(r, static_cast<double>(std::abs(lag + d - (length_ - 1))));
+      value += own_[d] * powers_of_r[std::abs(lag + d - (length_ - 1))];
     return value;
   }
   /// Energy over one length of the filter, four standard deviations above the mean, relative to the mean.
   /// Cutting lower would take the colour away with the landings.
   double energy_cut(double r) const {
-    const double variance = autocovariance(r, 0), n = static_cast<double>(length_);
+    const Eigen::VectorXd powers_of_r = powers(r);
+    const double variance = autocovariance(powers_of_r, 0), n = static_cast<double>(length_);
     double sum = n * variance * variance;
     for (Eigen::Index lag = 1; lag < length_; ++lag) {
-      const double c = autocovariance(r, lag);
+      const double c = autocovariance(powers_of_r, lag);
       sum += 2 * static_cast<double>(length_ - lag) * c * c;
     }
     return 1 + 4 * std::sqrt(2 * sum) / (n * variance);
@@ -111,11 +118,13 @@ class RoughNoise {
 double correlation_of(const Autocovariance& sum, const Autocovariance& count, const RoughNoise& rough) {
   if (!(count[0] > 200) || !(sum[0] > 0)) return 0;
   const auto misfit = [&](double r) {
+    const Eigen::VectorXd powers_of_r = rough.powers(r);
+    const double variance = rough.autocovariance(powers_of_r, 0);
     double total = 0;
     for (std::size_t lag = 1; lag < lags; ++lag) {
       if (count[lag] == 0) continue;
       const double off = sum[lag] / count[lag] * count[0] / sum[0] -
-                         rough.autocovariance(r, static_cast<Eigen::Index>(lag)) / rough.autocovariance(r, 0);
+                         rough.autocovariance(powers_of_r, static_cast<Eigen::Index>(lag)) / variance;
       total += off * off;
     }
     return total;
@@ -146,6 +155,10 @@ std::array<double, colour_lags> colour_of(const std::vector<NoiseSeries>& series
   }
   if (series.empty()) return {};
   const Eigen::VectorXd filter = roughness_filter(series.front().interval, order);
+  const bool any_longer = std::any_of(series.begin(), series.end(), [&](const NoiseSeries& one) {
+    return static_cast<Eigen::Index>(one.x->size()) >= filter.size();
+  });
+  if (!any_longer) return {};  // no frame has a rough part, as in a film of some milliseconds
   const RoughNoise rough(filter);
   double cut = 4, r = 0;  // generous first, then what the colour found allows
   for (int pass = 0; pass < 3; ++pass) {

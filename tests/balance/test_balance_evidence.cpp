@@ -74,7 +74,7 @@ void expect_first(const PushedBox& what, const std::string& effect, double truth
   EXPECT_LT(term.high - term.low, 2.5 * 3.92 * fisher_error(experiment, effect)) << effect;
 }
 
-TEST(BalanceEvidence, NothingHiddenIsMostProbable) {
+TEST(SlowBalanceEvidence, NothingHiddenIsMostProbable) {
   int probable = 0;
   for (std::uint64_t seed = 101; seed <= 120; ++seed) {
     const MomentumAudit audit = audited(pushed_box({}, seed));
@@ -115,7 +115,7 @@ std::function<double(double, double, double)> yielding(double force, double trav
   };
 }
 
-TEST(BalanceEvidence, FrictionThatYieldsComesFirstWithItsTravel) {
+TEST(SlowBalanceEvidence, FrictionThatYieldsComesFirstWithItsTravel) {
   for (const double travel : {0.004, 0.012, 0.03}) {
     PushedBox what;
     what.force = yielding(0.05, travel);
@@ -132,7 +132,7 @@ TEST(BalanceEvidence, FrictionThatYieldsComesFirstWithItsTravel) {
 }
 
 /// A short travel fits dry friction as well: the simpler one goes first, the other is said beside it.
-TEST(BalanceEvidence, DryFrictionIsNotCalledYielding) {
+TEST(SlowBalanceEvidence, DryFrictionIsNotCalledYielding) {
   PushedBox what;
   what.dry_friction = 0.05;
   for (std::uint64_t seed = 11; seed <= 13; ++seed) {
@@ -161,7 +161,7 @@ void expect_nothing(const Experiment& experiment) {
   EXPECT_LT(most_certain(audit), 0.95);
 }
 
-TEST(BalanceEvidence, ATrackThatWandersIsNoForce) {
+TEST(SlowBalanceEvidence, ATrackThatWandersIsNoForce) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Experiment experiment = pushed_box({}, seed);
     Random random(seed, 1, Stream::other);
@@ -245,7 +245,7 @@ TEST(BalanceEvidence, AFormulaNeverBeatsTheKnownEffectThatItImitates) {
 }
 
 // A bump in space is like nothing in the list.
-TEST(BalanceEvidence, AFormulaThatImitatesNothingIsOffered) {
+TEST(SlowBalanceEvidence, AFormulaThatImitatesNothingIsOffered) {
   const auto bump = [](double x, double v, double) {
     return -0.4 * v * std::exp(-std::pow((x - 0.03) / 0.01, 2));
   };

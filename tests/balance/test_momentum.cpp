@@ -42,7 +42,7 @@ void expect_found(const MomentumAudit& audit, const std::string& effect, double 
   EXPECT_FALSE(audit.unexplained);
 }
 
-TEST(Momentum, NothingHiddenNothingFound) {
+TEST(SlowMomentum, NothingHiddenNothingFound) {
   double sum = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const MomentumAudit audit = audited(PushedBox{}, seed);
@@ -54,7 +54,7 @@ TEST(Momentum, NothingHiddenNothingFound) {
   EXPECT_NEAR(sum, 1, 0.06);  // 12 x 280 windows: 0.025
 }
 
-TEST(Momentum, EachForceFromOutsideIsNamedAndMeasured) {
+TEST(SlowMomentum, EachForceFromOutsideIsNamedAndMeasured) {
   PushedBox what;
   what.viscous = 0.02;
   expect_found(audited(what), "blade_viscous_damping", 0.02, 2e-4);
@@ -126,7 +126,7 @@ TEST(Momentum, TwoForcesAtOnce) {
         << term.effect;
 }
 
-TEST(Momentum, CameraErrorsAreNotForces) {
+TEST(SlowMomentum, CameraErrorsAreNotForces) {
   Experiment experiment = pushed_box({}, 2);
   for (MeasuredRun& run : experiment.runs)
     for (std::size_t i = 0; i < run.time.size(); ++i)
@@ -176,7 +176,7 @@ TEST(Momentum, EmptyBoxAndMissingGrains) {
   EXPECT_FALSE(audited(experiment, setups).possible);
 }
 
-TEST(Momentum, AForceInNoListIsWrittenAsAFormula) {
+TEST(SlowMomentum, AForceInNoListIsWrittenAsAFormula) {
   PushedBox what;
   what.force = [](double x, double v, double) {
     return -0.4 * v * std::exp(-std::pow((x - 0.045) / 0.012, 2));

@@ -47,7 +47,7 @@ Diagnosis diagnosis_of(const Hidden& hidden, const std::vector<std::string>& eff
                   perfect_camera ? through_a_perfect_camera(measurement) : measurement, *engine, options);
 }
 
-TEST(Diagnosis, NothingHiddenIsAdequate) {
+TEST(SlowDiagnosis, NothingHiddenIsAdequate) {
   const Diagnosis d = diagnosis_of({{}});
   EXPECT_EQ(d.verdict, Verdict::adequate) << d.sentence;
   EXPECT_TRUE(d.missing.empty());
@@ -96,7 +96,7 @@ TEST(SlowDiagnosis, WhatIsSureIsNamedThoughSimulationsRunOut) {
   }
 }
 
-TEST(Diagnosis, AnotherPackingIsAParameterNotAnEffect) {
+TEST(SlowDiagnosis, AnotherPackingIsAParameterNotAnEffect) {
   const Diagnosis d = diagnosis_of({{}, {{"release.packing", "random"}}});
   EXPECT_EQ(d.verdict, Verdict::refit) << d.sentence;
   EXPECT_TRUE(d.missing.empty());
@@ -111,7 +111,7 @@ TEST(Diagnosis, ABiasOfTheCameraIsNotTakenForAPacking) {
             believed().release.packing);
 }
 
-TEST(Diagnosis, ForcesInNoListAreUnknownAndAFormulaIsOffered) {
+TEST(SlowDiagnosis, ForcesInNoListAreUnknownAndAFormulaIsOffered) {
   const Diagnosis d = diagnosis_of({{"user_force=force:\"-c*v*exp(-((x-x0)/w)^2)\",constants.c:0.8 N "
                                      "s/m,constants.x0:45mm,constants.w:12mm"},
                                     {},
@@ -138,7 +138,7 @@ TEST(Diagnosis, AnArrangementThatNoPackingHasIsTold) {
 
 // Up to a camera's scale layers of fcc and of square lie some 0.6 mm apart; 0.2 mm is the error of a dozen
 // frames of a bad camera.
-TEST(Diagnosis, LayersAreToldFromEachOtherThroughNoise) {
+TEST(SlowDiagnosis, LayersAreToldFromEachOtherThroughNoise) {
   for (const Packing truth : {Packing::fcc, Packing::square}) {
     const Experiment clean = measured({{},
                                        {{"release.packing", truth == Packing::fcc ? "fcc" : "square"}},
@@ -192,7 +192,7 @@ TEST(Diagnosis, ACubicSpringThatTheSetupHasKeepsItsReference) {
   EXPECT_LT(found.terms[0].high, 0.03);  // 0.08 at the release
 }
 
-TEST(Diagnosis, AStrengthThatTheSetupHasIsRefittedAndNotMissing) {
+TEST(SlowDiagnosis, AStrengthThatTheSetupHasIsRefittedAndNotMissing) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   DiagnoseOptions options;
   options.known = all_effects();

@@ -82,13 +82,15 @@ void expect_named(RingDown what, const std::string& effect, double truth, double
   }
 }
 
-TEST(EmptyBox, ViscousDampingIsNamed) {
+TEST(SlowEmptyBox, ViscousDampingIsNamed) {
   expect_named({.viscous = 0.03}, "blade_viscous_damping", 0.03, 1e-3);
 }
 
 TEST(EmptyBox, DryFrictionIsNamed) { expect_named({.dry = 0.01}, "clamp_dry_friction", 0.01, 5e-4); }
 
-TEST(EmptyBox, QuadraticDragIsNamed) { expect_named({.quadratic = 0.1}, "blade_quadratic_drag", 0.1, 5e-3); }
+TEST(SlowEmptyBox, QuadraticDragIsNamed) {
+  expect_named({.quadratic = 0.1}, "blade_quadratic_drag", 0.1, 5e-3);
+}
 
 TEST(EmptyBox, WithoutFrictionNothingIsMissing) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
@@ -250,7 +252,7 @@ Experiment coarse_wheel(double frequency, double amplitude, double decay, double
   return experiment;
 }
 
-TEST(EmptyBox, ACoarseEncoderWithAJitteringClockIsAnsweredInWords) {
+TEST(SlowEmptyBox, ACoarseEncoderWithAJitteringClockIsAnsweredInWords) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   DiagnoseOptions options;
   options.known = all_effects();

@@ -38,7 +38,7 @@ TEST(SlowTwins, LieWithinFourStandardErrorsWithTheTruthGiven) {
 
 // A heavier blade takes part in the motion; a camera that sees the grains too near the box's centre does the
 // opposite.
-TEST(Twins, AreNotWhatTheBalanceTellsApart) {
+TEST(SlowTwins, AreNotWhatTheBalanceTellsApart) {
   EXPECT_GT(distance("camera_com_bias", "blade_mass"),
             2);  // seen: 3.0, with a camera known to half a per cent
 }
