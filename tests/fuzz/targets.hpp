@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What reads other people's bytes, each as one call: fuzzers and the replay of their corpora share it.
+// What reads other people's bytes, each as one call.
 #pragma once
 #include <span>
 #include <string_view>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The corpora of the fuzzers, and simple damage to them, through every reader: any compiler, the same bytes
+// The corpora, and simple damage to them, through every reader: any compiler, the same bytes
 // each time. A refusal is fine, anything else is a finding. By hand, longer: `test_fuzz TARGET MINUTES SEED`.
 #include <gtest/gtest.h>
 
