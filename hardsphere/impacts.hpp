@@ -220,6 +220,10 @@ void Impacts<Scene>::fixed_side_wall(int i, int axis, int side) {
   Flight3 flight = partings_.flight_now(i);
   const auto k = static_cast<std::size_t>(axis);
   const double closing = side * flight.v[k];
+  // A log of another build, or one that was edited, may name what is no impact: its digests tell.
+  if constexpr (Scene::scripted) {
+    if (!(closing > 0)) return;
+  }
   EXPECT(closing > 0);
   const double e = restitution(ContactClass::side_wall, closing, limits_.wall_speed, elastic_walls_);
   flight.v[k] *= -e;

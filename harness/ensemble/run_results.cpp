@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "collision_log_file.hpp"
+#include "errors.hpp"
 #include "setup_file.hpp"
 #include "summary_file.hpp"
 
@@ -34,20 +35,8 @@ std::string line_of(int run, const Trajectory& trajectory, const Observables& se
   return csv_line(numbers);
 }
 
-/// The setup as used; a file of grains moves into the folder with it.
-void write_used_setup(const OutputFolder& folder, Setup setup) {
-  const std::string copy = "initial_grains.csv";
-  std::error_code apart;  // two files, or one of them is not there
-  if (!setup.release.initial_grains.empty() &&
-      !std::filesystem::equivalent(setup.release.initial_grains, folder.path() / copy, apart)) {
-    std::ifstream file(setup.release.initial_grains, std::ios::binary);
-    std::ostringstream contents;
-    contents << file.rdbuf();
-    folder.write(copy, contents.str());
-  }
-  if (!setup.release.initial_grains.empty()) setup.release.initial_grains = copy;
-  folder.write("setup.toml", write_setup(setup));
-}
+/// Where files stand until all of them are written.
+constexpr const char* unfinished = ".unfinished";
 
 }  // namespace
 
@@ -55,6 +44,51 @@ RunResults::RunResults(OutputFolder folder, bool every_series)
     : folder_(std::move(folder)), every_series_(every_series), lines_(run_columns) {
   for (const char* name : {"setup.toml", "series.csv", collision_log_name})
     expect_writable(folder_.path() / name);
+  remove_unfinished();  // of a program that was killed
+}
+
+RunResults::~RunResults() { remove_unfinished(); }
+
+void RunResults::remove_unfinished() const {
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_.path() / unfinished, ignored);
+}
+
+void RunResults::write(const std::filesystem::path& name, std::string_view contents) {
+  folder_.write(unfinished / name, contents);
+  written_.push_back(name);
+}
+
+/// The setup as used; a file of grains moves into the folder with it.
+void RunResults::write_used_setup(Setup setup) {
+  const std::string copy = "initial_grains.csv";
+  std::error_code apart;  // two files, or one of them is not there
+  if (!setup.release.initial_grains.empty() &&
+      !std::filesystem::equivalent(setup.release.initial_grains, folder_.path() / copy, apart)) {
+    std::ifstream file(setup.release.initial_grains, std::ios::binary);
+    std::ostringstream contents;
+    contents << file.rdbuf();
+    write(copy, contents.str());
+  }
+  if (!setup.release.initial_grains.empty()) setup.release.initial_grains = copy;
+  write("setup.toml", write_setup(setup));
+}
+
+/// The summary goes last: where it stands, all of its run does.
+void RunResults::put_in_place() const {
+  for (const std::filesystem::path& name : written_) expect_writable(folder_.path() / name);
+  remove_earlier_results();
+  for (const std::filesystem::path& name : written_) {
+    const std::filesystem::path file = folder_.path() / name;
+    std::error_code error;
+    std::filesystem::create_directories(file.parent_path(), error);
+    if (!error) std::filesystem::rename(folder_.path() / unfinished / name, file, error);
+    if (!error) continue;
+    remove_earlier_results();  // and what is new: a part of a run is none
+    throw FileError(file.string() + ": cannot be written (" + error.message() +
+                    "); make room there, or choose another folder");
+  }
+  remove_unfinished();
 }
 
 /// What an earlier run left would stand beside the results of this one as if it belonged to them.
@@ -74,33 +108,29 @@ void RunResults::remove_earlier_results() const {
 }
 
 void RunResults::add(int run, const Trajectory& trajectory, const Observables& observables) {
-  if (++runs_ == 1) {
-    remove_earlier_results();
-    folder_.write("series.csv", series_csv(trajectory));
-  }
+  if (++runs_ == 1) write("series.csv", series_csv(trajectory));
   if (every_series_)
-    folder_.write(std::filesystem::path("series") / fmt::format("run_{:04}.csv", run),
-                  series_csv(trajectory));
+    write(std::filesystem::path("series") / fmt::format("run_{:04}.csv", run), series_csv(trajectory));
   if (logged_ && trajectory.collision_log) write_collisions(run, *trajectory.collision_log);
   mean_.add(trajectory);
   lines_ += line_of(run, trajectory, observables);
 }
 
-void RunResults::write_collisions(int run, const CollisionLog& log) const {
+void RunResults::write_collisions(int run, const CollisionLog& log) {
   const std::string bytes = collision_log_bytes({version_line(), *logged_, run, log});
-  if (runs_ == 1) folder_.write(collision_log_name, bytes);
-  if (every_series_)
-    folder_.write(std::filesystem::path("collisions") / fmt::format("run_{:04}.log", run), bytes);
+  if (runs_ == 1) write(collision_log_name, bytes);
+  if (every_series_) write(std::filesystem::path("collisions") / fmt::format("run_{:04}.log", run), bytes);
 }
 
 void RunResults::finish(const Ensemble& ensemble, const Setup& setup, const Provenance& provenance) {
   if (ensemble.requested > 1 && runs_ > 0) {
-    folder_.write("mean_series.csv", mean_.csv());
-    folder_.write("runs.csv", lines_);
+    write("mean_series.csv", mean_.csv());
+    write("runs.csv", lines_);
   }
-  write_used_setup(folder_, setup);
-  folder_.write("provenance.json", provenance_json(provenance));
-  folder_.write("summary.json", summary_json(ensemble, setup));
+  write_used_setup(setup);
+  write("provenance.json", provenance_json(provenance));
+  write("summary.json", summary_json(ensemble, setup));
+  put_in_place();
 }
 
 }  // namespace shakedown

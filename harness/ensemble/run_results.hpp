@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A folder of results, filled while the runs go on.
+// A folder of results: of one run or ensemble whole, or as it was before.
 #pragma once
+#include <filesystem>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 #include "ensemble.hpp"
 #include "output_file.hpp"
@@ -17,9 +20,13 @@ namespace shakedown {
 /// again).
 class RunResults {
  public:
-  /// Throws FileError when the folder cannot be written to. What an earlier run left there goes when the
-  /// first run of this one is added.
+  /// Throws FileError when the folder cannot be written to. Until finish() what an earlier run left there
+  /// stays, and new files stand in a folder `.unfinished` beside it.
   RunResults(OutputFolder folder, bool every_series);
+  /// Without finish() nothing of this run is left.
+  ~RunResults();
+  RunResults(const RunResults&) = delete;
+  RunResults& operator=(const RunResults&) = delete;
 
   /// Writes collision logs too: collisions.log of the first run and, with the series of every run,
   /// collisions/run_NNNN.log.
@@ -28,16 +35,21 @@ class RunResults {
   /// Hand it to EnsembleOptions::each.
   void add(int run, const Trajectory& trajectory, const Observables& observables);
 
-  /// Writes what is left. Throws FileError.
+  /// Writes what is left, and puts all in the place of what an earlier run left. Throws FileError.
   void finish(const Ensemble& ensemble, const Setup& setup, const Provenance& provenance);
 
   const OutputFolder& folder() const { return folder_; }
 
  private:
+  void write(const std::filesystem::path& name, std::string_view contents);
+  void write_collisions(int run, const CollisionLog& log);
+  void write_used_setup(Setup setup);
+  void put_in_place() const;
   void remove_earlier_results() const;
-  void write_collisions(int run, const CollisionLog& log) const;
+  void remove_unfinished() const;
 
   OutputFolder folder_;
+  std::vector<std::filesystem::path> written_{};  ///< below the folder, in the order of writing
   std::optional<Setup> logged_;
   bool every_series_;
   int runs_ = 0;

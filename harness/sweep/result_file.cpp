@@ -144,6 +144,12 @@ void expect_sound(const Database& database, const std::filesystem::path& file) {
   if (!check.step() || check.text(0) != "ok") refuse_damaged(file);
 }
 
+/// False where there is no file, or one that a program was stopped in making.
+bool is_begun(const std::filesystem::path& file) {
+  return std::filesystem::exists(file) &&
+         SqlStatement(Database(file, Database::Access::read), "SELECT 1 FROM sqlite_master").step();
+}
+
 int column_count(const Database& database) {
   SqlStatement columns(database, "SELECT count(*) FROM pragma_table_info('runs')");
   columns.step();
@@ -356,7 +362,7 @@ ResultFile merge_results(const std::filesystem::path& into, const std::vector<st
     }
   };
   for (const std::filesystem::path& file : files) take(file);
-  if (std::filesystem::exists(into)) take(into);
+  if (is_begun(into)) take(into);
   ResultFile merged(into, identity, ResultFile::Opening::merge);
   std::vector<ResultRow> rows;
   for (auto& [key, held] : all) rows.push_back(std::move(held.first));

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A collision log that went through a file is the same log, and a damaged file is named as such.
 #include <fstream>
+#include <iterator>
 
+#include "fnv.hpp"
 #include "logged_run.hpp"
 #include "output_file.hpp"
+#include "replay.hpp"
 #include "scratch_folder.hpp"
 
 using namespace shakedown;
@@ -76,4 +79,18 @@ TEST(CollisionLogFile, NamesAFileWithOneChangedByte) {
       EXPECT_NE(std::string(error.what()).find("changed.log: is"), std::string::npos) << error.what();
     }
   }
+}
+
+/// A log that was edited, its sum put right, or that another build wrote: a grain meets a wall that it
+/// leaves.
+TEST(CollisionLogFile, WithAnImpactThatIsNoneIsToldByItsDigests) {
+  const ScratchFolder folder;
+  std::ifstream stream(PROJECT_ROOT "/tests/fuzz/corpus/log/edited.log", std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(stream), {});
+  const std::uint64_t sum = fnv1a(bytes);
+  bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+  write_file(folder / collision_log_name, bytes);
+  const StoredRun stored = read_collision_log(folder, all_effects());
+  Replay replay(stored.setup, stored.log);
+  EXPECT_THROW(replay.advance_to(stored.log.end_time), FileError);
 }

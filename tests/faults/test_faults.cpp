@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// A full disk, a read-only folder, a power cut at each call that changes a file, for every command that
+// writes: nothing is lost, nothing stands there in part, and one sentence says what happened.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <ostream>
+
+#include "program.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Files = std::map<std::string, std::string>;  ///< name below the folder, contents
+
+Files files_in(const fs::path& folder) {
+  Files files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = contents(entry.path());
+  return files;
+}
+
+/// A command that writes into the folder "OUT", with inputs of "IN".
+struct Writer {
+  std::string name;
+  std::vector<std::string> arguments;
+  bool one_set = false;  ///< its files are of one run, all or none
+};
+
+std::vector<Writer> writers() {
+  return {
+      {"run", {"run", "IN/setup.toml", "--runs", "2", "--every-series", "--log", "--out", "OUT/k"}, true},
+      {"run_json", {"run", "IN/setup.toml", "--json", "OUT/a.json", "--report", "OUT/a.html"}},
+      {"sweep",
+       {"sweep", "IN/setup.toml", "--vary", "box.length=40mm,50mm", "--out", "OUT/r.sqlite", "--threads", "1",
+        "--resume", "--table", "OUT/r.csv"}},
+      {"merge", {"merge", "OUT/all.sqlite", "IN/r.sqlite", "--table", "OUT/all.csv"}},
+      {"export_xyz", {"export", "IN/k", "--out", "OUT/x", "--rate", "100Hz"}},
+      {"export_vtp", {"export", "IN/k", "--as", "vtp", "--out", "OUT/x", "--rate", "40Hz"}},
+      {"export_npy", {"export", "IN/k", "--as", "npy", "--out", "OUT/x", "--rate", "40Hz"}},
+      {"hide", {"hide", "IN/setup.toml", "--engine", "hard", "--lengths", "40mm,50mm", "--out", "OUT/case"}},
+      {"import", {"import", "IN/a.csv", "--replace", "--out", "OUT/experiment.toml"}},
+      {"add", {"add", "IN/setup.toml", "clamp_dry_friction", "--out", "OUT/more.toml"}},
+      {"theory",
+       {"theory", "IN/setup.toml", "--set", "run.duration=4 s", "--out", "OUT/curve.csv", "--json",
+        "OUT/theory.json"}},
+      {"bounce", {"bounce", "IN/throws.csv", "--known", "OUT/known.toml", "--report", "OUT/drops.html"}},
+      {"crosscheck",
+       {"crosscheck", "IN/setup.toml", "--engines", "hard,soft", "--runs", "2", "--out", "OUT/c"}},
+      {"report", {"report", "IN/k", "--out", "OUT/page.html"}},
+  };
+}
+
+/// Those that take less than some tens of milliseconds.
+std::vector<Writer> quick_writers() {
+  std::vector<Writer> quick = writers();
+  std::erase_if(quick, [](const Writer& writer) {
+    return writer.name == "bounce" || writer.name == "hide" || writer.name == "crosscheck";
+  });
+  return quick;
+}
+
+/// A made time or a length of a run differs from call to call.
+bool is_timed(const std::string& name) { return name.ends_with(".json") || name.ends_with(".html"); }
+
+class Faults : public WithFolder {
+ protected:
+  static constexpr const char* variables[] = {"LD_PRELOAD", "FAULT_UNDER", "FAULT_AT", "FAULT_KIND",
+                                              "FAULT_COUNT"};
+  void SetUp() override {
+    fs::create_directory(folder / "IN");
+    file("IN/setup.toml",
+         "grains.count = 3\n[run]\nduration = \"0.3 s\"\nsample_rate = \"100 Hz\"\n[box]\nlength = \"40 "
+         "mm\"\n");
+    file("IN/a.csv", "frame,x_px\n0,900\n1,890\n2,870\n3,840\n4,800\n5,750\n");
+    fs::copy_file(TEST_DATA "/drops/throws.csv", folder / "IN/throws.csv");
+    expect_done({"run", "IN/setup.toml", "--log", "--out", "IN/k"});
+    expect_done({"sweep", "IN/setup.toml", "--vary", "box.length=40mm,50mm", "--out", "IN/r.sqlite"});
+    empty_out();
+  }
+  void TearDown() override {
+    for (const char* name : variables) ::unsetenv(name);
+  }
+
+  std::vector<std::string> placed(std::vector<std::string> words) const {
+    for (std::string& word : words)
+      for (const char* place : {"IN/", "OUT/"})
+        if (word.starts_with(place)) word = in_folder(word);
+    return words;
+  }
+  void expect_done(const std::vector<std::string>& arguments) const {
+    const Outcome outcome = shakedown_program(placed(arguments));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  void empty_out() const {
+    fs::remove_all(folder / "OUT");
+    fs::create_directory(folder / "OUT");
+  }
+  Files out() const { return files_in(folder / "OUT"); }
+
+  /// `at` 0: nothing fails, calls are counted.
+  Outcome with_fault(const std::vector<std::string>& arguments, const std::string& kind, long at) const {
+    const std::string values[] = {FAULTS, in_folder("OUT"), std::to_string(at), kind, in_folder("calls")};
+    for (std::size_t i = 0; i < std::size(values); ++i) ::setenv(variables[i], values[i].c_str(), 1);
+    const Outcome outcome = shakedown_program(placed(arguments));
+    for (const char* name : variables) ::unsetenv(name);
+    return outcome;
+  }
+  long calls_of(const Writer& writer) const {
+    empty_out();
+    const Outcome outcome = with_fault(writer.arguments, "", 0);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return std::strtol(contents(folder / "calls").c_str(), nullptr, 10);
+  }
+
+  static bool is_of_sqlite(const Writer& writer) { return writer.name == "sweep" || writer.name == "merge"; }
+  static void expect_one_sentence(const Outcome& outcome, const std::string& reason) {
+    EXPECT_EQ(outcome.code, 4) << outcome.err;
+    const std::size_t said = outcome.err.find("cannot be");
+    ASSERT_NE(said, std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(reason, said), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("cannot be", said + 1), std::string::npos) << outcome.err;
+  }
+
+  static void expect_whole(const Files& files, const Files& reference) {
+    for (const auto& [name, bytes] : files) {
+      if (name.find(".partial-") != std::string::npos || name.find(".sqlite") != std::string::npos) continue;
+      if (name.ends_with(".being-written") || name.find(".unfinished") != std::string::npos) continue;
+      const auto whole = reference.find(name);
+      if (whole == reference.end()) {
+        ADD_FAILURE() << name << " is there, and is of no whole result";
+      } else if (is_timed(name)) {
+        constexpr std::size_t end = 3;  // "\n}\n", "l>\n"
+        EXPECT_EQ(bytes.substr(bytes.size() - std::min(bytes.size(), end)),
+                  whole->second.substr(whole->second.size() - end))
+            << name;
+      } else {
+        EXPECT_EQ(bytes, whole->second) << name;
+      }
+    }
+  }
+  static std::vector<std::string> names_of(const Files& files) {
+    std::vector<std::string> names;
+    for (const auto& [name, bytes] : files)
+      if (name.find(".sqlite-") == std::string::npos) names.push_back(name);
+    return names;
+  }
+
+  void expect_nothing_half(const Writer& writer, const std::string& kind, long at,
+                           const Files& reference) const {
+    SCOPED_TRACE(writer.name + " " + kind + " at call " + std::to_string(at));
+    empty_out();
+    const Outcome outcome = with_fault(writer.arguments, kind, at);
+    const Files left = out();
+    expect_whole(left, reference);
+    if (kind == "KILL") {
+      EXPECT_EQ(outcome.code, -9);
+    } else {
+      // SQLite has its own words, and closes a file that is whole without the last of its tidying.
+      const bool tidying = is_of_sqlite(writer) && at > 1 && outcome.code == 0;
+      if (!tidying)
+        expect_one_sentence(outcome, is_of_sqlite(writer) ? "(" : kind == "EROFS" ? "Read-only" : "No space");
+      for (const auto& [name, bytes] : left) EXPECT_EQ(name.find(".partial-"), std::string::npos) << name;
+      // The page's data come after the results.
+      const std::size_t page = reference.size() - left.size() == 1 && !left.contains("k/report.json") ? 1 : 0;
+      if (writer.one_set) {
+        EXPECT_TRUE(left.empty() || left.size() + page == reference.size()) << left.size();
+      }
+    }
+    // The same again, with a disk that works, makes it whole.
+    const Outcome again = shakedown_program(placed(writer.arguments));
+    EXPECT_EQ(again.code, 0) << again.err;
+    expect_whole(out(), reference);
+    for (const std::string& name : names_of(reference))
+      EXPECT_TRUE(fs::exists(folder / "OUT" / name)) << name;
+  }
+
+  /// At so many calls, from the first to the last.
+  void try_all(const Writer& writer, long most) const {
+    const long calls = calls_of(writer);
+    const Files reference = out();
+    ASSERT_GT(calls, 0) << writer.name;
+    const long tries = std::min(calls, most);
+    for (const char* kind : {"ENOSPC", "EROFS", "KILL"})
+      for (long i = 0; i < tries; ++i)
+        expect_nothing_half(writer, kind, tries == 1 ? 1 : 1 + i * (calls - 1) / (tries - 1), reference);
+    RecordProperty("calls", std::to_string(calls));
+  }
+};
+
+class EachWriter : public Faults, public testing::WithParamInterface<Writer> {};
+void PrintTo(const Writer& writer, std::ostream* out) { *out << writer.name; }
+class SlowEachWriter : public EachWriter {};
+
+}  // namespace
+
+TEST_P(EachWriter, LeavesNothingHalf) { try_all(GetParam(), 3); }
+TEST_P(SlowEachWriter, LeavesNothingHalfAtAnyCall) {
+  try_all(GetParam(), GetParam().name == "bounce" ? 4 : 12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, EachWriter, testing::ValuesIn(quick_writers()),
+                         [](const auto& writer) { return writer.param.name; });
+INSTANTIATE_TEST_SUITE_P(Commands, SlowEachWriter, testing::ValuesIn(writers()),
+                         [](const auto& writer) { return writer.param.name; });
+
+/// What stands in a folder is of the earlier run or of the new one, also where the new one fails.
+TEST_F(Faults, AFolderGetsOneRunsFiles) {
+  const std::vector<std::string> earlier{"run", "IN/setup.toml", "--log", "--out", "OUT/k"},
+      later{"run", "IN/setup.toml", "--set", "box.length=65mm", "--out", "OUT/k"};
+  expect_done(earlier);
+  const Files before = out();
+  const Outcome counted = with_fault(later, "", 0);
+  ASSERT_EQ(counted.code, 0) << counted.err;
+  const Files after = out();
+  const long calls = std::strtol(contents(folder / "calls").c_str(), nullptr, 10);
+  for (long at = 1; at <= calls; at += std::max(1L, calls / 12)) {
+    empty_out();
+    expect_done(earlier);
+    const Outcome outcome = with_fault(later, "ENOSPC", at);
+    SCOPED_TRACE(at);
+    EXPECT_EQ(outcome.code, 4) << outcome.err;
+    const Files left = out();
+    if (left.empty()) continue;  // the old ones had gone, and the new ones did not come
+    const bool old_ones = left.at("k/series.csv") == before.at("k/series.csv");
+    EXPECT_EQ(left.contains("k/collisions.log"), old_ones);
+    EXPECT_EQ(left.at("k/setup.toml"), (old_ones ? before : after).at("k/setup.toml"));
+  }
+}
