@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fitted.hpp"
 
+#include <algorithm>
+
 #include "drawn_curves.hpp"
 #include "effects.hpp"
 #include "fit_report.hpp"
@@ -46,8 +48,8 @@ ReportKnobs knobs_of(const Fit& fit, const Setup& given, const Measurement& meas
   options.known = all_effects();
   options.threads = threads;
   options.stop = stop;
-  constexpr double seconds = 20;
-  options.seconds = seconds;
+  constexpr double share_of_time = 0.2, least = 20;  // beside that of the fit itself; s
+  options.seconds = std::max(least, share_of_time * fit.seconds);
   return knobs_of(turned_model(*last.ensembles, given, engine, options), last, fit.fitted);
 }
 

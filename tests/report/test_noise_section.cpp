@@ -46,7 +46,7 @@ TEST(NoiseSection, ASpectrumComesDownToTheNoiseWhateverItsColour) {
   for (const double memory : {0.0, 0.5}) {
     const double ratio = above(6, track(memory), memory);
     RecordProperty("ratio_of_memory_" + std::to_string(memory), std::to_string(ratio));
-    EXPECT_NEAR(ratio, 1, 0.1);  // 0.01 seen; 4600 numbers tell it to 0.01
+    EXPECT_NEAR(ratio, 1, 0.04);  // 0.002 seen; 4600 numbers tell it to 0.01
   }
   const TrackSpectrum spectrum = spectrum_of_track(track(0), interval);
   EXPECT_NEAR(spectrum.frequency.back(), 120, 1e-9);
@@ -59,7 +59,9 @@ TEST(NoiseSection, ASpectrumComesDownToTheNoiseWhateverItsColour) {
 TEST(NoiseSection, GapsAreBridgedAndShortTracksHaveNone) {
   std::vector<double> x = track(0);
   for (std::size_t i = 0; i < x.size(); i += 50) x[i] = std::nan("");
-  EXPECT_NEAR(above(20, x, 0), 1, 0.1);
+  const double ratio = above(20, x, 0);
+  RecordProperty("ratio", std::to_string(ratio));
+  EXPECT_NEAR(ratio, 1, 0.1);  // 0.994 seen: a frame in fifty lies on a line
   EXPECT_TRUE(spectrum_of_track(std::vector<double>(63, 0.0), interval).frequency.empty());
   EXPECT_TRUE(spectrum_of_track(std::vector<double>(500, std::nan("")), interval).frequency.empty());
 }

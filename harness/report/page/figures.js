@@ -71,7 +71,8 @@ function svg_of_plot(plot, u) {
   const across = (value) => margin + ((value - left) / (right - left)) * (end - margin), up = (value) => bottom - ((size(value) - size(low)) / (size(high) - size(low))) * (bottom - top);
   for (const [value] of y_ticks) body += svg_line([[margin, up(value)], [end, up(value)]], on_paper.pale, 0.4, "", "grid");
   for (const level of plot.level === null ? [] : [plot.level, -plot.level]) body += svg_line([[margin, up(level)], [end, up(level)]], on_paper.ink, 0.4, "3 2");
-  body += `<clipPath id="frame"><rect x="${margin}" y="${top}" width="${end - margin}" height="${bottom - top}"/></clipPath><g clip-path="url(#frame)">\n`;
+  // A picture within the picture cuts off what lies outside.
+  body += `<svg x="${margin}" y="${top}" width="${end - margin}" height="${bottom - top}" viewBox="${margin} ${top} ${end - margin} ${bottom - top}">\n`;
   const stretches = (y) => {
     const found = [[]];
     x.forEach((value, i) => { if (y[i] === null || !Number.isFinite(y[i]) || value < left || value > right) { if (found.at(-1).length) found.push([]); } else found.at(-1).push([across(value), up(y[i])]); });
@@ -88,7 +89,7 @@ function svg_of_plot(plot, u) {
       for (const points of stretches(curve.y)) body += svg_line(points, looks[k].colour, looks[k].width, looks[k].dash, curve.r);
     }
   });
-  body += "</g>\n";
+  body += "</svg>\n";
   for (const [value, word] of plot.marks) if (value >= left && value <= right) body += svg_line([[across(value), top], [across(value), bottom]], on_paper.ink, 0.4, "3 2") + (word ? svg_text(across(value) + 3, top + 8, word) : "");
   body += svg_line([[margin, top], [margin, bottom], [end, bottom]], on_paper.ink, 0.6, "", "axis");
   for (const [value, label] of ticks_between(left, right, 5, false)) body += svg_line([[across(value), bottom], [across(value), bottom + 3]], on_paper.ink, 0.6) + svg_text(across(value), bottom + 11.4, label, "middle", ' class="x_tick"');
