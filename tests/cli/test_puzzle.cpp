@@ -42,7 +42,7 @@ TEST_F(SlowPuzzle, DropTestsBringTheFrictionToLight) {
   const std::string experiment = file("with_drops.toml", contents(puzzle + "experiment.toml") + known);
   const Outcome outcome =
       shakedown_program({"diagnose", in_folder("setup.toml"), "--data", experiment, "--effects",
-                         "grain_friction,grain_air_drag,grain_cohesion,side_wall_restitution,"
+                         "grain_friction,grain_air_drag,grain_cohesion,"
                          "blade_viscous_damping,clamp_dry_friction",
                          "--json"});
   ASSERT_EQ(outcome.code, 1) << outcome.err;
