@@ -212,16 +212,18 @@ TEST(SlowTurnedModel, FollowsTheDamperToAPartOfTheSpread) {
           std::abs(share) * ((share < 0 ? number.from : number.to) - number.best);
       most = std::max(most, difference(number.key + " by " + std::to_string(share), place));
     }
-  EXPECT_LT(most, 2);  // 0.85 seen
+  EXPECT_LT(most, 1.7);  // 0.82 seen
   // Two at once, half way to the corners that were simulated.
-  double pairs = 0;
+  double restitutions = 0, others = 0;
   for (const auto& [i, j] : {std::pair{0, 1}, {0, 2}, {1, 2}})
     for (const bool apart : {false, true}) {
       Eigen::VectorXd both = best;
       const TurnedNumber &a = model.numbers[static_cast<std::size_t>(i)],
                          &b = model.numbers[static_cast<std::size_t>(j)];
       both[i] += 0.5 * (a.to - a.best), both[j] += 0.5 * ((apart ? b.from : b.to) - b.best);
-      pairs = std::max(pairs, difference(a.key + (apart ? " against " : " with ") + b.key, both));
+      double& farthest = j == 1 ? restitutions : others;
+      farthest = std::max(farthest, difference(a.key + (apart ? " against " : " with ") + b.key, both));
     }
-  EXPECT_LT(pairs, 2);
+  EXPECT_LT(restitutions, 0.9);  // 0.52 seen; 1.15 where they are taken to add up
+  EXPECT_LT(others, 1.7);        // 0.84 seen
 }
