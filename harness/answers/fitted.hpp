@@ -17,7 +17,7 @@ FitOptions usual_fit_options();
 Fit fitted_and_judged(const Setup& setup, const Measurement& measurement, const std::string& free,
                       const Engine& engine, const FitOptions& options);
 
-/// The page; its curves are simulated here. Throws Interrupted.
+/// The page; its curves and what its knobs do are simulated here. Throws Interrupted.
 Report report_of(const Fit& fit, const Setup& given, const Measurement& measurement, const Engine& engine,
                  int threads, const std::atomic<bool>* stop);
 

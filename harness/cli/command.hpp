@@ -49,6 +49,7 @@ Command add_sweep_command(CLI::App& program);
 Command add_merge_command(CLI::App& program);
 Command add_fit_command(CLI::App& program);
 Command add_bounce_command(CLI::App& program);
+Command add_plot_command(CLI::App& program);
 /// `paper` and `blind-suite`: hands its words to shakedown-studies, which lies beside this program.
 Command add_study_command(CLI::App& program, const char* name, const char* description);
 

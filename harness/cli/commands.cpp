@@ -21,6 +21,7 @@ std::vector<Command> add_commands(CLI::App& program) {
       add_study_command(program, "blind-suite", "the diagnosis on trial: many hidden cases, scored"),
       add_export_command(program),
       add_report_command(program),
+      add_plot_command(program),
       add_effects_command(program),
       add_schema_command(program),
       add_crosscheck_command(program),

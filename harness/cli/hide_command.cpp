@@ -11,6 +11,7 @@
 #include "engines.hpp"
 #include "ensemble_options.hpp"
 #include "hidden_question.hpp"
+#include "hide_map.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "output_file.hpp"
@@ -31,6 +32,7 @@ struct HideArguments {
   int repeats = 20;
   std::int64_t budget = 0;
   JsonOutput json;
+  MapArguments map;
 };
 
 /// Everything that the arguments say, or everything that is wrong with them.
@@ -47,11 +49,11 @@ Trial asked(const HideArguments& arguments) {
   } catch (const InputError& error) {
     found = error.violations;
   }
-  if (!arguments.power && arguments.out.empty())
+  if (!arguments.power && !arguments.map.wanted && arguments.out.empty())
     found.push_back({{"--out", 0, 0},
                      "",
                      "is missing (where shall the measurements go?)",
-                     "name a folder, or ask for the --power of a diagnosis"});
+                     "name a folder, or ask for the --power of a diagnosis, or for the --map"});
   if (!found.empty()) throw InputError(std::move(found));
   return trial;
 }
@@ -151,7 +153,28 @@ int measure_power(const HideArguments& arguments, const Trial& trial) {
 
 int hide_or_measure_power(const HideArguments& arguments) {
   const Trial trial = asked(arguments);
+  if (arguments.map.wanted)
+    return map_strengths(arguments.map, arguments.question, trial, arguments.out, arguments.json);
   return arguments.power ? measure_power(arguments, trial) : hide(arguments, trial);
+}
+
+void add_map_options(CLI::App& command, MapArguments& map) {
+  CLI::Option* asked = command.add_flag(
+      "--map", map.wanted,
+      "hide nothing; how good must the camera be? The smallest strength of each effect (or of those "
+      "named with --effect) that would be seen, against noise, wander, shutter, films and what is "
+      "known of the restitutions");
+  command.add_option("--seconds", map.seconds, "with --map: time at most; what was not mapped is said")
+      ->capture_default_str()
+      ->check(positive_number())
+      ->needs(asked);
+  command
+      .add_flag("--resume", map.resume,
+                "with --map: go on with an interrupted one in --out DIR: what was simulated is not simulated "
+                "again")
+      ->needs(asked);
+  add_report_option(command, map.report);
+  command.get_option("--report")->needs(asked);
 }
 
 }  // namespace
@@ -213,6 +236,7 @@ Command add_hide_command(CLI::App& program) {
                   "with --power: simulations of one diagnosis at most; default: as `shakedown diagnose`")
       ->check(positive_number())
       ->type_name("RUNS");
+  add_map_options(command, a->map);
   add_json_option(command, a->json);
   return {&command, [a] { return hide_or_measure_power(*a); }};
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "turned_model.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "linear_model.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
+#include "turned_ends.hpp"
 
 namespace shakedown {
 
@@ -55,9 +55,10 @@ class Turning {
       if (model_.numbers[k].role == NumberRole::parameter)
         simulate(model_.numbers[k].key, [&] { add_bend(k); });
     for (const std::string& effect : options_.suspects) simulate(effect, [&] { add_suspect(effect); });
+    add_pairs();
     add_as_given();
-    set_ends();
-    model_.square = squares();
+    set_ends(model_, fit_.fit.knobs);
+    model_.square = squares_of(model_, fit_);
     return std::move(model_);
   }
 
@@ -233,13 +234,6 @@ class Turning {
     }
   }
 
-  /// What a parameter can be at all: a comparison lets its numbers move hardly.
-  static std::pair<double, double> bounds_of(const TurnedNumber& number) {
-    constexpr double least = 0.05, most = 0.999;  // of a restitution
-    if (number.key.starts_with("restitution")) return {least, most};
-    return {0.5 * number.best, 1.5 * number.best};
-  }
-
   /// How far a parameter is simulated on both sides.
   double reach_of(std::size_t k) const {
     const TurnedNumber& number = model_.numbers[k];
@@ -251,10 +245,58 @@ class Turning {
       constexpr double turned = 0.8;  // rad at the end: a cubic follows a sine so far to a hundredth
       return std::min(room, turned / (2 * std::numbers::pi * std::max(1.0, end)));
     }
-    constexpr double least = 0.03, most = 0.15;
+    const double whole = number.key.starts_with("restitution") ? 1 : std::abs(number.best);
+    constexpr double least = 0.03, most = 0.15;  // of the whole
     const double wanted =
-        std::max({least, 3 * fit_.fit.values[k].error, std::abs(number.given - number.best)});
-    return std::min({room, wanted, most});
+        std::max({least * whole, 3 * fit_.fit.values[k].error, std::abs(number.given - number.best)});
+    return std::min({room, wanted, most * whole});
+  }
+
+  Means change_at(const std::vector<std::pair<std::size_t, double>>& places) const {
+    return change_with([&](Setup& setup) {
+      for (const auto& [k, place] : places) {
+        Knob knob = fit_.fit.knobs[k];
+        knob.centre = place;
+        set_knob(setup, knob, options_.known);
+      }
+    });
+  }
+
+  /// Restitutions first: they stand for each other most. What there is no time for adds up.
+  void add_pairs() {
+    std::vector<std::size_t> bent = bent_;
+    std::stable_partition(bent.begin(), bent.end(),
+                          [&](std::size_t k) { return model_.numbers[k].key.starts_with("restitution"); });
+    const std::vector<std::string> left_out = model_.left_out;
+    for (std::size_t j = 1; j < bent.size(); ++j)
+      for (std::size_t i = 0; i < j; ++i) simulate("pair", [&] { add_pair(bent[i], bent[j]); });
+    model_.left_out = left_out;
+  }
+
+  /// What two numbers make at the four corners of their reach beyond what each makes alone: their product and
+  /// the products of third order.
+  void add_pair(std::size_t i, std::size_t j) {
+    const TurnedNumber &a = model_.numbers[i], &b = model_.numbers[j];
+    const double by_a = 1 / (a.to - a.best), by_b = 1 / (b.to - b.best);
+    Means both, first_twice, second_twice;
+    for (const int s : {-1, 1})
+      for (const int t : {-1, 1}) {
+        Eigen::VectorXd place = model_.places(&TurnedNumber::best);
+        const double at_a = a.best + s / by_a, at_b = b.best + t / by_b;
+        place[static_cast<Eigen::Index>(i)] = at_a, place[static_cast<Eigen::Index>(j)] = at_b;
+        const Means change = change_at({{i, at_a}, {j, at_b}}), told = told_at(place);
+        both.resize(change.size()), first_twice.resize(change.size()), second_twice.resize(change.size());
+        for (std::size_t r = 0; r < change.size(); ++r) {
+          const Eigen::VectorXd beyond = (change[r] - told[r]) / 4;
+          for (const auto& [sum, sign] : {std::pair{&both, s * t}, {&first_twice, t}, {&second_twice, s}}) {
+            if ((*sum)[r].size() == 0) (*sum)[r].setZero(beyond.size());
+            (*sum)[r] += sign * beyond;
+          }
+        }
+      }
+    add({{{i, by_a}, {j, by_b}}, TurnedTerm::product}, both);
+    add({{{i, by_a}, {i, by_a}, {j, by_b}}, TurnedTerm::product}, first_twice);
+    add({{{i, by_a}, {j, by_b}, {j, by_b}}, TurnedTerm::product}, second_twice);
   }
 
   void add_bend(std::size_t k) {
@@ -262,12 +304,7 @@ class Turning {
     const double reach = reach_of(k);
     if (!(reach > 1e-4 * std::abs(number.best))) return;
     Means side[2];
-    for (const int sign : {-1, 1})
-      side[sign > 0] = change_with([&](Setup& setup) {
-        Knob knob = fit_.fit.knobs[k];
-        knob.centre = number.best + sign * reach;
-        set_knob(setup, knob, options_.known);
-      });
+    for (const int sign : {-1, 1}) side[sign > 0] = change_at({{k, number.best + sign * reach}});
     const Means slope = slope_of(k);
     Means odd, even;
     for (std::size_t r = 0; r < side[0].size(); ++r) {
@@ -278,6 +315,7 @@ class Turning {
     add({{{k, 1 / reach}}, slope.empty() ? 1 : 3}, odd);
     add({{{k, 1 / reach}}, 2}, even);
     number.from = number.best - reach, number.to = number.best + reach;
+    bent_.push_back(k);
   }
 
   void add_suspect(const std::string& effect) {
@@ -341,43 +379,13 @@ class Turning {
     add(std::move(hill), change);
   }
 
-  void set_ends() {
-    for (std::size_t k = 0; k < model_.numbers.size(); ++k) {
-      TurnedNumber& number = model_.numbers[k];
-      const double low = std::min({number.from, number.given, number.best}),
-                   high = std::max({number.to, number.given, number.best}), margin = 0.15 * (high - low);
-      number.low = low - margin, number.high = high + margin;
-      if (std::isfinite(number.absent) && number.absent <= low) number.low = number.absent;
-      if (number.role == NumberRole::parameter) {
-        const auto [least, most] = bounds_of(number);
-        number.low = std::max(number.low, least), number.high = std::min(number.high, most);
-      } else if (k < fit_.fit.knobs.size() && !number.inverse && !fit_.fit.knobs[k].exact) {
-        number.low = std::max(number.low, fit_.fit.knobs[k].low);
-        number.high = std::min(number.high, fit_.fit.knobs[k].high);
-      }
-      number.low = std::min(number.low, low), number.high = std::max(number.high, high);
-    }
-  }
-
-  std::vector<Eigen::MatrixXd> squares() const {
-    std::vector<Eigen::MatrixXd> list;
-    for (std::size_t r = 0; r < fit_.measured.size(); ++r) {
-      Eigen::MatrixXd all(fit_.measured[r].values.size(), 1 + std::ssize(model_.terms));
-      all.col(0) = fit_.fit.runs[r].residual;
-      if (!model_.columns.empty()) all.rightCols(std::ssize(model_.terms)) = model_.columns[r];
-      const Eigen::LLT<Eigen::MatrixXd> root(fit_.fit.covariances[r]);
-      const Eigen::MatrixXd white = root.matrixL().solve(all);
-      list.push_back(white.transpose() * white);
-    }
-    return list;
-  }
-
   const EnsembleFit& fit_;
   const Setup& user_;
   const Engine& engine_;
   const TurnedOptions& options_;
   Workshop workshop_;
-  Means base_;  ///< of fresh simulations at the best
+  Means base_;                     ///< of fresh simulations at the best
+  std::vector<std::size_t> bent_;  ///< parameters that were simulated on both sides
   TurnedModel model_;
 };
 

@@ -27,8 +27,10 @@ struct TurnedNumber {
 };
 
 /// A share of a column: (sum of weight x (place - best) over some numbers)^power. Power 0 is a hill about the
-/// numbers as given: (1 - sum of (weight x (place - given))^2)^2, nothing where that sum is above 1.
+/// numbers as given: (1 - sum of (weight x (place - given))^2)^2, nothing where that sum is above 1. Of power
+/// `product` it is the product of all weight x (place - best); a number may stand there twice.
 struct TurnedTerm {
+  static constexpr int product = -1;
   std::vector<std::pair<std::size_t, double>> weights;
   int power = 1;
 };

@@ -31,13 +31,15 @@ Eigen::VectorXd TurnedModel::places(double TurnedNumber::*which) const {
 Eigen::VectorXd TurnedModel::shares(const Eigen::VectorXd& place) const {
   Eigen::VectorXd all(std::ssize(terms));
   for (std::size_t j = 0; j < terms.size(); ++j) {
-    double sum = 0, squares = 0;
+    double sum = 0, squares = 0, factors = 1;
     for (const auto& [k, weight] : terms[j].weights) {
-      sum += weight * (place[static_cast<Eigen::Index>(k)] - numbers[k].best);
+      const double moved = weight * (place[static_cast<Eigen::Index>(k)] - numbers[k].best);
+      sum += moved, factors *= moved;
       squares += std::pow(weight * (place[static_cast<Eigen::Index>(k)] - numbers[k].given), 2);
     }
-    all[static_cast<Eigen::Index>(j)] =
-        terms[j].power > 0 ? std::pow(sum, terms[j].power) : std::pow(std::max(0.0, 1 - squares), 2);
+    all[static_cast<Eigen::Index>(j)] = terms[j].power == TurnedTerm::product ? factors
+                                        : terms[j].power > 0                  ? std::pow(sum, terms[j].power)
+                                                             : std::pow(std::max(0.0, 1 - squares), 2);
   }
   return all;
 }

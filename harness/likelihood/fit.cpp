@@ -129,6 +129,8 @@ class Fitter {
     covariance_ = told.covariance * std::max(1.0, found.scatter);
     fit_.correlation = told.correlation;
     fit_.used = found.runs;
+    fit_.measured = used_;
+    fit_.solution = found;
     fit_.p_value = found.p_value;
     fit_.scatter = found.scatter;
     fit_.judgement = judgement_of(found.test(), {std::nan(""), std::nan(""), "not asked"}, found.left());

@@ -30,9 +30,11 @@ struct FittedParameter {
 
 struct Fit {
   std::vector<FittedParameter> parameters;
-  Eigen::MatrixXd correlation;          ///< of the estimates
-  std::vector<RunComparison> used;      ///< runs fitted, at the solution
-  std::vector<RunComparison> left_out;  ///< the others, foretold
+  Eigen::MatrixXd correlation;             ///< of the estimates
+  std::vector<RunComparison> used;         ///< runs fitted, at the solution
+  std::vector<RunComparison> left_out;     ///< the others, foretold
+  std::vector<MeasuredFeatures> measured;  ///< what was fitted to, of the runs used
+  Refit solution;                          ///< its last round
   double p_value = 1;  ///< share of the model's own runs that fit no better than the runs used
   double scatter = 1;  ///< misfit over that of the model's own runs
   /// Of the fitted model; by the runs used alone where nobody has asked the momentum balance too.

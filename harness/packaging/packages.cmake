@@ -33,7 +33,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, nlohmann-json3-dev")
 if(NOT BUILD_SHARED_LIBS)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    ", libfmt-dev, libmuparser-dev, libbullet-dev, libnlopt-dev, libnlopt-cxx-dev, libsqlite3-dev, libsndfile1-dev, zlib1g-dev, pkg-config")
+    ", libfmt-dev, libmuparser-dev, libbullet-dev, libnlopt-dev, libnlopt-cxx-dev, libsqlite3-dev, libsndfile1-dev, libcairo2-dev, zlib1g-dev, pkg-config")
 endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "granular dampers: library and headers
 What the programs of the package shakedown are made of, for C++20: setups,

@@ -10,6 +10,7 @@
 #include "compare_report.hpp"
 #include "effects.hpp"
 #include "known_effects.hpp"
+#include "noise_section.hpp"
 #include "page_figures.hpp"
 #include "report_parts.hpp"
 #include "text.hpp"
@@ -276,6 +277,7 @@ Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, con
   if (!diagnosis.ranking.empty()) report.sections.push_back(suspects_section(diagnosis));
   report.sections.push_back(momentum_section(diagnosis.momentum));
   if (!curves.empty()) report.sections.push_back(energy_section(curves));
+  report.sections.push_back(noise_section(measurement));
   if (!diagnosis.notes.empty()) {
     ReportSection notes;
     notes.title = "Notes";

@@ -12,7 +12,7 @@ endforeach()
 
 set(source "// Made by embed.cmake.\n#include \"page_files.hpp\"\n\nnamespace shakedown {\n")
 foreach(item IN ITEMS "plot_script=vendor/uPlot/uPlot.iife.min.js" "plot_style=vendor/uPlot/uPlot.min.css" "plot_licence=vendor/uPlot/LICENSE"
-        "page_script=page/page.js" "replay_script=page/replay.js" "model_script=page/model.js" "knobs_script=page/knobs.js" "page_style=page/page.css")
+        "page_script=page/page.js" "replay_script=page/replay.js" "model_script=page/model.js" "knobs_script=page/knobs.js" "figures_script=page/figures.js" "page_style=page/page.css")
   string(REGEX MATCH "^([^=]+)=(.+)$" whole "${item}")
   set(name ${CMAKE_MATCH_1})
   set(item_file ${CMAKE_MATCH_2})

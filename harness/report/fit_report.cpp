@@ -76,8 +76,9 @@ std::vector<ReportFact> facts_of(const Fit& fit) {
 }  // namespace
 
 Report report_of(const Fit& fit, const Measurement& measurement,
-                 const std::vector<MeasuredAgainstModel>& curves) {
+                 const std::vector<MeasuredAgainstModel>& curves, ReportKnobs knobs) {
   Report report;
+  report.knobs = std::move(knobs);
   report.kind = "fit";
   report.title = measurement.title.empty() ? measurement.file : measurement.title;
   const auto untold = std::count_if(fit.parameters.begin(), fit.parameters.end(),

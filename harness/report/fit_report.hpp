@@ -7,8 +7,8 @@
 namespace shakedown {
 
 /// The report of a fit; the curves must come from measured_against_model() with the setup as given and
-/// Fit::fitted.
+/// Fit::fitted; `knobs`: what the reader may turn.
 Report report_of(const Fit& fit, const Measurement& measurement,
-                 const std::vector<MeasuredAgainstModel>& curves);
+                 const std::vector<MeasuredAgainstModel>& curves, ReportKnobs knobs = {});
 
 }  // namespace shakedown

@@ -121,8 +121,9 @@ ReportKnobs knobs_of(const TurnedModel& model, const LastFit& fit, const Setup& 
   knobs.note =
       "Curves follow from simulations: at the best values, with each effect taken out, and with each number "
       "moved. A pale stripe shows how far "
-      "they reach; beyond it the curve is a guess and turns grey. Two numbers moved at once are taken to add "
-      "up.";
+      "they reach; beyond it the curve is a guess and turns grey. Two parameters moved at once were "
+      "simulated "
+      "where there was time; all else is taken to add up.";
   if (!model.left_out.empty())
     knobs.note += " Not simulated for want of time: " + joined_words(model.left_out) + ".";
   for (const TurnedTerm& term : model.terms) {

@@ -11,6 +11,7 @@ extern const char* const page_script;
 extern const char* const replay_script;
 extern const char* const model_script;
 extern const char* const knobs_script;
+extern const char* const figures_script;
 extern const char* const page_style;
 
 // SHA-256 of the scripts, hexadecimal.
@@ -19,5 +20,6 @@ extern const char* const page_script_sha256;
 extern const char* const replay_script_sha256;
 extern const char* const model_script_sha256;
 extern const char* const knobs_script_sha256;
+extern const char* const figures_script_sha256;
 
 }  // namespace shakedown

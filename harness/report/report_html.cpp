@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 std::string script_sources() {
   std::string sources;
   for (const std::string_view digest : {plot_script_sha256, replay_script_sha256, model_script_sha256,
-                                        knobs_script_sha256, page_script_sha256}) {
+                                        knobs_script_sha256, figures_script_sha256, page_script_sha256}) {
     std::string bytes;
     for (std::size_t i = 0; i < digest.size(); i += 2)
       bytes += static_cast<char>(std::stoi(std::string(digest.substr(i, 2)), nullptr, 16));
@@ -301,7 +301,8 @@ std::string report_html(const Report& report) {
   if (!report.knobs.kind.empty())
     html += fmt::format("<script type=\"text/plain\" id=\"knobs\">{}</script>\n",
                         base64(gzip(knobs_json(report.knobs))));
-  for (const char* script : {plot_script, replay_script, model_script, knobs_script, page_script})
+  for (const char* script :
+       {plot_script, replay_script, model_script, knobs_script, figures_script, page_script})
     html += fmt::format("<script>{}</script>\n", script);
   return html + "</body></html>\n";
 }

@@ -131,3 +131,68 @@ TEST(Knobs, OfABoxAloneMoveItAsTheProgramDoes) {
   RecordProperty("farthest_um", std::to_string(most * 1e6));
   EXPECT_LT(most, 4e-8);  // of noise of 100 um a frame; 2 nm seen
 }
+
+// Terms of every kind: powers of sums, products in which a number stands twice, and the hill about the
+// numbers as given.
+TEST(Knobs, OfABoxWithGrainsTakeTheSharesOfTheProgram) {
+  if (!has_node()) GTEST_SKIP() << "node is not installed";
+  TurnedModel model;
+  ReportKnobs knobs;
+  knobs.kind = "response";
+  for (const double given : {0.7, 0.2, 1.3}) {
+    TurnedNumber number;
+    number.given = given, number.best = given + 0.1, number.from = number.low = given - 1,
+    number.to = number.high = given + 1;
+    model.numbers.push_back(number);
+    ReportKnobs::Number shown;
+    shown.role = "parameter", shown.given = number.given, shown.best = number.best;
+    knobs.numbers.push_back(shown);
+  }
+  model.terms = {{{{0, 2.0}}, 1},
+                 {{{1, 0.5}, {2, -1.0}}, 2},
+                 {{{2, 1.5}}, 3},
+                 {{{0, 1.0}, {1, 2.0}}, TurnedTerm::product},
+                 {{{0, 1.0}, {0, 1.0}, {2, 3.0}}, TurnedTerm::product},
+                 {{{0, 1.0}, {1, 1.0}, {2, 1.0}}, 0}};
+  for (const TurnedTerm& term : model.terms) {
+    ReportKnobs::Term& shown = knobs.terms.emplace_back();
+    shown.power = term.power;
+    for (const auto& [k, weight] : term.weights)
+      shown.numbers.push_back(static_cast<double>(k)), shown.weights.push_back(weight);
+  }
+  const auto count = std::ssize(model.terms);
+  Random random(8, 0, Stream::other);
+  const Eigen::MatrixXd columns = Eigen::MatrixXd::NullaryExpr(5, count, [&] { return random.normal(); });
+  const Eigen::MatrixXd root =
+      Eigen::MatrixXd::NullaryExpr(1 + count, 1 + count, [&] { return random.normal(); });
+  const Eigen::MatrixXd square = root.transpose() * root;
+  ReportKnobs::Run& run = knobs.runs.emplace_back();
+  ReportKnobs::Curve& curve = run.curves.emplace_back();
+  curve.name = "box", curve.time = {0, 1, 2, 3, 4};
+  curve.measured = curve.spread = curve.best = curve.given = {1, 1, 1, 1, 1};
+  for (Eigen::Index j = 0; j < count; ++j)
+    curve.columns.emplace_back(columns.col(j).begin(), columns.col(j).end());
+  for (Eigen::Index i = 0; i <= count; ++i)
+    run.square.emplace_back(square.row(i).begin(), square.row(i).end());
+  std::vector<Eigen::VectorXd> places{model.places(&TurnedNumber::best), model.places(&TurnedNumber::given)};
+  for (int i = 0; i < 8; ++i)
+    places.push_back(model.places(&TurnedNumber::given) +
+                     Eigen::VectorXd::NullaryExpr(3, [&] { return random.uniform() - 0.5; }));
+  const Json answers = answers_of_page(knobs, places);
+  double most = 0, most_chi2 = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Eigen::VectorXd shares = model.shares(places[i]);
+    Eigen::VectorXd left(1 + count);
+    left << 1, -shares;
+    const double chi2 = left.dot(square * left);
+    most_chi2 = std::max(most_chi2, std::abs(answers[i]["runs"][0]["chi2"].get<double>() / chi2 - 1));
+    for (Eigen::Index t = 0; t < 5; ++t)
+      most = std::max(
+          most, std::abs(answers[i]["runs"][0]["curves"][0][static_cast<std::size_t>(t)].get<double>() - 1 -
+                         columns.row(t).dot(shares)));
+  }
+  RecordProperty("farthest", std::to_string(most));
+  RecordProperty("farthest_chi2", std::to_string(most_chi2));
+  EXPECT_LT(most, 1e-2);       // of columns of 1, packed for a screen
+  EXPECT_LT(most_chi2, 1e-7);  // nine digits
+}

@@ -181,7 +181,7 @@ Eigen::VectorXd simulated_mean(const EnsembleFit& fit, const TurnedModel& model,
 
 // Changes from the best place to others, as the page has them and as 128 fresh simulations do, rms over all
 // features beside the spread of one run. Moved alone half way and all the way to where it was simulated, and
-// two at once.
+// two parameters at once.
 TEST(SlowTurnedModel, FollowsTheDamperToAPartOfTheSpread) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   shakedown::Setup user = believed();
@@ -200,7 +200,7 @@ TEST(SlowTurnedModel, FollowsTheDamperToAPartOfTheSpread) {
   const auto difference = [&](const std::string& name, const Eigen::VectorXd& place) {
     const Eigen::VectorXd change = simulated_mean(fit, model, place, *engine, 4000) - here;
     const double off = (model.columns[0] * model.shares(place) - change).norm() / spread;
-    std::printf("%-52s change %6.2f spreads, difference %.3f\n", name.c_str(), change.norm() / spread, off);
+    std::printf("%-78s change %6.2f spreads, difference %.3f\n", name.c_str(), change.norm() / spread, off);
     return off;
   };
   double most = 0;
@@ -212,8 +212,18 @@ TEST(SlowTurnedModel, FollowsTheDamperToAPartOfTheSpread) {
           std::abs(share) * ((share < 0 ? number.from : number.to) - number.best);
       most = std::max(most, difference(number.key + " by " + std::to_string(share), place));
     }
-  Eigen::VectorXd both = best;
-  both[0] += 0.5 * (model.numbers[0].to - best[0]), both[1] += 0.5 * (model.numbers[1].from - best[1]);
-  most = std::max(most, difference("two restitutions at once", both));
-  EXPECT_LT(most, 3);  // 0.85 alone and 1.15 of two at once seen
+  EXPECT_LT(most, 1.7);  // 0.82 seen
+  // Two at once, half way to the corners that were simulated.
+  double restitutions = 0, others = 0;
+  for (const auto& [i, j] : {std::pair{0, 1}, {0, 2}, {1, 2}})
+    for (const bool apart : {false, true}) {
+      Eigen::VectorXd both = best;
+      const TurnedNumber &a = model.numbers[static_cast<std::size_t>(i)],
+                         &b = model.numbers[static_cast<std::size_t>(j)];
+      both[i] += 0.5 * (a.to - a.best), both[j] += 0.5 * ((apart ? b.from : b.to) - b.best);
+      double& farthest = j == 1 ? restitutions : others;
+      farthest = std::max(farthest, difference(a.key + (apart ? " against " : " with ") + b.key, both));
+    }
+  EXPECT_LT(restitutions, 0.9);  // 0.52 seen; 1.15 where they are taken to add up
+  EXPECT_LT(others, 1.7);        // 0.84 seen
 }

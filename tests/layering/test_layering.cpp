@@ -56,6 +56,7 @@ const std::map<std::string, std::set<std::string>> headers_of_others{
     {"PkgConfig::NLOPT", {"nlopt"}},
     {"SQLite::SQLite3", {"sqlite3"}},
     {"PkgConfig::SNDFILE", {"sndfile.h"}},
+    {"PkgConfig::CAIRO", {"cairo"}},
     {"ZLIB::ZLIB", {"zlib.h"}},
     {"CLI11::CLI11", {"CLI/"}},
     {"pybind11::module", {"pybind11/"}},

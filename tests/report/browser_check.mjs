@@ -165,6 +165,27 @@ if (await replay.count()) {
 await check_knobs(page);
 const [download] = await Promise.all([page.waitForEvent("download"), page.locator("[data-csv]:visible").first().click()]);
 expect(download.suggestedFilename().endsWith(".csv"), "no CSV to download");
+// Every plot that is shown, and all bars, as SVG: it parses, its axes have words and numbers, and what was measured or modelled is in it.
+const saved = await page.evaluate(() => {
+  const wrong = [];
+  let count = 0;
+  const check = (text, plot) => {
+    const drawing = new DOMParser().parseFromString(text, "image/svg+xml"), words = [...drawing.querySelectorAll("text")].map((one) => one.textContent);
+    ++count;
+    if (drawing.querySelector("parsererror") || /NaN|undefined|Infinity/.test(text)) return wrong.push(`${plot?.yl ?? "bars"}: the SVG is broken`);
+    if (drawing.documentElement.getAttribute("width") !== "85mm") wrong.push("an SVG is not 85 mm wide");
+    if (plot && !(words.includes(plot.yl) && words.filter((word) => /^[\u2212\d.e-]+$/.test(word)).length > 3)) wrong.push(`${plot.yl}: an SVG without axes`);
+  };
+  for (const { plot, u } of report.plots) if (u) check(svg_of_plot(plot, u), plot);
+  for (const bars of document.querySelectorAll(".bars")) check(svg_of_bars(bars.closest("figure")), null);
+  if (document.querySelectorAll("button.save").length < report.plots.length) wrong.push("a plot has no button for its SVG");
+  return { wrong, count };
+});
+for (const sentence of saved.wrong) expect(false, sentence);
+figures.svgs = saved.count;
+const [picture] = await Promise.all([page.waitForEvent("download"), page.locator("button.save:visible").first().click()]);
+expect(picture.suggestedFilename().endsWith(".svg"), "no SVG to download");
+if (shots) await picture.saveAs(join(shots, "figure.svg"));
 expect(page.complaints.length === 0, `the console complains: ${page.complaints.join(" | ")}`);
 expect(page.requests.length === 1, `asked for more later: ${page.requests.join(" ")}`);
 await page.close();

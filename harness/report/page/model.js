@@ -3,11 +3,13 @@
 // by what simulations at some places have shown (mean_at); a box alone is integrated here (swing_at). No part of the page is touched.
 "use strict";
 
-/// Shares of the columns at this place: each a power of a sum of what the numbers were moved by, or a hill about the numbers as given.
+/// Shares of the columns at this place: each a power of a sum of what the numbers were moved by, a product of that, or a hill about the
+/// numbers as given.
 function shares_at(response, place) {
   const moved = response.numbers.map((number, k) => place[k] - number.best);
   return response.terms.map((term) => {
     if (term.power === 0) return Math.max(0, 1 - term.weights.reduce((sum, [k, weight]) => sum + (weight * (place[k] - response.numbers[k].given)) ** 2, 0)) ** 2;
+    if (term.power === -1) return term.weights.reduce((all, [k, weight]) => all * weight * moved[k], 1);
     return term.weights.reduce((sum, [k, weight]) => sum + weight * moved[k], 0) ** term.power;
   });
 }

@@ -172,11 +172,7 @@ function save_csv(plot, name) {
   const quoted = (text) => `"${text.replaceAll('"', '""')}"`;
   const lines = [[plot.xl, ...plot.curves.map((c) => `${c.n} (${plot.yl})`)].map(quoted).join(",")];
   for (let i = 0; i < columns[0].length; ++i) lines.push(columns.map((c) => (c[i] === null ? "" : Number(c[i].toPrecision(7)))).join(","));
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([lines.join("\n") + "\n"], { type: "text/csv" }));
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  save_text(lines.join("\n") + "\n", "text/csv", name);
 }
 
 function wire_tools() {
@@ -226,6 +222,7 @@ async function start() {
   const first = document.querySelector("[role=tab][aria-selected=true]");
   if (page.data.replays.length) page.time = page.data.replays[0].from;
   await start_knobs(page);
+  add_svg_buttons(page);
   const grains = show_group(first ? first.dataset.tab : "");
   page.ready = performance.now();
   root.dataset.ready = "yes";

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Where an axis begins and ends, and the numbers that stand at it.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace shakedown {
+
+struct Axis {
+  double low = 0, high = 1;  ///< in the axis' unit
+  std::vector<double> ticks;
+  std::vector<std::string> labels;  ///< of the ticks
+};
+
+/// From `low` to `high`, finite, with about `wanted` ticks, three at least, at multiples of 1, 2 or 5 times a
+/// power of ten. Widened where both are one number. `rounded`: ends are ticks.
+Axis axis_of(double low, double high, int wanted, bool rounded);
+
+}  // namespace shakedown
