@@ -12,11 +12,13 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t node_count = 8;
 
-/// Gauss-Legendre nodes and weights on [0, 1], and the matrix that turns values at the nodes into
-/// coefficients of a polynomial.
+using Nodes = std::array<double, node_count>;
+
+/// Gauss-Legendre nodes and weights on [0, 1], the matrix that turns values at the nodes into coefficients of
+/// a polynomial, and those that integrate it once and twice from 0 to each node (shape [of value][to node]).
 struct Collocation {
-  std::array<double, node_count> node{}, weight{};
-  std::array<std::array<double, node_count>, node_count> coefficient{};
+  Nodes node{}, weight{};
+  std::array<Nodes, node_count> coefficient{}, once{}, twice{};
 
   Collocation() {
     std::array<long double, node_count> exact{};
@@ -49,6 +51,16 @@ struct Collocation {
         product[0] *= -exact[m] * scale;
       }
       for (std::size_t k = 0; k < node_count; ++k) coefficient[k][j] = static_cast<double>(product[k]);
+      for (std::size_t to = 0; to < node_count; ++to) {
+        long double first = 0, second = 0;
+        for (std::size_t k = node_count; k-- > 0;) {
+          const auto order = static_cast<long double>(k);
+          first = first * exact[to] + product[k] / (order + 1);
+          second = second * exact[to] + product[k] / ((order + 1) * (order + 2));
+        }
+        once[j][to] = static_cast<double>(first * exact[to]);
+        twice[j][to] = static_cast<double>(second * exact[to] * exact[to]);
+      }
     }
   }
 };
@@ -58,7 +70,21 @@ const Collocation& collocation() {
   return table;
 }
 
+/// Sum of the rows of a matrix, each times its value.
+Nodes combined(const std::array<Nodes, node_count>& rows, const Nodes& value) {
+  Nodes sum{};
+  for (std::size_t j = 0; j < node_count; ++j)
+    for (std::size_t k = 0; k < node_count; ++k) sum[k] += rows[j][k] * value[j];
+  return sum;
+}
+
 double sign_of(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
+
+[[noreturn]] void refuse_force(double x, double v, double t) {
+  throw PhysicsError("the force on the box is not finite at x = " + std::to_string(x) +
+                     " m, v = " + std::to_string(v) + " m/s, t = " + std::to_string(t) +
+                     " s; check the formulas of user_force");
+}
 
 }  // namespace
 
@@ -102,6 +128,8 @@ void DrivenBox::restart(double t, double x, double v) {
   time_ = t;
   x_ = x;
   v_ = v;
+  const double of_swing = x * angular_frequency_;
+  top_speed_ = std::sqrt(of_swing * of_swing + v * v);
   begin();
 }
 
@@ -117,10 +145,7 @@ void DrivenBox::go_on() {
 /// All forces on the box but dry friction (-F sgn v) and grains, N.
 double DrivenBox::smooth_force(double x, double v, double t) const {
   const double force = forces_.newton(x, v, t, -stiffness_ * x * (1 + cubic_ * x * x)) + dahl_.newton(x);
-  if (!std::isfinite(force))
-    throw PhysicsError("the force on the box is not finite at x = " + std::to_string(x) +
-                       " m, v = " + std::to_string(v) + " m/s, t = " + std::to_string(t) +
-                       " s; check the formulas of user_force");
+  if (!std::isfinite(force)) refuse_force(x, v, t);
   return force;
 }
 
@@ -238,32 +263,48 @@ void DrivenBox::begin_dense(double friction_force) {
 /// promised error.
 bool DrivenBox::try_dense(double length, double friction_force) {
   const Collocation& table = collocation();
-  std::array<double, nodes> value;
-  value.fill((smooth_force(x_, v_, time_) + friction_force) / mass_);
+  const double inverse_mass = 1 / mass_;
+  Nodes value;
+  value.fill((smooth_force(x_, v_, time_) + friction_force) * inverse_mass);
   double change = infinity;
   for (int iteration = 0; iteration < 30; ++iteration) {
-    for (std::size_t k = 0; k < nodes; ++k) {
-      double sum = 0;
-      for (std::size_t j = 0; j < nodes; ++j) sum += table.coefficient[k][j] * value[j];
-      acceleration_[k] = sum;
-    }
-    length_ = length;
+    const Nodes once = combined(table.once, value), twice = combined(table.twice, value);
+    const double before = change;
     double scale = 0;
     change = 0;
     for (std::size_t j = 0; j < nodes; ++j) {
-      const double t = time_ + length * table.node[j];
-      const Point point = at(t);
-      const double now = (smooth_force(point.x, point.v, t) + friction_force) / mass_;
+      const double s = length * table.node[j];
+      const double now =
+          (smooth_force(x_ + (v_ * s + length * length * twice[j]), v_ + length * once[j], time_ + s) +
+           friction_force) *
+          inverse_mass;
       change = std::max(change, std::abs(now - value[j]));
       scale = std::max(scale, std::abs(now));
       value[j] = now;
     }
-    if (change <= 4e-16 * scale + 1e-18) break;
+    // What the next iteration would still change follows from how fast the changes fall.
+    const double next = iteration > 0 && change < before ? change * change / before : change;
+    if (next <= 4e-16 * scale + 1e-18) break;
   }
+  length_ = length;
+  write_dense(value);
   // The last coefficients bound what the next ones would add to the position.
   const double last = std::max(std::abs(acceleration_[nodes - 1]), std::abs(acceleration_[nodes - 2]) / 8);
   constexpr double promised = 1e-14;  // m
   return last * length * length / (8 * 9) <= promised && change * length * length <= promised;
+}
+
+void DrivenBox::write_dense(const Nodes& value) {
+  const Collocation& table = collocation();
+  inverse_length_ = 1 / length_;
+  for (std::size_t k = 0; k < nodes; ++k) {
+    double sum = 0;
+    for (std::size_t j = 0; j < nodes; ++j) sum += table.coefficient[k][j] * value[j];
+    const double order = static_cast<double>(k);
+    acceleration_[k] = sum;
+    gained_speed_[k] = length_ * sum / (order + 1);
+    displacement_[k] = length_ * gained_speed_[k] / (order + 2);
+  }
 }
 
 DrivenBox::Point DrivenBox::at(double t) const {
@@ -281,14 +322,13 @@ DrivenBox::Point DrivenBox::at(double t) const {
     }
     return {x, v};
   }
-  const double u = s / length_;
+  const double u = s * inverse_length_;
   double x = 0, v = 0;
   for (std::size_t k = nodes; k-- > 0;) {
-    const double order = static_cast<double>(k);
-    x = x * u + acceleration_[k] / ((order + 1) * (order + 2));
-    v = v * u + acceleration_[k] / (order + 1);
+    x = x * u + displacement_[k];
+    v = v * u + gained_speed_[k];
   }
-  return {x_ + v_ * s + length_ * length_ * u * u * x, v_ + length_ * u * v};
+  return {x_ + v_ * s + u * u * x, v_ + u * v};
 }
 
 void DrivenBox::account(double t) {

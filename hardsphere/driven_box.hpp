@@ -37,7 +37,7 @@ class DrivenBox {
   /// Bounds of |x| and |x'| until valid_until(), m and m/s.
   Point top_reach() const { return top_reach_; }
   /// Speed that the box would reach on its spring alone, m/s: the scale of the elastic limit at the walls.
-  double top_speed() const { return std::hypot(x_ * angular_frequency_, v_); }
+  double top_speed() const { return top_speed_; }
   double angular_frequency() const { return angular_frequency_; }
   double mass() const { return mass_; }
   double stiffness() const { return stiffness_; }
@@ -66,6 +66,8 @@ class DrivenBox {
   void begin_stuck();
   void begin_dense(double friction_force);
   bool try_dense(double length, double friction_force);
+  /// Writes the acceleration at the nodes, m/s^2, as the coefficients of the piece.
+  void write_dense(const std::array<double, nodes>& value);
   double first_standstill(double jerk_bound) const;
   double smooth_force(double x, double v, double t) const;
   double acceleration_at(double t) const;
@@ -74,7 +76,7 @@ class DrivenBox {
   BoxForces forces_;
   bool needs_dense_;
 
-  double time_ = 0, x_ = 0, v_ = 0;  // at the start of the piece
+  double time_ = 0, x_ = 0, v_ = 0, top_speed_ = 0;  // at the start of the piece
   double valid_until_ = std::numeric_limits<double>::infinity(), top_acceleration_ = 0;
   Point top_reach_{0, 0};
   Piece piece_ = Piece::closed;
@@ -84,9 +86,10 @@ class DrivenBox {
   // closed: centre + responses + exp(-g s) (a cos w s + b sin w s), s = t - time
   double centre_ = 0, a_ = 0, b_ = 0, decay_ = 0, damped_frequency_ = 0;
   std::vector<Response> responses_;
-  // dense: acceleration as a polynomial in u = s / length
-  std::array<double, nodes> acceleration_{};
-  double length_ = 0, planned_length_ = 2e-3;
+  // dense: polynomials in u = s / length: the acceleration, m/s^2, and what it adds to x over u^2, m, and to
+  // x' over u, m/s
+  std::array<double, nodes> acceleration_{}, displacement_{}, gained_speed_{};
+  double length_ = 0, inverse_length_ = 0, planned_length_ = 2e-3;
 
   double accounted_ = 0, impulse_ = 0;
   std::vector<double> work_;

@@ -63,7 +63,7 @@ DiagnosisState Course::search(DiagnosisState& refitted) {
     result_.hypotheses = combined(result_.hypotheses, round.table);
     if (!round.added) break;
     accepted_.reset();
-    if (state.fit.p_value > rules::doubtful) accepted_ = state;
+    if (state.fit.p_value > rules::holds) accepted_ = state;
     state = round.next;
     runner_up_ = {round.next.missing.back(), round.runner_up, round.runner_up_setup};
     result_.ladder.push_back(step_of(step_name(state.missing), state.fit));
@@ -96,15 +96,14 @@ DiagnosisState Course::with_full_effort(DiagnosisState state) {
 
 DiagnosisState Course::without_untold(DiagnosisState state, const DiagnosisState& refitted) {
   // Its evidence was of a fit with less effort. Intervals of what restitutions imitate are wide, so that only
-  // a strength which is none for all purposes speaks against it: an assumption.
+  // a strength which is none for all purposes speaks against it (an assumption), or that no error falls.
   constexpr double of_no_strength = 0.5;  // standard errors
-  if (!accepted_ || state.missing.empty() || state.missing == refitted.missing ||
-      is_told(state.fit, state.missing.back(), of_no_strength))
-    return state;
+  if (!accepted_ || state.missing.empty() || state.missing == refitted.missing) return state;
+  const bool told = is_told(state.fit, state.missing.back(), of_no_strength);
+  if (told && !no_error_falls(accepted_->fit.validation(), state.fit.validation())) return state;
   const std::string effect = state.missing.back();
-  result_.notes.push_back(effect +
-                          " was taken back: the data accept the model without it, and the last fit finds "
-                          "next to nothing of it");
+  result_.notes.push_back(effect + " was taken back: the data accept the model without it, and " +
+                          (told ? "no error falls with it" : "the last fit finds next to nothing of it"));
   take_back(effect);
   if (result_.ladder.back().step == step_name(state.missing)) result_.ladder.pop_back();
   state = *accepted_;

@@ -124,7 +124,7 @@ std::vector<MeasuredFeatures> DiagnosisTools::features(const Setup& setup) const
   std::vector<MeasuredFeatures> list =
       features_with_camera(with_setup(measurement_, setup, options_.known), options_.known);
   add_wander(wander_, list);
-  add_columns(damper_errors_, damper_columns_, list);
+  add_columns(damper_errors_, damper_columns_, options_.known, list);
   return list;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "distributions.hpp"
 #include "rules.hpp"
@@ -11,10 +12,10 @@ namespace shakedown {
 
 namespace {
 
-double error_of_box(const std::vector<Validation>& rows) {
+double error_of(std::string_view observable, const std::vector<Validation>& rows) {
   double square = 0, count = 0;
   for (const Validation& row : rows)
-    if (row.observable == "box") square += row.error * row.error, ++count;
+    if (row.observable == observable) square += row.error * row.error, ++count;
   return std::sqrt(square / count);  // NaN without rows
 }
 
@@ -22,7 +23,7 @@ double error_of_box(const std::vector<Validation>& rows) {
 
 void compare_with_given(const std::vector<Validation>& given, const std::vector<Validation>& fitted,
                         Difference& box) {
-  const double before = error_of_box(given), after = error_of_box(fitted);
+  const double before = error_of("box", given), after = error_of("box", fitted);
   if (std::isnan(before) || std::isnan(after)) return;
   box.as_given = before, box.error = after;
 }
@@ -67,6 +68,13 @@ bool explains(double p_value, double scatter, double scatter_before, double erro
   if (p_value > rules::holds || scatter <= 2 * rules::codes_differ) return true;
   constexpr double most = 0.6;  // of the misfit: more than half must go
   return scatter <= most * scatter_before && error <= rules::explains * floor;
+}
+
+bool no_error_falls(const std::vector<Validation>& before, const std::vector<Validation>& after) {
+  const auto rises = [&](std::string_view observable) {
+    return error_of(observable, after) > error_of(observable, before);  // false of what has no rows
+  };
+  return rises("box") && rises("centre");
 }
 
 std::vector<NuisanceFound> standing_out(const std::vector<NuisanceFound>& nuisances) {

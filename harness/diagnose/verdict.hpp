@@ -45,6 +45,10 @@ double p_value_of_left(const std::vector<Difference>& left);
 /// is no explanation. `before`: without it.
 bool explains(double p_value, double scatter, double scatter_before, double error, double floor);
 
+/// The error of box and of centre, rms of all runs, are both greater in the second validation: what was added
+/// between them makes no error fall. False where either lacks rows.
+bool no_error_falls(const std::vector<Validation>& before, const std::vector<Validation>& after);
+
 /// What of the camera the data show beyond what is known of it, most certain first.
 std::vector<NuisanceFound> standing_out(const std::vector<NuisanceFound>& nuisances);
 

@@ -2,6 +2,8 @@
 #include "damper_errors.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "nuisance.hpp"
 #include "parameter_knobs.hpp"
@@ -11,10 +13,53 @@ namespace shakedown {
 
 namespace {
 
-constexpr double apart = 2;  // standard deviations: a straight line about the value
+constexpr double apart = 2;   // standard deviations: a straight line about the value
+constexpr double beyond = 3;  // greatest shifts: a column's noise counts by a third of itself
 
 bool matters(const DamperError& error) {
   return std::any_of(error.deviation.begin(), error.deviation.end(), [](double one) { return one > 0; });
+}
+
+double greatest(const std::vector<double>& list) {
+  double most = 0;
+  for (const double one : list) most = std::max(most, std::abs(one));
+  return most;
+}
+
+/// Of each run, m: where it was let go less the mean of its repeats. A straight line carries a run so far: a
+/// hundredth of the release, of which the square is a tenth of a thousandth.
+std::vector<double> shifts_of(const Measurement& measurement, const std::vector<double>& deviation) {
+  constexpr double alike = 0.01;
+  std::map<std::string, std::vector<std::size_t>> groups;
+  for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
+    if (!(deviation[r] > 0)) continue;
+    Setup of_run = measurement.runs[r].setup;
+    of_run.run.duration = of_run.release.displacement = 1;
+    groups[digest(of_run)].push_back(r);
+  }
+  std::vector<double> shift(measurement.runs.size(), 0);
+  for (const auto& [key, members] : groups) {
+    double mean = 0, farthest = 0;
+    for (const std::size_t r : members)
+      mean += measurement.runs[r].setup.release.displacement / static_cast<double>(members.size());
+    for (const std::size_t r : members) {
+      shift[r] = measurement.runs[r].setup.release.displacement - mean;
+      farthest = std::max(farthest, std::abs(shift[r]));
+    }
+    if (farthest > alike * std::abs(mean))
+      for (const std::size_t r : members) shift[r] = 0;
+  }
+  return shift;
+}
+
+void take_shared_values(const std::vector<DamperError>& errors, std::vector<MeasuredFeatures>& measured,
+                        std::span<const EffectRecord* const> known) {
+  for (const DamperError& error : errors)
+    for (std::size_t r = 0; r < error.shift.size(); ++r) {
+      Setup& setup = measured[r].setup;
+      if (error.shift[r] != 0)
+        set_number(setup, error.key, get_number(setup, error.key) - error.shift[r], known);
+    }
 }
 
 std::vector<Eigen::VectorXd> means_of(const std::vector<MeasuredFeatures>& measured, int count, int first_run,
@@ -34,6 +79,7 @@ std::vector<DamperError> damper_errors(const Measurement& measurement) {
     if (const Setup& setup = measurement.runs[r].setup;
         setup.grains.count > 0 && setup.release.initial_grains.empty())
       release.deviation[r] = measurement.runs[r].recorded.release_error;
+  release.shift = shifts_of(measurement, release.deviation);
   std::vector<DamperError> list{release};
   for (const WeighedNuisance& weighed : weighed_nuisances(measurement)) {
     DamperError error{weighed.key, std::vector<double>(runs, 0), weighed.of_one_run};
@@ -46,22 +92,27 @@ std::vector<DamperError> damper_errors(const Measurement& measurement) {
 }
 
 std::vector<FeatureColumns> columns_of(const std::vector<DamperError>& errors,
-                                       const std::vector<MeasuredFeatures>& measured, int count,
-                                       int first_run, const Workshop& workshop) {
+                                       const std::vector<MeasuredFeatures>& of_runs, int count, int first_run,
+                                       const Workshop& workshop) {
   std::vector<FeatureColumns> list;
   if (errors.empty()) return list;
+  std::vector<MeasuredFeatures> measured = of_runs;
+  take_shared_values(errors, measured, workshop.known);
   const std::vector<Eigen::VectorXd> without = means_of(measured, count, first_run, workshop);
   for (const DamperError& error : errors) {
+    // One step for all runs, so that repeats go on sharing their simulations.
+    const double step = std::max(apart * greatest(error.deviation), beyond * greatest(error.shift));
     std::vector<MeasuredFeatures> changed = measured;
     for (std::size_t r = 0; r < changed.size(); ++r) {
+      if (!(error.deviation[r] > 0)) continue;
       Setup& setup = changed[r].setup;
-      set_number(setup, error.key, get_number(setup, error.key) + apart * error.deviation[r], workshop.known);
+      set_number(setup, error.key, get_number(setup, error.key) + step, workshop.known);
     }
     FeatureColumns columns = means_of(changed, count, first_run, workshop);
     for (std::size_t r = 0; r < columns.size(); ++r) {
       columns[r] -= without[r];
       if (error.deviation[r] > 0)
-        columns[r] /= apart * error.deviation[r];
+        columns[r] /= step;
       else
         columns[r].setZero();
     }
@@ -71,10 +122,12 @@ std::vector<FeatureColumns> columns_of(const std::vector<DamperError>& errors,
 }
 
 void add_columns(const std::vector<DamperError>& errors, const std::vector<FeatureColumns>& columns,
-                 std::vector<MeasuredFeatures>& measured) {
+                 std::span<const EffectRecord* const> known, std::vector<MeasuredFeatures>& measured) {
+  take_shared_values(errors, measured, known);
   for (std::size_t e = 0; e < columns.size(); ++e)
     for (std::size_t r = 0; r < measured.size(); ++r) {
       MeasuredFeatures& run = measured[r];
+      if (!errors[e].shift.empty()) run.values -= errors[e].shift[r] * columns[e][r];
       if (!errors[e].each_run) {
         run.by_camera[errors[e].key] = columns[e][r];
       } else if (errors[e].deviation[r] > 0) {

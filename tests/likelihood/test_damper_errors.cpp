@@ -85,7 +85,7 @@ TEST(DamperErrors, ColumnsHaveNoNoiseForTheMicrostatesAreTheSame) {
   workshop.threads = 1;
   const std::vector<FeatureColumns> columns = columns_of(errors, measured, 8, 1000, workshop);
   ASSERT_EQ(columns.size(), 2u);
-  add_columns(errors, columns, measured);
+  add_columns(errors, columns, all_effects(), measured);
   // Of the run that was let go 0.4 mm off; the other has nothing of its own.
   ASSERT_EQ(measured[0].own.cols(), 1);
   EXPECT_EQ(measured[1].own.cols(), 0);
@@ -99,4 +99,43 @@ TEST(DamperErrors, ColumnsHaveNoNoiseForTheMicrostatesAreTheSame) {
   ASSERT_EQ(knobs.size(), 1u);
   EXPECT_TRUE(knobs[0].exact);
   EXPECT_EQ(knobs[0].believed_error, 0.002);
+}
+
+// Each film has a release of its own, measured in its first frames; what they share is worth a third of the
+// time.
+TEST(DamperErrors, RepeatsShareSimulationsFromTheMeanOfTheirReleases) {
+  Measurement measurement = two_runs();
+  measurement.runs[1].recorded.release_error = 4e-4;
+  measurement.runs[0].setup.release.displacement = 0.1072;
+  measurement.runs[1].setup.release.displacement = 0.1078;
+  const std::vector<DamperError> errors = damper_errors(measurement);
+  ASSERT_EQ(errors[0].shift.size(), 2u);
+  EXPECT_NEAR(errors[0].shift[0], -3e-4, 1e-16);  // rounding
+  EXPECT_NEAR(errors[0].shift[1], 3e-4, 1e-16);
+  std::vector<MeasuredFeatures> measured = features_of(measurement);
+  const Eigen::VectorXd before = measured[0].values;
+  const Swing engine;
+  Workshop workshop;
+  std::int64_t runs = 0;
+  workshop.engine = &engine;
+  workshop.known = all_effects();
+  workshop.threads = 1;
+  workshop.runs = &runs;
+  const std::vector<FeatureColumns> columns = columns_of(errors, measured, 8, 1000, workshop);
+  EXPECT_EQ(runs, 3 * 8);  // without, release, mass: each once for both
+  add_columns(errors, columns, all_effects(), measured);
+  for (const MeasuredFeatures& run : measured) EXPECT_DOUBLE_EQ(run.setup.release.displacement, 0.1075);
+  for (Eigen::Index f = 0; f < before.size(); ++f) {
+    const double t = measured[0].plan.features[static_cast<std::size_t>(f)].time;
+    // What it would have shown, let go where its repeats are. Seen: 3e-8 (the level in a bin).
+    EXPECT_NEAR(measured[0].values[f], before[f] + 3e-4 * std::cos(7 * t), 3e-7);
+  }
+}
+
+TEST(DamperErrors, RunsThatWereMeantToDifferShareNothing) {
+  Measurement measurement = two_runs();
+  measurement.runs[1].recorded.release_error = 4e-4;
+  measurement.runs[1].setup.release.displacement = 0.09;
+  const std::vector<double> shift = damper_errors(measurement)[0].shift;
+  EXPECT_EQ(shift, (std::vector<double>{0, 0}));
 }
