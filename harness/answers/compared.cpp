@@ -191,9 +191,9 @@ bool compare_by_waveform(const Setup& setup, const Measurement& recorded, const 
   compared.fit = std::move(judged->refit);
   compared.judgement = judged->judgement;
   compared.last = {recorded, {}, std::move(judged->found)};
-  // One run is the model.
+  // A box alone has no spread, and a spread needs two runs.
   const Workshop workshop{&engine, all_effects(), 1, nullptr, {}, nullptr};
-  compared.decays = compare_decay(compared.measurement, workshop, 1, 1);
+  compared.decays = compare_decay(compared.measurement, workshop, 2, 1);
   return true;
 }
 
