@@ -25,7 +25,7 @@ struct LeafSpring {
   std::unique_ptr<Engine> engine = engine_named("hard");
 };
 
-TEST(EmptyBoxAnswers, AFitFindsAFrequencyFivePerCentOff) {
+TEST(SlowEmptyBoxAnswers, AFitFindsAFrequencyFivePerCentOff) {
   const LeafSpring leaf;
   FitOptions options = usual_fit_options();
   options.on = {"ring_down_1"};
@@ -42,7 +42,7 @@ TEST(EmptyBoxAnswers, AFitFindsAFrequencyFivePerCentOff) {
   EXPECT_LT(fit.left_out.front().error_box, 1.5 * fit.left_out.front().floor_box);
 }
 
-TEST(EmptyBoxAnswers, WhatWasFittedHoldsInAComparisonAndWhatWasGivenDoesNot) {
+TEST(SlowEmptyBoxAnswers, WhatWasFittedHoldsInAComparisonAndWhatWasGivenDoesNot) {
   const LeafSpring leaf;
   const Compared given = compared_with(leaf.setup, leaf.measurement, *leaf.engine, {});
   EXPECT_EQ(given.judgement.standing, Standing::fails);
