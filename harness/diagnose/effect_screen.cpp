@@ -90,17 +90,25 @@ Screening EffectScreen::weigh(const std::vector<Candidate>& candidates) {
     weigh_by(signature, candidate, one.effect);
     one.change = signature.change(candidate.strength_of(one.effect.value));
   };
+  // Beside nothing alone, while the best one is not known.
+  const auto is_open = [&](const ScreenedEffect& effect) {
+    return is_left_open(effect, 0, static_cast<double>(known_));
+  };
   bool spent = false;
   for (const std::size_t c : by_cost(candidates)) {
     const Candidate& candidate = candidates[c];
     Weighed one{{c, candidate.effect, 0, candidate.levels.front().value, 0, candidate.prior}, {}};
     if (!spent) try {
-        simulations_->look(candidate, effort_.glance, one.looked);
+        simulations_->look_at_the_middle(candidate, effort_.glance, one.looked);
+        if (!one.looked.levels.empty()) weigh_again(one);
+        if (!one.looked.whole && (one.looked.levels.empty() || is_open(one.effect))) {
+          simulations_->look(candidate, effort_.glance, one.looked);
+          if (!one.looked.levels.empty()) weigh_again(one);
+        }
         if (one.looked.levels.empty()) {
           screening.left_out.push_back({candidate.effect, one.looked.reason});
           continue;
         }
-        weigh_again(one);
       } catch (const BudgetSpent&) {
         spent = true;
       }
@@ -114,7 +122,7 @@ Screening EffectScreen::weigh(const std::vector<Candidate>& candidates) {
     if (one.effect.weighed) most = std::max(most, one.effect.log_evidence);
   try {
     for (Weighed& one : list)
-      if (!spent && is_left_open(one.effect, most, static_cast<double>(known_))) {
+      if (!spent && one.looked.whole && is_left_open(one.effect, most, static_cast<double>(known_))) {
         simulations_->look(candidates[one.effect.candidate], effort_.look, one.looked);
         weigh_again(one);
       }

@@ -32,6 +32,10 @@ std::vector<Eigen::MatrixXd> covariances_of(const std::vector<MeasuredFeatures>&
   return list;
 }
 
+int count_of(const Candidate& candidate, const LevelEffort& effort) {
+  return candidate.dear ? effort.dear : candidate.slow ? effort.slow : effort.plain;
+}
+
 std::vector<Knob> at_a_point(std::vector<Knob> knobs) {
   for (Knob& knob : knobs) knob.width = 0;
   return knobs;
@@ -63,32 +67,56 @@ ScreenSimulations::ScreenSimulations(std::vector<MeasuredFeatures> measured, std
   of_runs_.model.codes_differ = rules::codes_differ;
 }
 
+void ScreenSimulations::look_at_the_middle(const Candidate& candidate, const LevelEffort& effort,
+                                           Looked& looked) {
+  if (candidate.fitted_knobs().front().exact) return look(candidate, effort, looked);
+  std::vector<Candidate::Level> levels = candidate.levels;
+  std::stable_sort(levels.begin(), levels.end(), [](const Candidate::Level& a, const Candidate::Level& b) {
+    return std::abs(a.strength) < std::abs(b.strength);
+  });
+  looked.count = count_of(candidate, effort);
+  add_levels(candidate, {levels[levels.size() / 2]}, looked.count, looked);
+}
+
 void ScreenSimulations::look(const Candidate& candidate, const LevelEffort& effort, Looked& looked) {
-  const bool is_first = looked.count == 0;
   if (candidate.fitted_knobs().front().exact) {
-    if (is_first) looked.levels = {exact_level(candidate)}, looked.count = 1, looked.exact = true;
+    if (!looked.whole) looked.levels = {exact_level(candidate)}, looked.count = 1;
+    looked.exact = looked.whole = true;
     return;
   }
-  const int count = candidate.dear ? effort.dear : candidate.slow ? effort.slow : effort.plain;
-  // Far from what is measured already where it is weak: what is stronger, of the same sign, is farther.
-  bool is_hopeless[2] = {false, false};
-  std::vector<SignatureLevel> levels;
+  const int count = count_of(candidate, effort);
+  if (!looked.whole) {
+    if (looked.levels.empty()) looked.count = count;
+    looked.whole = true;
+    return add_levels(candidate, candidate.levels, looked.count, looked);
+  }
   for (const Candidate::Level& level : candidate.levels) try {
-      bool& none_of_this_sign = is_hopeless[level.strength < 0];
-      if (is_first ? none_of_this_sign : !looked.has(level.strength)) continue;
-      levels.push_back(simulated_level(candidate, level, count, looked));
-      none_of_this_sign =
-          Signature({levels.back()}, without_).log_likelihood(level.strength) < -effort::hopeless;
+      if (looked.has(level.strength)) looked.add(simulated_level(candidate, level, count, looked), count);
     } catch (const PhysicsError& error) {
       looked.reason = error.what();
     } catch (const InputError& error) {
       looked.reason = error.what();
     }
-  if (is_first)
-    looked.levels = std::move(levels);
-  else
-    for (const SignatureLevel& level : levels) looked.add(level, count);
   looked.count += count;
+}
+
+void ScreenSimulations::add_levels(const Candidate& candidate, const std::vector<Candidate::Level>& chosen,
+                                   int count, Looked& looked) {
+  // Far from what is measured already where it is weak: what is stronger, of the same sign, is farther.
+  const auto is_hopeless = [&](double strength) {
+    return std::any_of(looked.levels.begin(), looked.levels.end(), [&](const SignatureLevel& level) {
+      return level.strength * strength > 0 && std::abs(level.strength) < std::abs(strength) &&
+             Signature({level}, without_).log_likelihood(level.strength) < -effort::hopeless;
+    });
+  };
+  for (const Candidate::Level& level : chosen) try {
+      if (!looked.has(level.strength) && !is_hopeless(level.strength))
+        looked.levels.push_back(simulated_level(candidate, level, count, looked));
+    } catch (const PhysicsError& error) {
+      looked.reason = error.what();
+    } catch (const InputError& error) {
+      looked.reason = error.what();
+    }
 }
 
 double ScreenSimulations::log_likelihood_ratio(const std::vector<MeasuredFeatures>& other,

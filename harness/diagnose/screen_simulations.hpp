@@ -26,6 +26,7 @@ struct Looked {
   std::vector<SignatureLevel> levels{};
   std::map<double, LevelPoint> points{};  ///< by strength
   int count = 0;                          ///< simulations of each level, of each different setup
+  bool whole = false;                     ///< all levels were looked at, not the middle one alone
   std::string reason{};
   bool exact = false;
 
@@ -51,8 +52,11 @@ class ScreenSimulations {
                     const Workshop& workshop, const ScreenEffort& effort, int first_run,
                     const ScreenStart& start);
 
-  /// Simulates the candidate's levels so many times more. Those that the engine cannot simulate are left out,
-  /// with the reason.
+  /// Simulates the candidate's middle level alone so many times.
+  void look_at_the_middle(const Candidate& candidate, const LevelEffort& effort, Looked& looked);
+
+  /// Simulates the candidate's levels so many times more; those not looked at yet as often as the middle one
+  /// was, where only that was. Those that the engine cannot simulate are left out, with the reason.
   void look(const Candidate& candidate, const LevelEffort& effort, Looked& looked);
 
   /// What the model without candidates leaves, and a candidate's signature as far as it was looked at.
@@ -90,6 +94,10 @@ class ScreenSimulations {
   /// Of the means, all fitted parameters at these points; below them, where these are from what is known.
   Eigen::VectorXd change_at(const std::vector<Emulator>& there, const std::vector<Knob>& fitted,
                             const Frame& frame) const;
+
+  /// Adds the levels chosen, weakest first, that are not there; none of a sign beyond one that is hopeless.
+  void add_levels(const Candidate& candidate, const std::vector<Candidate::Level>& chosen, int count,
+                  Looked& looked);
 
   std::vector<Emulator> simulated_at(const Candidate& candidate, const LevelPoint& point, int count);
 

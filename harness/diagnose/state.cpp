@@ -129,7 +129,7 @@ std::vector<MeasuredFeatures> DiagnosisTools::features(const Setup& setup) const
 }
 
 std::vector<Knob> DiagnosisTools::weigh_damper(const Setup& setup) {
-  constexpr int count = 32;  // an eighth of the chaos is left in a column: 2 % of its variance
+  constexpr int count = 16;  // an eleventh of the chaos is left in a column of four standard deviations
   std::vector<DamperError> errors = damper_errors(measurement_);
   if (errors.empty()) return {};
   begin(damper_weighed);

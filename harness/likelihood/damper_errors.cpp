@@ -13,17 +13,25 @@ namespace shakedown {
 
 namespace {
 
-constexpr double apart = 2;   // standard deviations: a straight line about the value
-constexpr double beyond = 3;  // greatest shifts: a column's noise counts by a third of itself
-
-bool matters(const DamperError& error) {
-  return std::any_of(error.deviation.begin(), error.deviation.end(), [](double one) { return one > 0; });
-}
-
 double greatest(const std::vector<double>& list) {
   double most = 0;
   for (const double one : list) most = std::max(most, std::abs(one));
   return most;
+}
+
+constexpr double apart = 2;        // standard deviations, at least: a straight line about the value
+constexpr double farther = 4;      // standard deviations, at most: half the noise of a column
+constexpr double straight = 0.02;  // of the value: so far a line holds, whatever the error is
+constexpr double beyond = 3;       // greatest shifts: a column's noise counts by a third of itself
+
+double step_of(const DamperError& error, double value) {
+  const double deviation = greatest(error.deviation);
+  return std::max(std::clamp(straight * std::abs(value), apart * deviation, farther * deviation),
+                  beyond * greatest(error.shift));
+}
+
+bool matters(const DamperError& error) {
+  return std::any_of(error.deviation.begin(), error.deviation.end(), [](double one) { return one > 0; });
 }
 
 /// Of each run, m: where it was let go less the mean of its repeats. A straight line carries a run so far: a
@@ -101,7 +109,7 @@ std::vector<FeatureColumns> columns_of(const std::vector<DamperError>& errors,
   const std::vector<Eigen::VectorXd> without = means_of(measured, count, first_run, workshop);
   for (const DamperError& error : errors) {
     // One step for all runs, so that repeats go on sharing their simulations.
-    const double step = std::max(apart * greatest(error.deviation), beyond * greatest(error.shift));
+    const double step = step_of(error, get_number(measured.front().setup, error.key));
     std::vector<MeasuredFeatures> changed = measured;
     for (std::size_t r = 0; r < changed.size(); ++r) {
       if (!(error.deviation[r] > 0)) continue;

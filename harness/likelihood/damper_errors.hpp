@@ -25,9 +25,10 @@ struct DamperError {
 /// same frame as the box (it would be moved through them) have none.
 std::vector<DamperError> damper_errors(const Measurement& measurement);
 
-/// Of each run the change of the features by two standard deviations, or by three times the greatest shift
-/// where that is more, divided by the value's change, m per unit: the means of `count` simulations less those
-/// of as many without the change, from the same microstates, so that the first strokes have no noise.
+/// Of each run the change of the features by two to four standard deviations, a fiftieth of the value where
+/// that lies between, or by three times the greatest shift where that is more, divided by the value's change,
+/// m per unit: the means of `count` simulations less those of as many without the change, from the same
+/// microstates, so that the first strokes have no noise.
 using FeatureColumns = std::vector<Eigen::VectorXd>;
 std::vector<FeatureColumns> columns_of(const std::vector<DamperError>& errors,
                                        const std::vector<MeasuredFeatures>& measured, int count,
