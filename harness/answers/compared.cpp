@@ -8,6 +8,7 @@
 
 #include "camera_features.hpp"
 #include "compare_report.hpp"
+#include "course.hpp"
 #include "diagnosis.hpp"
 #include "drawn_curves.hpp"
 #include "effects.hpp"
@@ -15,6 +16,7 @@
 #include "missing_numbers.hpp"
 #include "parameter_knobs.hpp"
 #include "swing.hpp"
+#include "swing_judged.hpp"
 #include "validation.hpp"
 
 namespace shakedown {
@@ -80,9 +82,13 @@ std::string compared_text(const Compared& compared) {
     text += fmt::format("  {:<16} {:>11.3f} {:>9.3f} {:>14} {:>9}  {}\n", run.run, run.error_box * 1e3,
                         run.floor_box * 1e3, of_centre(run, run.error_centre),
                         of_centre(run, run.floor_centre), severity(run.error_box / run.floor_box));
-  text += fmt::format("  whole: p = {:.3f} ({:.2f} times the misfit of the model's own runs)\n", fit.p_value,
-                      fit.scatter);
-  text += "\n" + validation_text(fit.validation()) + "\n" + readable(fit.cells) + readable(decays);
+  const bool has_ensembles = !last.swing;
+  if (has_ensembles)
+    text += fmt::format("  whole: p = {:.3f} ({:.2f} times the misfit of the model's own runs)\n",
+                        fit.p_value, fit.scatter);
+  text += "\n" + validation_text(fit.validation()) + "\n";
+  if (has_ensembles) text += readable(fit.cells);
+  text += readable(decays);
   if (momentum.possible) {
     text += fmt::format("  momentum balance: chi2 per degree of freedom {:.3f}, p = {:.3g}\n",
                         momentum.as_given.chi2_per_degree(), momentum.as_given.p_value);
@@ -168,11 +174,30 @@ std::string compared_json(const Compared& compared) {
   explain_missing_numbers(all, [&](const std::string& path) {
     const auto begins = [&](std::string_view with) { return path.rfind(with, 0) == 0; };
     if (path.find("com_mm") != std::string::npos) return std::string("the grains' centre was not tracked");
+    if (path == "/p_value") return std::string("an empty box has no ensembles: its waveform is judged");
     if (begins("/decay/")) return std::string("too few peaks or crossings in the run");
     return begins("/momentum/") ? momentum.why_not : std::string();
   });
   return all.dump();
 }
+
+namespace {
+
+/// Without grains; false where no run swings long enough.
+bool compare_by_waveform(const Setup& setup, const Measurement& recorded, const Engine& engine,
+                         const std::vector<Knob>& knobs, Compared& compared) {
+  std::optional<JudgedSwing> judged = judged_swing(setup, recorded, knobs, compared.momentum, all_effects());
+  if (!judged) return false;
+  compared.fit = std::move(judged->refit);
+  compared.judgement = judged->judgement;
+  compared.last = {recorded, {}, std::move(judged->found)};
+  // A box alone has no spread, and a spread needs two runs.
+  const Workshop workshop{&engine, all_effects(), 1, nullptr, {}, nullptr};
+  compared.decays = compare_decay(compared.measurement, workshop, 2, 1);
+  return true;
+}
+
+}  // namespace
 
 Compared compared_with(const Setup& setup, const Measurement& recorded, const Engine& engine,
                        const CompareOptions& options) {
@@ -181,6 +206,10 @@ Compared compared_with(const Setup& setup, const Measurement& recorded, const En
   compared.warnings = recorded.warnings;
   compared.notes = all_notes(recorded);
   const Measurement& measurement = compared.measurement;
+  compared.momentum = audit_momentum(recorded, all_effects());
+  std::vector<Knob> knobs = as_given(setup, measurement.known, all_effects());
+  if (is_empty(setup, recorded) && compare_by_waveform(setup, recorded, engine, knobs, compared))
+    return compared;
   RefitOptions refitting;
   refitting.count = options.runs;
   refitting.rounds = refitting.most_rounds = 1;
@@ -191,7 +220,6 @@ Compared compared_with(const Setup& setup, const Measurement& recorded, const En
     if (options.progress) options.progress(std::min(1.0, static_cast<double>(done) / all));
   };
   const Workshop workshop{&engine, all_effects(), options.threads, options.stop, told, nullptr};
-  std::vector<Knob> knobs = as_given(setup, measurement.known, all_effects());
   for (Knob& knob : camera_knobs(setup, measurement, all_effects())) knobs.push_back(std::move(knob));
   compared.last = {measurement, EnsembleFit{setup, {}, {}, {}}, {}};
   EnsembleFit& ensembles = *compared.last.ensembles;
@@ -199,7 +227,6 @@ Compared compared_with(const Setup& setup, const Measurement& recorded, const En
   compared.fit = refit(ensembles.measured, knobs, workshop, refitting);
   ensembles.fit = ensembles.as_given = compared.fit;
   compared.decays = compare_decay(measurement, workshop, std::min(32, options.runs), 1);
-  compared.momentum = audit_momentum(recorded, all_effects());
   compared.judgement = judgement_of(
       compared.fit.test(), compared.momentum.test_of(compared.momentum.as_given), compared.fit.left());
   return compared;
@@ -210,6 +237,7 @@ namespace {
 /// Nothing was found and nothing is suspected: the parameters and the camera are there to be turned.
 ReportKnobs knobs_of(const LastFit& last, const Setup& setup, const Engine& engine, int threads,
                      const std::atomic<bool>* stop) {
+  if (last.swing) return knobs_of(turned_numbers(*last.swing, setup, {}, all_effects()), last, setup);
   TurnedOptions options;
   options.known = all_effects();
   options.threads = threads;

@@ -2,15 +2,58 @@
 #include "fitted.hpp"
 
 #include <algorithm>
+#include <chrono>
 
+#include "course.hpp"
 #include "drawn_curves.hpp"
 #include "effects.hpp"
 #include "fit_report.hpp"
 #include "free_parameters.hpp"
 #include "knobs_report.hpp"
 #include "momentum.hpp"
+#include "swing.hpp"
+#include "swing_judged.hpp"
 
 namespace shakedown {
+
+namespace {
+
+/// The runs of these names, or the others.
+Measurement part_of(const Measurement& whole, const std::vector<std::string>& names, bool others) {
+  Measurement part = whole;
+  if (names.empty()) {
+    if (others) part.runs.clear();
+    return part;
+  }
+  std::erase_if(part.runs, [&](const Measurement::Run& run) {
+    return (std::find(names.begin(), names.end(), run.recorded.name) != names.end()) == others;
+  });
+  return part;
+}
+
+/// Boxes without grains; nothing where no run swings long enough.
+std::optional<Fit> by_waveform(const Setup& setup, const Measurement& recorded,
+                               const std::vector<Knob>& knobs, const FitOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Measurement used = part_of(recorded, options.on, false);
+  const MomentumAudit balance = audit_momentum(used, all_effects());
+  const std::optional<JudgedSwing> judged = judged_swing(setup, used, knobs, balance, all_effects());
+  if (!judged) return {};
+  Fit fit;
+  fit.parameters = parameters_of(judged->refit, knobs, all_effects());
+  fit.correlation = correlation_of(judged->refit.covariance);
+  fit.used = judged->refit.runs;
+  const Measurement others = part_of(recorded, options.on, true);
+  if (!others.runs.empty()) fit.left_out = foretold_swings(*judged, others, balance, all_effects());
+  fit.p_value = judged->refit.p_value;
+  fit.scatter = judged->refit.scatter;
+  fit.judgement = judged->judgement;
+  fit.fitted = judged->fitted;
+  fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return fit;
+}
+
+}  // namespace
 
 FitOptions usual_fit_options() {
   FitOptions options;
@@ -18,10 +61,14 @@ FitOptions usual_fit_options() {
   return options;
 }
 
-Fit fitted_and_judged(const Setup& setup, const Measurement& measurement, const std::string& free,
+Fit fitted_and_judged(const Setup& setup, const Measurement& recorded, const std::string& free,
                       const Engine& engine, const FitOptions& options) {
-  Fit found =
-      fit_parameters(setup, measurement, free_parameters(free, setup, all_effects()), engine, options);
+  const std::vector<Knob> knobs = free_parameters(free, setup, all_effects());
+  refuse_unknown_runs(recorded, options.on);
+  if (is_empty(setup, recorded))
+    if (std::optional<Fit> fit = by_waveform(setup, recorded, knobs, options)) return std::move(*fit);
+  const Measurement measurement = from_first_turns(recorded, engine);
+  Fit found = fit_parameters(setup, measurement, knobs, engine, options);
   const MomentumAudit balance =
       audit_momentum(with_setup(measurement, found.fitted, all_effects()), all_effects());
   if (!found.used.empty())
@@ -55,8 +102,11 @@ ReportKnobs knobs_of(const Fit& fit, const Setup& given, const Measurement& meas
 
 }  // namespace
 
-Report report_of(const Fit& fit, const Setup& given, const Measurement& measurement, const Engine& engine,
+Report report_of(const Fit& fit, const Setup& given, const Measurement& recorded, const Engine& engine,
                  int threads, const std::atomic<bool>* stop) {
+  const bool empty = is_empty(given, recorded);
+  const Measurement measurement =
+      from_first_turns(empty ? with_setup(recorded, fit.fitted, all_effects()) : recorded, engine);
   return report_of(fit, measurement, drawn_curves(measurement, &given, fit.fitted, engine, threads, stop),
                    knobs_of(fit, given, measurement, engine, threads, stop));
 }

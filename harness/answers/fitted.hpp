@@ -12,13 +12,14 @@ namespace shakedown {
 FitOptions usual_fit_options();
 
 /// Fits the keys of `free` ("restitution.grain_grain,spring.frequency"; those joined by & move together) and
-/// judges the fitted model by its features and by the momentum balance. Throws InputError for a key that
-/// cannot be fitted, Interrupted.
-Fit fitted_and_judged(const Setup& setup, const Measurement& measurement, const std::string& free,
+/// judges the fitted model: boxes without grains by their waveform, others by their features and the momentum
+/// balance. `recorded`: as the films show it. Throws InputError for a key that cannot be fitted, Interrupted.
+Fit fitted_and_judged(const Setup& setup, const Measurement& recorded, const std::string& free,
                       const Engine& engine, const FitOptions& options);
 
-/// The page; its curves and what its knobs do are simulated here. Throws Interrupted.
-Report report_of(const Fit& fit, const Setup& given, const Measurement& measurement, const Engine& engine,
+/// The page; its curves, each run without grains from its first turn on, and what its knobs do are simulated
+/// here. Throws Interrupted.
+Report report_of(const Fit& fit, const Setup& given, const Measurement& recorded, const Engine& engine,
                  int threads, const std::atomic<bool>* stop);
 
 }  // namespace shakedown

@@ -23,7 +23,6 @@
 #include "report_output.hpp"
 #include "setup_arguments.hpp"
 #include "setup_file.hpp"
-#include "swing.hpp"
 
 namespace shakedown {
 
@@ -40,8 +39,7 @@ struct FitArguments {
 int fit(const FitArguments& arguments) {
   Setup setup = arguments.setup.read(given_by_measurements);
   const std::unique_ptr<Engine> engine = engine_named("hard");
-  const Measurement measurement =
-      from_first_turns(measurement_of(setup, read_measured(arguments.data, setup), all_effects()), *engine);
+  const Measurement measurement = measurement_of(setup, read_measured(arguments.data, setup), all_effects());
   free_parameters(arguments.free, setup, all_effects());  // throws before long work
   arguments.json.check();
   arguments.report.check();

@@ -2,11 +2,13 @@
 // shakedown ladder: several setups beside each other, judged by the same measurements.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "camera_features.hpp"
 #include "command.hpp"
+#include "course.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
 #include "ensemble_options.hpp"
@@ -26,6 +28,7 @@
 #include "report_output.hpp"
 #include "setup_arguments.hpp"
 #include "swing.hpp"
+#include "swing_judged.hpp"
 #include "validation.hpp"
 
 namespace shakedown {
@@ -49,6 +52,13 @@ std::string effects_of(const Setup& setup) {
   return names.empty() ? "plain" : names;
 }
 
+/// The balance is judged at the frequency of this rung.
+MomentumAudit balance_at(const Setup& setup, const Refit& fit, const Measurement& measurement) {
+  Setup fitted = setup;
+  for (const FittedValue& value : fit.values) set_number(fitted, value.key, value.value, all_effects());
+  return audit_momentum(with_setup(measurement, fitted, all_effects()), all_effects());
+}
+
 Rung climb(const std::string& file, const Setup& setup, const Measurement& measurement,
            const Workshop& workshop, const LadderArguments& arguments) {
   RefitOptions options;
@@ -57,18 +67,22 @@ Rung climb(const std::string& file, const Setup& setup, const Measurement& measu
   std::vector<Knob> knobs = arguments.refit
                                 ? believed(free_parameters(setup), measurement.known, all_effects())
                                 : as_given(setup, measurement.known, all_effects());
-  const Measurement beside =
-      from_first_turns(with_setup(measurement, setup, all_effects()), *workshop.engine);
+  const Measurement of_setup = with_setup(measurement, setup, all_effects());
+  if (is_empty(setup, of_setup)) {
+    const MomentumAudit balance = audit_momentum(of_setup, all_effects());
+    if (std::optional<JudgedSwing> judged = judged_swing(setup, of_setup, knobs, balance, all_effects()))
+      return {file, effects_of(setup), judged->refit, balance_at(setup, judged->refit, measurement),
+              judged->judgement};
+  }
+  const Measurement beside = from_first_turns(of_setup, *workshop.engine);
   for (Knob& knob : camera_knobs(setup, beside, all_effects())) knobs.push_back(std::move(knob));
   if (!arguments.refit) options.rounds = options.most_rounds = 1;
   Rung rung{file,
             effects_of(setup),
             refit(features_with_camera(beside, all_effects()), knobs, workshop, options),
+            {},
             {}};
-  // The balance is judged at the frequency of this rung.
-  Setup fitted = setup;
-  for (const FittedValue& value : rung.fit.values) set_number(fitted, value.key, value.value, all_effects());
-  rung.momentum = audit_momentum(with_setup(measurement, fitted, all_effects()), all_effects());
+  rung.momentum = balance_at(setup, rung.fit, measurement);
   return rung;
 }
 
@@ -92,16 +106,23 @@ std::vector<Rung> climb_all(const LadderArguments& arguments, const std::vector<
   return rungs;
 }
 
+/// An empty box has none.
+std::string p_of(const Rung& rung) {
+  return std::isfinite(rung.fit.p_value) ? fmt::format("{:.3f}", rung.fit.p_value) : "-";
+}
+
 std::string readable(const std::vector<Rung>& rungs, bool refitted) {
   std::string text =
       fmt::format("{:<28} {:>16} {:>16} {:>12} {:>8} {:>10} {:>10}\n", "errors and their floor, mm", "box",
                   "grains' centre", refitted ? "held out" : "", "p", "misfit", "momentum");
   for (const Rung& rung : rungs) {
-    text += fmt::format("{:<28} {:>8.3f} /{:>6.3f} {:>8.3f} /{:>6.3f} {:>12} {:>8.3f} {:>10.2f} {:>10}  {}\n",
+    text += fmt::format("{:<28} {:>8.3f} /{:>6.3f} {:>8.3f} /{:>6.3f} {:>12} {:>8} {:>10.2f} {:>10}  {}\n",
                         rung.setup, rung.fit.error_box() * 1e3, rung.fit.floor_box() * 1e3,
                         rung.fit.error_centre() * 1e3, rung.fit.floor_centre() * 1e3,
-                        refitted ? fmt::format("{:.3f}", rung.fit.held_out_error_box * 1e3) : "",
-                        rung.fit.p_value, rung.fit.scatter,
+                        refitted && std::isfinite(rung.fit.held_out_error_box)
+                            ? fmt::format("{:.3f}", rung.fit.held_out_error_box * 1e3)
+                            : "",
+                        p_of(rung), rung.fit.scatter,
                         rung.momentum.possible ? fmt::format("{:.2g}", rung.momentum.as_given.p_value) : "-",
                         name_of(rung.judgement().standing));
     text += "  " + rung.effects;
@@ -141,6 +162,7 @@ std::string json_of(const std::vector<Rung>& rungs, bool refitted) {
   }
   nlohmann::ordered_json all{{"schema_version", 1}, {"refitted", refitted}, {"ladder", ladder}};
   explain_missing_numbers(all, [](const std::string& path) -> std::string {
+    if (path.ends_with("/p_value")) return "an empty box has no ensembles: its waveform is judged";
     return path.find("held_out") != std::string::npos ? "one box length only: nothing was left out" : "";
   });
   return all.dump(2) + "\n";

@@ -19,6 +19,7 @@
 #include "sentences.hpp"
 #include "setup_file.hpp"
 #include "swing.hpp"
+#include "swing_judged.hpp"
 #include "unlisted_force.hpp"
 #include "verdict.hpp"
 #include "waveform_search.hpp"
@@ -150,7 +151,7 @@ void judge(const Measurement& final_model, const Engine& engine, std::span<const
            const SwingError& given_in_phase, const SwingError& final, double floor, Diagnosis& d) {
   const MomentumAudit& balance = d.momentum;
   Findings findings;
-  findings.features = {std::nan(""), std::nan(""), "an empty box has no ensembles"};
+  findings.features = no_ensembles();
   findings.balance = balance.test_of(balance.final_fit);
   findings.unlisted = balance.unlisted;
   findings.anything_missing = !d.missing.empty();
@@ -169,39 +170,6 @@ void judge(const Measurement& final_model, const Engine& engine, std::span<const
     set_formula(d);
   }
   settle_hypotheses(d, findings);
-}
-
-/// Each run against the model that its waveform asks for.
-std::vector<Validation> validation_of(const WaveformFit& fit, const std::vector<WaveformRun>& frames,
-                                      const std::vector<Eigen::VectorXd>& left, double wander) {
-  std::vector<Validation> rows;
-  // Of numbers that were fitted to frames without memory.
-  const double input_share = std::sqrt(static_cast<double>(fit.value.size()) /
-                                       static_cast<double>(std::max<Eigen::Index>(1, fit.frames)));
-  for (std::size_t r = 0; r < frames.size(); ++r) {
-    const double noise = std::hypot(frames[r].white, wander);
-    rows.push_back(
-        {frames[r].name, "box",
-         std::sqrt(left[r].squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, left[r].size()))),
-         3e-7 * frames[r].amplitude, input_share * noise, noise});
-  }
-  return rows;
-}
-
-/// rms of all runs, and the run with the largest remains in words.
-SwingError error_of(const std::vector<WaveformRun>& frames, const std::vector<Eigen::VectorXd>& left) {
-  SwingError all;
-  double worst = 0;
-  for (std::size_t r = 0; r < frames.size(); ++r) {
-    const double squares = left[r].squaredNorm();
-    all.frames += static_cast<double>(left[r].size());
-    all.error += squares;
-    all.chi2 += squares / std::pow(frames[r].white, 2);
-    all.amplitude = std::max(all.amplitude, frames[r].amplitude);
-    if (squares > worst) worst = squares, all.looks_like = words_of_swing(frames[r].time, left[r]);
-  }
-  all.error = std::sqrt(all.error / std::max(1.0, all.frames));
-  return all;
 }
 
 /// The values of the laws found, with 95 % intervals, and the effects that the setup lacks.
@@ -278,15 +246,8 @@ bool conclude_by_waveform(const Setup& user, const Measurement& measurement, con
   const WaveformAnswer answer = search_waveform(measurement, start, known, only);
   if (answer.sets.empty()) return false;
   const WaveformFit& fit = answer.sets.front().fit;
-  const std::vector<WaveformRun> frames = waveform_runs(measurement, true);
-  WaveformOptions options;
-  options.known = known;
-  const std::vector<Eigen::VectorXd> left = residuals_of(frames, fit, options);
-  const double wander = balance.possible ? std::min(balance.wander.deviation, balance.most_wander) : 0;
-  double white = 0;
-  for (const WaveformRun& run : frames) white = std::max(white, run.white);
-  const double floor = std::hypot(white, wander);
-  const SwingError given = swing_error(measurement, engine, true), final = error_of(frames, left);
+  const SwingRemains remains = remains_of(measurement, fit, balance, known);
+  const SwingError given = swing_error(measurement, engine, true);
   Diagnosis found = d;
   found.ranking.clear();
   const bool held_frequency = knows_frequency_exactly(measurement);
@@ -294,30 +255,32 @@ bool conclude_by_waveform(const Setup& user, const Measurement& measurement, con
   found.hypotheses = answer.table;
   for (Hypothesis& h : found.hypotheses)
     std::erase_if(h.effects, [&](const std::string& e) { return find_choice(user, e) != nullptr; });
-  found.explained = share_explained(given, final);
+  found.explained = share_explained(
+      given, {remains.error, remains.chi2, static_cast<double>(remains.frame_count()), 0, {}, {}});
   Findings findings;
-  findings.features = {std::nan(""), std::nan(""), "an empty box has no ensembles"};
-  findings.balance = {std::nan(""), std::nan(""), "its waveform is judged"};
+  findings.features = no_ensembles();
+  findings.balance = waveform_instead_of_balance();
   findings.anything_missing = !found.missing.empty();
-  findings.explained = 1 - std::pow(final.error / answer.as_given.rms(), 2);
+  findings.explained = 1 - std::pow(remains.error / answer.as_given.rms(), 2);
   const Eigen::Index of_spring = static_cast<Eigen::Index>(3 * fit.residual.size());
   findings.refitted =
       !held_frequency && std::abs(fit.frequency() - measurement.runs.front().setup.spring.frequency) >
                              rules::stands_out * std::sqrt(fit.covariance(of_spring, of_spring));
-  found.validation = validation_of(fit, frames, left, wander);
-  findings.left = {{"box", final.error, floor, answer.as_given.rms(), final.amplitude, final.looks_like}};
-  for (Difference& row : differences_of(found.validation)) findings.left.push_back(std::move(row));
+  found.validation = remains.validation;
+  findings.left = remains.differences(answer.as_given.rms());
   found.left = findings.left;
   found.judgement = judgement_of(findings.features, findings.balance, findings.left);
   found.verdict = verdict_of(findings);
   std::string step = "refitted";
   for (const std::string& effect : found.missing) step += " + " + effect;
-  found.ladder = {step_of("as given", given.error, floor), step_of(step, final.error, floor)};
+  found.ladder = {step_of("as given", given.error, remains.floor),
+                  step_of(step, remains.error, remains.floor)};
   if (found.verdict == Verdict::adequate) found.parameters.clear(), found.amended = user;
   if (found.verdict == Verdict::unknown) found.missing.clear();
   settle_hypotheses(found, findings);
   found.camera = balance.nuisances;
-  found.last_fit = std::make_shared<const LastFit>(LastFit{measurement, {}, SwingFound{frames, fit, left}});
+  found.last_fit = std::make_shared<const LastFit>(
+      LastFit{measurement, {}, SwingFound{remains.frames, fit, remains.left}});
   found.sentence = sentence_of(found, known);
   d = std::move(found);
   return true;

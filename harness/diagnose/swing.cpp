@@ -8,7 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "base_column.hpp"
 #include "experiment_file.hpp"
+#include "known_effects.hpp"
 #include "quantity.hpp"
 #include "toml_string.hpp"
 
@@ -20,6 +22,19 @@ namespace {
 bool is_swing(const Measurement::Run& run) {
   return run.setup.grains.count == 0 && starts_anywhere(run.recorded, run.setup) &&
          run.setup.spring.frequency > 0;
+}
+
+/// The base's clock is counted from the same moment as the run's.
+void start_base_at(double moment, MeasuredRun& recorded, Setup& setup) {
+  const std::string_view parameter = base_start_key.substr(base_start_key.find('.') + 1);
+  for (EffectChoice& choice : setup.effects) {
+    if (choice.record->name != effect_of(base_start_key)) continue;
+    const double start = choice.number(parameter) + moment;
+    choice.values.find(parameter)->second = start;
+    std::erase_if(recorded.overrides, [&](const Override& one) { return one.key == base_start_key; });
+    recorded.overrides.push_back(
+        {std::string(base_start_key), toml_string(write_quantity(start, "s")), "measured"});
+  }
 }
 
 void start_at(const SwingFit& swing, MeasuredRun& recorded, Setup& setup) {
@@ -38,6 +53,7 @@ void start_at(const SwingFit& swing, MeasuredRun& recorded, Setup& setup) {
   recorded.overrides.push_back(
       {std::string(key), toml_string(write_quantity(swing.turn.place, "m")), "measured"});
   setup.release.displacement = swing.turn.place;
+  start_base_at(swing.turn.time, recorded, setup);
 }
 
 }  // namespace

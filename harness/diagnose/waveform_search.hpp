@@ -25,6 +25,13 @@ struct WaveformAnswer {
 /// The laws that the waveform of an empty box can tell, from the records.
 std::vector<WaveformLaw> waveform_laws(const Setup& setup, std::span<const EffectRecord* const> known);
 
+/// Of one family and told by a waveform alone: a sine beside a cubic, a tilt beside a spring stiffer to one
+/// side say the same twice.
+bool say_the_same(const WaveformLaw& one, const WaveformLaw& other);
+
+/// Whether a law of a fit says what one before it says.
+bool says_it_twice(const WaveformFit& fit, std::size_t which);
+
 /// ln of prior and of the share that the data leave of it, of the laws of a fit; -infinity where one of them
 /// cannot be what it is fitted to be. `candidates`: how many laws were in question.
 double log_prior_odds(const WaveformFit& fit, double candidates, double swing_frequency);

@@ -27,6 +27,7 @@
   EFFECT(initial_packing)                \
   EFFECT(constant_acceleration)          \
   EFFECT(oscillating_acceleration)       \
+  EFFECT(base_motion)                    \
   EFFECT(grain_air_drag)                 \
   EFFECT(blade_arc)                      \
   EFFECT(camera_com_bias)                \

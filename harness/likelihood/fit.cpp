@@ -38,16 +38,6 @@ MeasuredFeatures beginning_of(const MeasuredFeatures& whole, double end) {
   return part;
 }
 
-void refuse_unknown_runs(const Measurement& measurement, const std::vector<std::string>& wanted) {
-  std::vector<std::string_view> names;
-  for (const Measurement::Run& run : measurement.runs) names.push_back(run.recorded.name);
-  std::vector<Violation> found;
-  for (const std::string& name : wanted)
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      found.push_back({{"--on", 0, 0}, name, "is no run of the experiment", "it has " + listed(names)});
-  if (!found.empty()) throw InputError(std::move(found));
-}
-
 /// A regression on as many simulations as it has terms leaves nothing between them: what is chaos would seem
 /// known. Rounds on the way make half the simulations, 64 at least.
 void refuse_too_few_simulations(const std::vector<Knob>& knobs, int count) {
@@ -58,6 +48,32 @@ void refuse_too_few_simulations(const std::vector<Knob>& knobs, int count) {
                      fmt::format("{}", count),
                      fmt::format("is too few for {} keys (a regression of {} terms)", knobs.size(), terms),
                      fmt::format("give {} or more, or fit fewer keys", terms > 32 ? 4 * terms : 2 * terms)}});
+}
+
+void add_remark(FittedParameter& parameter, const std::string& remark) {
+  parameter.remark += (parameter.remark.empty() ? "" : "; ") + remark;
+}
+
+/// `knob`: where the fit ended; `start`: where it began.
+FittedParameter told_parameter(const Knob& knob, const Knob& start, double value, double error, bool at_bound,
+                               std::span<const EffectRecord* const> known) {
+  FittedParameter found{knob.key,
+                        unit_of_key(knob.key, known),
+                        start.centre,
+                        value,
+                        std::max(knob.low, value - 1.96 * error),
+                        std::min(knob.high, value + 1.96 * error),
+                        true,
+                        ""};
+  const bool covers_most = 2 * 1.96 * error > 2.0 / 3 * (knob.high - knob.low) || !std::isfinite(error);
+  found.told = !covers_most;
+  if (covers_most)
+    found.remark = "the data do not tell it: its interval covers most of what is possible";
+  else if (at_bound)
+    found.remark = "at the bound of what is possible";
+  else if (start.low == 0 && value - 1.96 * error <= 0)
+    found.remark = "not different from zero";
+  return found;
 }
 
 class Fitter {
@@ -145,28 +161,13 @@ class Fitter {
     const auto i = static_cast<Eigen::Index>(k);
     // The pseudo-experiments' spread ends at the edge of the scattered box; the slopes' does not.
     const double error = std::max(value.error, told.error[i] * std::sqrt(std::max(1.0, fit_.scatter)));
-    FittedParameter found{knob.key,
-                          unit_of_key(knob.key, options_.known),
-                          start_[k].centre,
-                          value.value,
-                          std::max(knob.low, value.value - 1.96 * error),
-                          std::min(knob.high, value.value + 1.96 * error),
-                          true,
-                          ""};
-    const bool covers_most = 2 * 1.96 * error > 2.0 / 3 * (knob.high - knob.low) || !std::isfinite(error);
-    const bool from_zero = start_[k].low == 0 && value.value - 1.96 * error <= 0;
-    found.told = !covers_most;
-    if (covers_most)
-      found.remark = "the data do not tell it: its interval covers most of what is possible";
-    else if (value.at_bound)
-      found.remark = "at the bound of what is possible";
-    else if (from_zero)
-      found.remark = "not different from zero";
+    FittedParameter found =
+        told_parameter(knob, start_[k], value.value, error, value.at_bound, options_.known);
     for (std::size_t other = 0; other < knobs_.size(); ++other)
       if (other != k && std::abs(told.correlation(i, static_cast<Eigen::Index>(other))) > confounded)
-        found.remark += fmt::format(
-            "{}only a combination with {} is told (alone it would be known to {:.2g} of this interval)",
-            found.remark.empty() ? "" : "; ", knobs_[other].key, told.alone[i] / told.error[i]);
+        add_remark(found, fmt::format("only a combination with {} is told (alone it would be known to {:.2g} "
+                                      "of this interval)",
+                                      knobs_[other].key, told.alone[i] / told.error[i]));
     return found;
   }
 
@@ -192,6 +193,40 @@ class Fitter {
 };
 
 }  // namespace
+
+void refuse_unknown_runs(const Measurement& measurement, const std::vector<std::string>& wanted) {
+  std::vector<std::string_view> names;
+  for (const Measurement::Run& run : measurement.runs) names.push_back(run.recorded.name);
+  std::vector<Violation> found;
+  for (const std::string& name : wanted)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      found.push_back({{"--on", 0, 0}, name, "is no run of the experiment", "it has " + listed(names)});
+  if (!found.empty()) throw InputError(std::move(found));
+}
+
+std::vector<FittedParameter> parameters_of(const Refit& fit, const std::vector<Knob>& start,
+                                           std::span<const EffectRecord* const> known) {
+  EXPECT(fit.values.size() == start.size());
+  const Eigen::MatrixXd correlation = correlation_of(fit.covariance);
+  std::vector<FittedParameter> list;
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    const FittedValue& value = fit.values[k];
+    list.push_back(told_parameter(start[k], start[k], value.value, value.error, value.at_bound, known));
+    for (std::size_t other = 0; other < start.size(); ++other)
+      if (other != k &&
+          std::abs(correlation(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(other))) > confounded)
+        add_remark(list.back(), "only a combination with " + start[other].key + " is told");
+  }
+  return list;
+}
+
+Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance) {
+  const Eigen::VectorXd root = covariance.diagonal().cwiseSqrt().cwiseMax(1e-300);
+  Eigen::MatrixXd correlation =
+      root.cwiseInverse().asDiagonal() * covariance * root.cwiseInverse().asDiagonal();
+  correlation.diagonal().setOnes();
+  return correlation;
+}
 
 Fit fit_parameters(const Setup& setup, const Measurement& measurement, std::vector<Knob> knobs,
                    const Engine& engine, const FitOptions& options) {

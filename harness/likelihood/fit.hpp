@@ -35,7 +35,8 @@ struct Fit {
   std::vector<RunComparison> left_out;     ///< the others, foretold
   std::vector<MeasuredFeatures> measured;  ///< what was fitted to, of the runs used
   Refit solution;                          ///< its last round
-  double p_value = 1;  ///< share of the model's own runs that fit no better than the runs used
+  double p_value = 1;  ///< share of the model's own runs that fit no better than the runs used; NaN: an empty
+                       ///< box has no such runs
   double scatter = 1;  ///< misfit over that of the model's own runs
   /// Of the fitted model; by the runs used alone where nobody has asked the momentum balance too.
   ModelJudgement judgement;
@@ -49,6 +50,15 @@ struct Fit {
 /// Throws InputError for runs that the experiment does not have, Interrupted.
 Fit fit_parameters(const Setup& setup, const Measurement& measurement, std::vector<Knob> knobs,
                    const Engine& engine, const FitOptions& options);
+
+/// Throws InputError for names that no run of the experiment has.
+void refuse_unknown_runs(const Measurement& measurement, const std::vector<std::string>& names);
+
+/// The values of a fit made otherwise, with what is to be said of each; `start`: its knobs, in their order.
+std::vector<FittedParameter> parameters_of(const Refit& fit, const std::vector<Knob>& start,
+                                           std::span<const EffectRecord* const> known);
+
+Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance);
 
 std::string fit_json(const Fit& fit);
 std::string fit_text(const Fit& fit);

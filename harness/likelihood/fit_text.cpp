@@ -75,6 +75,7 @@ std::string fit_json(const Fit& fit) {
                 {"simulations", fit.runs},
                 {"setup", write_setup(fit.fitted)}};
   explain_missing_numbers(document, [](const std::string& path) -> std::string {
+    if (path == "/p_value") return "an empty box has no ensembles: its waveform is judged";
     if (path.ends_with("com_mm")) return "the grains' centre was not tracked";
     return path.rfind("/correlation/", 0) == 0 ? "the data do not tell one of the two" : "";
   });
@@ -94,12 +95,14 @@ std::string fit_text(const Fit& fit) {
       text +=
           fmt::format("  correlation of {} and {}: {:.2f}\n", fit.parameters[static_cast<std::size_t>(j)].key,
                       fit.parameters[static_cast<std::size_t>(i)].key, fit.correlation(i, j));
-  text += fmt::format("  misfit {:.2f} times that of the model's own runs, p = {:.3f}\n", fit.scatter,
-                      fit.p_value);
+  if (std::isfinite(fit.p_value))
+    text += fmt::format("  misfit {:.2f} times that of the model's own runs, p = {:.3f}\n", fit.scatter,
+                        fit.p_value);
   text += "  fitted model " + fit.judgement.reason + "\n";
   for (const RunComparison& run : fit.used) text += validation_text(run.validation);
   text += runs_text("runs fitted", fit.used) + runs_text("runs foretold", fit.left_out);
-  return text + fmt::format("  {} simulations, {:.1f} s\n", fit.runs, fit.seconds);
+  return text + (fit.runs > 0 ? fmt::format("  {} simulations, {:.1f} s\n", fit.runs, fit.seconds)
+                              : fmt::format("  by the waveform, {:.1f} s\n", fit.seconds));
 }
 
 }  // namespace shakedown

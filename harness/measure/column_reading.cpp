@@ -308,6 +308,15 @@ RunSeries read_columns(const Table& table, const RunColumns& columns, const Cloc
     std::erase_if(of_com, reported);
     run.violations.insert(run.violations.end(), of_com.begin(), of_com.end());
   }
+  if (columns.base) {
+    for (const auto& [when, place] : series_of(table, *columns.base, time, scale, clock, run.violations))
+      if (std::isfinite(place)) run.base.emplace_back(when, place);
+    if (run.violations.empty() && run.base.size() < 2)
+      run.violations.push_back({{table.file, 0, 0},
+                                columns.base->from,
+                                "holds fewer than two numbers",
+                                "choose another column, or leave column.base_position out"});
+  }
   Series all = box;
   all.insert(com.begin(), com.end());
   for (const auto& [when, unused] : all) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "table.hpp"
@@ -38,11 +39,13 @@ struct RunColumns {
   std::optional<ColumnChoice> time;  ///< absent: rows are frames
   ColumnChoice box;
   std::optional<ColumnChoice> com;
+  std::optional<ColumnChoice> base;  ///< the far end of the spring, where it moves
 };
 
 /// The series of a run: strictly increasing time, NaN where a position is missing.
 struct RunSeries {
   std::vector<double> time, x_box, x_com;
+  std::vector<std::pair<double, double>> base;  ///< s, m; empty: it rests
   std::vector<Violation> violations;
   std::vector<std::string> notes;
 };

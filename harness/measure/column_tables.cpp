@@ -88,7 +88,7 @@ ColumnChoice column_choice(const TomlValue& table, const std::string& path, Colu
   return choice;
 }
 
-const std::vector<std::string_view> known_columns{"time", "box_position", "grain_centre"};
+const std::vector<std::string_view> known_columns{"time", "box_position", "grain_centre", "base_position"};
 
 }  // namespace
 
@@ -110,6 +110,8 @@ RunColumns read_column_tables(const TomlValue* table, const std::string& path, R
       columns.box = choice(columns.box);
     else if (entry.key == "grain_centre")
       columns.com = choice(columns.com);
+    else if (entry.key == "base_position")
+      columns.base = choice(columns.base);
     else
       violations.push_back({entry.place, path + entry.key, "is not a column that shakedown knows",
                             remedy_for_word(entry.key, known_columns)});

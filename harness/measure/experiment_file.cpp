@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "base_column.hpp"
 #include "column_reading.hpp"
 #include "column_tables.hpp"
 #include "experiment_reader.hpp"
@@ -149,11 +150,15 @@ void read_series(const Table& table, RunColumns columns, const ClockAndScale& sc
       (columns.com->from.empty() || (is_empty_box(run) && !find_column(table, columns.com->from))))
     columns.com.reset();
   if (is_empty_box(run)) columns.com.reset();
+  if (columns.base && columns.base->from.empty()) columns.base.reset();
   RunSeries series = read_columns(table, columns, scale);
   append(violations, std::move(series.violations));
   experiment.notes.insert(experiment.notes.end(), series.notes.begin(), series.notes.end());
   run.time = std::move(series.time);
-  for (double& when : run.time) when *= 1 + clock_error(run, experiment);
+  const double clock = 1 + clock_error(run, experiment);
+  for (double& when : run.time) when *= clock;
+  for (auto& [when, place] : series.base) when *= clock;
+  if (!series.base.empty()) add_base_motion(series.base, run);
   run.x_box = std::move(series.x_box);
   run.x_com = std::move(series.x_com);
   // Frames before the stated release are no part of the motion that starts there.

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "audit.hpp"
+#include "base_column.hpp"
 #include "experiment_file.hpp"
 #include "quantity.hpp"
 #include "robust_statistics.hpp"
@@ -170,6 +171,8 @@ Experiment with_releases_seen(Experiment experiment, const std::vector<Setup>& s
   EXPECT(setups.size() == experiment.runs.size());
   for (std::size_t r = 0; r < setups.size(); ++r) {
     MeasuredRun& run = experiment.runs[r];
+    // Nobody lets a driven box go.
+    if (is_driven(run)) continue;
     if (run.release_stated || run.start == Start::anywhere || run.time.size() < 5) continue;
     const bool grains = setups[r].grains.count > 0;
     if (grains && setups[r].release.displacement == 0) continue;

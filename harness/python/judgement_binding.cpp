@@ -16,7 +16,6 @@
 #include "looked_at.hpp"
 #include "paper_values.hpp"
 #include "released.hpp"
-#include "swing.hpp"
 
 namespace py = pybind11;
 
@@ -100,7 +99,6 @@ Answer fitted(const Setup& setup, const Experiment& experiment, const std::strin
               const std::vector<std::string>& on, int runs, int threads, const py::object& listener) {
   const std::shared_ptr<const Question> asked = question_of(setup, experiment);
   const std::shared_ptr<const Engine> engine = shared_engine("hard");
-  const auto measurement = std::make_shared<const Measurement>(from_first_turns(asked->measurement, *engine));
   free_parameters(free, asked->setup, all_effects());  // throws before long work
   const auto work = [&](ToldProgress& told, const std::atomic<bool>* stop) {
     FitOptions options = usual_fit_options();
@@ -112,11 +110,12 @@ Answer fitted(const Setup& setup, const Experiment& experiment, const std::strin
     options.progress = [&](const std::string& stage, std::int64_t done) {
       told.tell(stage, std::min(0.99, static_cast<double>(done) / about));
     };
-    return std::make_shared<const Fit>(fitted_and_judged(asked->setup, *measurement, free, *engine, options));
+    return std::make_shared<const Fit>(
+        fitted_and_judged(asked->setup, asked->measurement, free, *engine, options));
   };
   const std::shared_ptr<const Fit> found = released(listener, work);
   const auto report = [=](const std::atomic<bool>* stop) {
-    return report_of(*found, asked->setup, *measurement, *engine, threads, stop);
+    return report_of(*found, asked->setup, asked->measurement, *engine, threads, stop);
   };
   return {fit_json(*found), fit_text(*found),        found->judgement.holds(),
           found->fitted,    asked->taken_from_paper, report};

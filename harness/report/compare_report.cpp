@@ -70,9 +70,12 @@ Report report_of(const Refit& fit, const MomentumAudit& momentum, const ModelJud
                           report.title, for_people(fit.error_box() * 1e3), for_people(fit.floor_box() * 1e3));
   report.facts = {
       {"Error of the box", for_people(fit.error_box() * 1e3) + " mm", "rms over all runs", Tone::plain},
-      {"Noise floor", for_people(fit.floor_box() * 1e3) + " mm", "camera and run-to-run spread", Tone::plain},
-      {"Fit", "p = " + for_people(fit.p_value),
-       for_people(fit.scatter) + " times the misfit of the model's own runs", Tone::plain}};
+      {"Noise floor", for_people(fit.floor_box() * 1e3) + " mm", "camera and run-to-run spread",
+       Tone::plain}};
+  if (std::isfinite(fit.p_value))
+    report.facts.push_back({"Fit", "p = " + for_people(fit.p_value),
+                            for_people(fit.scatter) + " times the misfit of the model's own runs",
+                            Tone::plain});
   if (momentum.possible)
     report.facts.push_back({"Momentum balance", "p = " + for_people(momentum.as_given.p_value),
                             "forces from outside, no simulation", Tone::plain});

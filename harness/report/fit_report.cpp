@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "compare_report.hpp"
@@ -66,10 +67,11 @@ std::vector<ReportFact> facts_of(const Fit& fit) {
                      p.told ? "95 %:" + text.substr(interval) : "not told by these data",
                      p.told ? Tone::plain : Tone::unsure});
   }
-  facts.push_back({"Fit", "p = " + for_people(fit.p_value), fit.judgement.reason,
-                   fit.judgement.holds() ? Tone::good : Tone::bad});
-  facts.push_back(
-      {"Simulations", fmt::format("{}", fit.runs), fmt::format("in {:.0f} s", fit.seconds), Tone::plain});
+  facts.push_back({"Fit", std::isfinite(fit.p_value) ? "p = " + for_people(fit.p_value) : "waveform",
+                   fit.judgement.reason, fit.judgement.holds() ? Tone::good : Tone::bad});
+  if (fit.runs > 0)
+    facts.push_back(
+        {"Simulations", fmt::format("{}", fit.runs), fmt::format("in {:.0f} s", fit.seconds), Tone::plain});
   return facts;
 }
 

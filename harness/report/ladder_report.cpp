@@ -31,7 +31,7 @@ ReportSection errors_section(const std::vector<Rung>& rungs, bool refitted) {
     bars.lines.push_back(std::move(line));
     centre.cells.push_back(rung.fit.floor_centre() > 0 ? for_people(rung.fit.error_centre() * 1e3) : "–");
     floor.cells.push_back(for_people(rung.fit.floor_box() * 1e3));
-    p.cells.push_back(for_people(rung.fit.p_value));
+    p.cells.push_back(std::isfinite(rung.fit.p_value) ? for_people(rung.fit.p_value) : "–");
     momentum.cells.push_back(rung.momentum.possible ? for_people(rung.momentum.as_given.p_value) : "–");
     verdict.cells.push_back(rung.judgement().reason);
   }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <optional>
+
 #include "momentum.hpp"
 #include "refit.hpp"
 #include "report.hpp"
@@ -12,8 +14,10 @@ struct Rung {
   std::string effects;  ///< "plain", or those it has
   Refit fit;
   MomentumAudit momentum;
+  std::optional<ModelJudgement> by_waveform{};  ///< of boxes without grains
   ModelJudgement judgement() const {
-    return judgement_of(fit.test(), momentum.test_of(momentum.as_given), fit.left());
+    return by_waveform ? *by_waveform
+                       : judgement_of(fit.test(), momentum.test_of(momentum.as_given), fit.left());
   }
   bool holds() const { return judgement().holds(); }
 };

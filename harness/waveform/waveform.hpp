@@ -22,6 +22,7 @@ struct WaveformLaw {
   bool only_waveform = false;  ///< nothing else than a waveform tells it
   std::string family{};        ///< of its record
   std::string frequency_key{}, phase_key{}, rate_key{};  ///< of a second swing
+  std::vector<std::string> keys{};  ///< what a user asks for: the value is theirs; empty: the term's key
   /// How many numbers of the fit are its own.
   Eigen::Index width() const { return is_mode ? 4 : 1; }
   bool operator==(const WaveformLaw& other) const;
@@ -63,7 +64,8 @@ struct WaveformOptions {
   std::span<const EffectRecord* const> known;
   int evaluations = 40;  ///< of the model with its derivatives, at most
   bool free_frequency = true;
-  double until = 1e300;  ///< s from the first frame of each run
+  double believed_frequency = 0, believed_error = 0;  ///< Hz, beforehand; no error: nothing is
+  double until = 1e300;                               ///< s from the first frame of each run
 };
 
 /// A start for a fit: frequency as given (Hz), places and speeds from the first half period, strengths small.
