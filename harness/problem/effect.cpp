@@ -40,7 +40,7 @@ Capability EffectRecord::capability(std::string_view engine) const {
 
 bool EffectRecord::takes_formula() const {
   for (const Parameter& parameter : parameters)
-    if (parameter.kind == ParameterKind::text) return true;
+    if (parameter.kind == ParameterKind::constants) return true;
   return false;
 }
 
