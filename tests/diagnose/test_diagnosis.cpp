@@ -61,7 +61,7 @@ TEST(SlowDiagnosis, LimitsHoldAndWhatWasNotTriedIsSaid) {
   DiagnoseOptions options;
   options.known = all_effects();
   options.threads = 2;
-  options.budget = 2000;
+  options.budget = 1200;
   const Diagnosis few = diagnose(believed(), measurement, *engine, options);
   EXPECT_LE(few.runs_simulated, options.budget);
   EXPECT_FALSE(few.not_tried.empty());
