@@ -20,12 +20,11 @@ struct Effort {
   int looks = 2;       ///< more, where the first was misled or is poor
 };
 namespace effort {
-/// `apart`: strengths that were looked for as one and are fitted by themselves have two valleys, and data
-/// that accept the one may fit the other better.
 constexpr Effort look{1, 128, 0}, refit{2, 160, 128}, beside{2, 160, 128, rules::doubtful},
     attempt{.rounds = 2, .count = 128, .confirming = 96, .looks = 1},
     attempt_when_dear{.rounds = 1, .count = 72, .confirming = 48, .looks = 1},
-    conclude{1, 192, 160, 0, false, true}, apart{2, 160, 128, 1, false, true}, least{1, 64, 0, 0, true};
+    conclude{1, 192, 160, 0, false, true}, apart{2, 160, 128, rules::doubtful, false, true},
+    least{1, 64, 0, 0, true};
 constexpr int most_when_dear = 80;
 constexpr ScreenEffort rank{}, rank_when_dear{32, 48, {8, 8, 8}, {12, 12, 12}};
 

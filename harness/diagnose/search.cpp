@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "errors.hpp"
 #include "expect.hpp"
@@ -221,6 +222,41 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   return round;
 }
 
+namespace {
+
+/// Two strengths that do much the same have two valleys: most of the one, or most of the other. The better of
+/// both fits; where the data do not tell which, its intervals reach over both.
+Refit with_other_valley(const DiagnosisState& apart, const std::vector<std::string>& parts,
+                        DiagnosisTools& tools, const std::string& stage) {
+  DiagnosisState other = apart;
+  const auto value_of = [&](const Refit& fit, const std::string& key) {
+    return std::find_if(fit.values.begin(), fit.values.end(),
+                        [&](const FittedValue& value) { return value.key == key; });
+  };
+  double sum = 0;
+  for (const std::string& key : parts) sum += value_of(apart.fit, key)->value;
+  const double mean = sum / static_cast<double>(parts.size());
+  for (Knob& part : other.found) {
+    if (std::find(parts.begin(), parts.end(), part.key) == parts.end()) continue;
+    // What was below the mean begins above it, and the other way round.
+    const bool was_below = value_of(apart.fit, part.key)->value < mean;
+    part.centre = std::clamp(was_below ? 1.5 * sum : sum / 4, part.low, part.high);
+    part.width = std::max(part.centre / 2, (part.high - part.low) / 50);
+  }
+  other.fit = tools.fit(other, stage, other.knobs(), effort::attempt);
+  const double better = (apart.fit.scatter - other.fit.scatter) * apart.fit.degrees;
+  if (std::abs(better) > rules::emulator_noise) return better > 0 ? other.fit : apart.fit;
+  Refit both = better > 0 ? other.fit : apart.fit;
+  for (FittedValue& value : both.values)
+    for (const Refit* fit : {&std::as_const(apart).fit, &std::as_const(other).fit}) {
+      const auto there = value_of(*fit, value.key);
+      value.low = std::min(value.low, there->low), value.high = std::max(value.high, there->high);
+    }
+  return both;
+}
+
+}  // namespace
+
 DiagnosisState concluded(const DiagnosisState& state, DiagnosisTools& tools, const std::string& stage) {
   DiagnosisState whole = state;
   if (std::none_of(state.found.begin(), state.found.end(), is_joint)) {
@@ -229,15 +265,21 @@ DiagnosisState concluded(const DiagnosisState& state, DiagnosisTools& tools, con
   }
   DiagnosisState apart = state;
   apart.found = taken_apart(state.found);
+  std::vector<std::string> parts;
   for (Knob& part : apart.found) {
     // One may be far from what both were together: from nothing to three times that.
     const bool was_joint = std::none_of(state.found.begin(), state.found.end(),
                                         [&](const Knob& knob) { return knob.key == part.key; });
-    if (was_joint)
-      part.width = std::max(part.width, 1.5 * (part.centre - part.low)),
-      part.centre = std::max(part.centre, part.low + part.width);
+    if (!was_joint) continue;
+    parts.push_back(part.key);
+    part.width = std::max(part.width, 1.5 * (part.centre - part.low));
+    part.centre = std::max(part.centre, part.low + part.width);
   }
   apart.fit = tools.fit(apart, stage, apart.knobs(), effort::apart);
+  try {
+    apart.fit = with_other_valley(apart, parts, tools, stage);
+  } catch (const BudgetSpent&) {  // the one that was found has to do
+  }
   // too many to follow
   if ((apart.fit.scatter - state.fit.scatter) * apart.fit.degrees > rules::emulator_noise) {
     whole.fit = tools.fit(state, stage, state.knobs(), effort::conclude);

@@ -144,10 +144,11 @@ void expect_sound(const Database& database, const std::filesystem::path& file) {
   if (!check.step() || check.text(0) != "ok") refuse_damaged(file);
 }
 
-/// False where there is no file, or one that a program was stopped in making.
+/// False where there is no file, or one that a program was stopped in making. Opened to write, for what a
+/// stopped program left half done is to be taken back first.
 bool is_begun(const std::filesystem::path& file) {
   return std::filesystem::exists(file) &&
-         SqlStatement(Database(file, Database::Access::read), "SELECT 1 FROM sqlite_master").step();
+         SqlStatement(Database(file, Database::Access::write), "SELECT 1 FROM sqlite_master").step();
 }
 
 int column_count(const Database& database) {
