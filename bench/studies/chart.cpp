@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "markup.hpp"
 #include "series_file.hpp"
 
 namespace shakedown {
@@ -18,13 +19,6 @@ constexpr double width = 760, panel_height = 300, left = 74, right = 16, top = 3
 constexpr std::size_t most_points = 3000;  // of a line: more cannot be seen
 constexpr std::array<const char*, 6> colours{"#1b6ca8", "#c0392b", "#2e8b57",
                                              "#8e44ad", "#d68910", "#555555"};
-
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text)
-    safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return safe;
-}
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;

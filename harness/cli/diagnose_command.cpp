@@ -18,6 +18,7 @@
 #include "in_order.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
+#include "kept_simulations.hpp"
 #include "measured_data.hpp"
 #include "output_file.hpp"
 #include "progress_display.hpp"
@@ -41,33 +42,6 @@ struct DiagnoseArguments {
   bool resume = false;
 };
 
-/// Nothing without a folder to keep it in.
-std::unique_ptr<SimulationJournal> journal_in(const OutputFolder* folder, const Experiment& experiment,
-                                              bool resume) {
-  if (folder == nullptr) {
-    if (resume)
-      throw InputError({{{"--resume", 0, 0},
-                         "",
-                         "needs the folder of the diagnosis that was interrupted",
-                         "name it with --out DIR"}});
-    return nullptr;
-  }
-  const std::filesystem::path file = folder->path() / "simulations.journal";
-  if (!resume && std::filesystem::exists(file))
-    fmt::print(stderr,
-               "{} is of a diagnosis that was interrupted; kept as {}.old, and all is simulated anew "
-               "(--resume would have gone on)\n",
-               file.string(), file.filename().string());
-  return std::make_unique<SimulationJournal>(file, version_line() + ", experiment " + digest(experiment),
-                                             resume);
-}
-
-std::string what_is_kept(const SimulationJournal* journal) {
-  return journal ? fmt::format("{} simulations are kept in {}; --resume goes on", journal->kept(),
-                               journal->file().string())
-                 : "nothing was kept; with --out DIR simulations are, and --resume goes on";
-}
-
 int diagnose_data(const DiagnoseArguments& arguments) {
   Setup setup = arguments.setup.read(given_by_measurements);
   const Experiment experiment = read_measured(arguments.data, setup);
@@ -82,7 +56,8 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   }
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const std::int64_t budget = arguments.budget > 0 ? arguments.budget : usual_budget(measurement);
-  const std::unique_ptr<SimulationJournal> journal = journal_in(folder.get(), experiment, arguments.resume);
+  const std::unique_ptr<SimulationJournal> journal =
+      journal_in(folder.get(), "diagnosis", experiment, arguments.resume);
   Diagnosis diagnosis;
   try {
     ProgressDisplay display(fmt::format("{}: diagnosing, at most {} simulations and {:g} s", arguments.data,

@@ -11,9 +11,9 @@
 #include "engines.hpp"
 #include "experiment_file.hpp"
 #include "interruption.hpp"
+#include "kept_simulations.hpp"
 #include "output_file.hpp"
 #include "progress_display.hpp"
-#include "provenance.hpp"
 #include "simulation_journal.hpp"
 #include "strength_mapped.hpp"
 
@@ -36,20 +36,6 @@ std::string words_of(const Trial& trial, const HiddenQuestion& question) {
                      trial.recording.frame_rate, question.title.empty() ? "" : ": " + question.title);
 }
 
-std::unique_ptr<SimulationJournal> journal_in(const OutputFolder* folder, const Experiment& experiment,
-                                              bool resume) {
-  if (folder == nullptr) {
-    if (resume)
-      throw InputError({{{"--resume", 0, 0},
-                         "",
-                         "needs the folder of the map that was interrupted",
-                         "name it with --out DIR"}});
-    return nullptr;
-  }
-  return std::make_unique<SimulationJournal>(folder->path() / "simulations.journal",
-                                             version_line() + ", map " + digest(experiment), resume);
-}
-
 }  // namespace
 
 int map_strengths(const MapArguments& arguments, const HiddenQuestion& question, const Trial& trial,
@@ -61,7 +47,8 @@ int map_strengths(const MapArguments& arguments, const HiddenQuestion& question,
   const Experiment experiment = planned_experiment(question, trial);
   const Setup& believed = trial.hidden.believed;
   const std::unique_ptr<Engine> engine = engine_named("hard");
-  const std::unique_ptr<SimulationJournal> journal = journal_in(folder.get(), experiment, arguments.resume);
+  const std::unique_ptr<SimulationJournal> journal =
+      journal_in(folder.get(), "map", experiment, arguments.resume);
   MapOptions options;
   options.known = all_effects();
   for (const std::string& effect : question.effects)
@@ -80,9 +67,7 @@ int map_strengths(const MapArguments& arguments, const HiddenQuestion& question,
     map = strength_map(believed, measurement_of(believed, experiment, all_effects()), *engine,
                        usual_lines(trial.recording.box_noise), options);
   } catch (const Interrupted&) {
-    throw Interrupted(journal ? fmt::format("{} simulations are kept in {}; --resume goes on",
-                                            journal->kept(), journal->file().string())
-                              : "nothing was kept; with --out DIR simulations are, and --resume goes on");
+    throw Interrupted(what_is_kept(journal.get()));
   }
   std::FILE* people = json.for_people();
   const std::string words = words_of(trial, question);

@@ -13,18 +13,17 @@ namespace shakedown {
 /// solution.
 struct Effort {
   int rounds, count, confirming;
-  /// One of a p-value below looks on both sides along what is known least.
-  double beside_below = 0;
-  bool once = false;   ///< does not follow a solution that leaves the box
-  bool whole = false;  ///< not cut where runs are dear: its intervals are the answer's
-  int looks = 2;       ///< more, where the first was misled or is poor
+  bool beside = false;  ///< a poor one looks on both sides along what is known least
+  bool once = false;    ///< does not follow a solution that leaves the box
+  bool whole = false;   ///< not cut where runs are dear: its intervals are the answer's
+  int looks = 2;        ///< more, where the first was misled or is poor
 };
 namespace effort {
-constexpr Effort look{1, 128, 0}, refit{2, 160, 128}, beside{2, 160, 128, rules::doubtful},
+constexpr Effort look{1, 128, 0}, refit{2, 160, 128}, beside{2, 160, 128, true},
     attempt{.rounds = 2, .count = 128, .confirming = 96, .looks = 1},
     attempt_when_dear{.rounds = 1, .count = 72, .confirming = 48, .looks = 1},
-    conclude{1, 192, 160, 0, false, true}, apart{2, 160, 128, rules::doubtful, false, true},
-    least{1, 64, 0, 0, true};
+    conclude{1, 192, 160, false, false, true}, apart{2, 160, 128, true, false, true},
+    least{1, 64, 0, false, true};
 constexpr int most_when_dear = 80;
 constexpr ScreenEffort rank{}, rank_when_dear{32, 48, {8, 8, 8}, {12, 12, 12}};
 

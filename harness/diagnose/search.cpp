@@ -238,10 +238,11 @@ Refit with_other_valley(const DiagnosisState& apart, const std::vector<std::stri
   const double mean = sum / static_cast<double>(parts.size());
   for (Knob& part : other.found) {
     if (std::find(parts.begin(), parts.end(), part.key) == parts.end()) continue;
-    // What was below the mean begins above it, and the other way round.
+    // What was below the mean begins where the range of such strengths ends (three times what both are
+    // together, as in `concluded`), what was above it at half the mean.
     const bool was_below = value_of(apart.fit, part.key)->value < mean;
-    part.centre = std::clamp(was_below ? 1.5 * sum : sum / 4, part.low, part.high);
-    part.width = std::max(part.centre / 2, (part.high - part.low) / 50);
+    part.centre = std::clamp(was_below ? 3 * mean : mean / 2, part.low, part.high);
+    part.width = std::min(part.width, std::max(part.centre / 2, part.width / 10));
   }
   other.fit = tools.fit(other, stage, other.knobs(), effort::attempt);
   const double better = (apart.fit.scatter - other.fit.scatter) * apart.fit.degrees;

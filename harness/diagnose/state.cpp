@@ -148,7 +148,7 @@ RefitOptions DiagnosisTools::options_of(const DiagnosisState& state, Effort effo
   options.count = effort.count;
   options.most_looks = effort.looks;
   options.confirming = effort.confirming;
-  options.look_beside_below = effort.beside_below;
+  if (effort.beside) options.look_beside_below = rules::doubtful;
   options.first_run = next_batch();
   return options;
 }

@@ -4,24 +4,11 @@
 #include <cmath>
 
 #include "drawing.hpp"
+#include "markup.hpp"
 
 namespace shakedown {
 
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += letter;
-    }
-  }
-  return result;
-}
 
 std::string colour_of(const Mark& mark) {
   const auto byte = [](double share) { return static_cast<int>(std::lround(255 * share)); };

@@ -65,22 +65,6 @@ std::string bar_html(double value, double error, const std::string& kind, double
 
 }  // namespace
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  result.reserve(text.size());
-  for (const char letter : text) {
-    switch (letter) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      case '\'': result += "&#39;"; break;
-      default: result += letter;
-    }
-  }
-  return result;
-}
-
 std::string for_people(double value) {
   if (!std::isfinite(value)) return "–";
   const double size = std::abs(value);

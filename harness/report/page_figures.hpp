@@ -4,12 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include "markup.hpp"
 #include "report.hpp"
 
 namespace shakedown {
-
-/// Text for HTML; line breaks stay.
-std::string escaped(std::string_view text);
 
 /// A number for people: four significant digits, no exponent between 1e-3 and 1e5.
 std::string for_people(double value);
