@@ -35,7 +35,8 @@ TEST(SlowEmptyBoxAnswers, AFitFindsAFrequencyFivePerCentOff) {
                                     *leaf.engine, options);
   ASSERT_EQ(fit.parameters.size(), 3u);
   EXPECT_NEAR(fit.parameters[0].value, 1.26, 2e-5);  // seen: 4e-6
-  // Seen: 2.0 and 2.1 standard errors off, of one noise: the two are correlated by -0.96.
+  // Seen: 2.0 and 2.1 standard errors off, of one noise: the two are correlated by -0.96. Of 60 other films
+  // (0.02 N s/m, 8 mN, 20 s) the intervals hold 97 and 93 %.
   const auto errors_off = [](const FittedParameter& p, double truth) {
     return std::abs(p.value - truth) / ((p.high - p.low) / (2 * 1.96));
   };
