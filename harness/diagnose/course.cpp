@@ -155,8 +155,14 @@ DiagnosisState Course::with_terms(DiagnosisState state, const std::vector<FoundT
   const MomentumAudit& balance = result_.momentum;
   state.theta = free_parameters(state.setup, frequency, (balance.possible ? 0.004 : 0.01) * frequency);
   state.theta = believed(std::move(state.theta), tools_.measurement().known, tools_.known());
-  state = with_balance(state, terms, tools_.measurement(), *tools_.workshop().engine, tools_.options(),
-                       result_.notes);
+  return with_balance(state, terms, tools_.measurement(), *tools_.workshop().engine, tools_.options(),
+                      result_.notes);
+}
+
+DiagnosisState Course::with_what_was_found(DiagnosisState state, const std::vector<FoundTerm>& terms,
+                                           double frequency) {
+  state = with_terms(std::move(state), terms, frequency);
+  const MomentumAudit& balance = result_.momentum;
   if (balance.unlisted && allowed(tools_.options(), "user_force"))
     state.setup = with_force(state.setup, sum_of(balance.formulas), tools_.known());
   return state;
@@ -166,14 +172,14 @@ DiagnosisState Course::refit_of(const DiagnosisState& before) {
   const MomentumAudit& balance = result_.momentum;
   const double frequency =
       balance.possible && balance.frequency > 0 ? balance.frequency : user_.spring.frequency;
-  DiagnosisState state = with_terms(before, balance.terms, frequency);
+  DiagnosisState state = with_what_was_found(before, balance.terms, frequency);
   const bool nothing_found = state.missing.empty() && !balance.unlisted;
   const std::string stage =
       nothing_found ? "refitting the parameters" : "refitting with what the momentum balance found";
   try {
     state.fit = fit_within(share::first_refit, state, stage, effort::refit);
   } catch (const PhysicsError& error) {
-    if (state.found.empty()) throw;
+    if (state.found.empty() && !balance.unlisted) throw;
     result_.notes.push_back(std::string("with what the momentum balance found the model cannot be simulated, "
                                         "so that ensembles are fitted without it: ") +
                             error.what());

@@ -29,6 +29,9 @@ class Course {
   DiagnosisState with_packing();
   /// Parameters free, and these strengths that the balance found.
   DiagnosisState with_terms(DiagnosisState state, const std::vector<FoundTerm>& terms, double frequency);
+  /// with_terms, and the formula that the balance wrote for a force of no list.
+  DiagnosisState with_what_was_found(DiagnosisState state, const std::vector<FoundTerm>& terms,
+                                     double frequency);
   DiagnosisState refit_of(const DiagnosisState& before);
   /// A fit that an answer cannot do without, in this share of simulations and time: with less effort where
   /// they do not suffice.

@@ -10,6 +10,7 @@
 #include "effects.hpp"
 #include "engine_differences.hpp"
 #include "engines.hpp"
+#include "errors.hpp"
 #include "experiment_file.hpp"
 #include "hidden_measurements.hpp"
 #include "next_experiment.hpp"
@@ -121,6 +122,40 @@ TEST(SlowDiagnosis, ForcesInNoListAreUnknownAndAFormulaIsOffered) {
   EXPECT_NE(d.force_formula.find("user_force"), std::string::npos);
   ASSERT_FALSE(d.next_experiments.empty());
   EXPECT_NE(d.next_experiments.front().find("alone"), std::string::npos);
+}
+
+/// The hard engine, but for formulas.
+class NoFormulas final : public Engine {
+ public:
+  std::string_view name() const override { return hard_->name(); }
+  Capability can_model(const EffectRecord& effect) const override { return hard_->can_model(effect); }
+  Trajectory run(const shakedown::Setup& setup, const RunOptions& options) const override {
+    for (const EffectChoice& effect : setup.effects)
+      if (effect.record->name == "user_force") throw PhysicsError("energy and losses do not balance");
+    return hard_->run(setup, options);
+  }
+
+ private:
+  std::unique_ptr<Engine> hard_ = engine_named("hard");
+};
+
+// What the balance writes may have corners or push the box ever further: that is no reason to say nothing.
+TEST(SlowDiagnosis, AFormulaThatCannotBeSimulatedEndsNoDiagnosis) {
+  const Measurement measurement = as_measured(
+      measured({{"user_force=force:\"-c*v*exp(-((x-x0)/w)^2)\",constants.c:0.8 N s/m,constants.x0:45mm,"
+                 "constants.w:12mm"},
+                {},
+                {},
+                {0.040, 0.065}}));
+  DiagnoseOptions options;
+  options.known = all_effects();
+  options.threads = 2;
+  options.budget = 1500;
+  const Diagnosis d = diagnose(believed(), measurement, NoFormulas(), options);
+  EXPECT_EQ(d.verdict, Verdict::unknown) << d.sentence;
+  EXPECT_TRUE(std::any_of(d.notes.begin(), d.notes.end(), [](const std::string& note) {
+    return note.find("cannot be simulated") != std::string::npos;
+  }));
 }
 
 // Half way between the layers of fcc and of square.
