@@ -37,8 +37,8 @@ class HeldBonds {
   /// mN some runs of 8.5 s took over a minute without it.
   static constexpr double hairbreadth = 2e-6;
 
-  HeldBonds(std::size_t grains, double force, double range)
-      : force_(force), range_(range), last_touch_(grains, -1.0) {}
+  /// `range`: of the wells, m.
+  HeldBonds(std::size_t grains, double range) : range_(range), last_touch_(grains, -1.0) {}
 
   static std::uint64_t of_pair(int i, int j) {
     return static_cast<std::uint64_t>(std::min(i, j)) << 32 | static_cast<std::uint64_t>(std::max(i, j));
@@ -61,18 +61,18 @@ class HeldBonds {
   /// them yet.
   void touched(std::uint64_t bond, double momentum, double now) { pulls_[bond] = {now, -momentum}; }
 
-  /// The two came to the edge of their well with too little energy. True: they were pulled with more than the
-  /// attraction.
-  bool gives_way(std::uint64_t bond, double reduced_mass, double opening_speed, double now) {
+  /// The two came to the edge of their well with too little energy. True: they were pulled with more than
+  /// their attraction `force`, N.
+  bool gives_way(std::uint64_t bond, double force, double reduced_mass, double opening_speed, double now) {
     const double momentum = reduced_mass * opening_speed;
     Pull& pull = pulls_.try_emplace(bond, Pull{now, 0}).first->second;
     const double time = now - pull.since;
     // in less the attraction itself would not cross its range
-    if (time < std::sqrt(2 * range_ * reduced_mass / force_)) {
+    if (time < std::sqrt(2 * range_ * reduced_mass / force)) {
       pull.impulse += 2 * momentum;
       return false;
     }
-    const bool pulled = pull.impulse + momentum > force_ * time;
+    const bool pulled = pull.impulse + momentum > force * time;
     pull = {now, momentum};
     return pulled;
   }
@@ -82,7 +82,7 @@ class HeldBonds {
     double since;    ///< s
     double impulse;  ///< N s, what has turned the two round and driven them apart since `since`
   };
-  double force_, range_;
+  double range_;
   std::vector<double> last_touch_;
   std::unordered_map<std::uint64_t, Pull> pulls_;
 };

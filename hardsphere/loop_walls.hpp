@@ -94,13 +94,12 @@ template <class Scene>
 LoopWalls<Scene>::LoopWalls(Scene& scene, const State& state, const Physics& physics, const Setup& setup)
     : scene_(scene),
       end_walls_(scene.has_walls ? rooms(state, setup.box.length) : std::vector<double>{},
-                 state.size() <= always_watched,
-                 physics.contact.has_attraction() ? physics.contact.attraction_range : 0) {
-  const bool attract = physics.contact.has_attraction();
+                 state.size() <= always_watched, physics.contact.reach(ContactClass::end_wall)) {
+  const bool attract = physics.contact.walls_attract();
   if (Scene::driven && scene.has_walls && (scene.falling || scene.arc_curvature != 0 || attract))
     for (const double width : setup.box.width)
       side_walls_.emplace_back(rooms(state, width), state.size() <= always_watched,
-                               attract ? physics.contact.attraction_range : 0);
+                               physics.contact.reach(ContactClass::side_wall));
   if (!side_walls_.empty()) scene.grains.forget_side_walls();
 }
 

@@ -18,9 +18,10 @@ class Wells {
         partings_(partings),
         acts_(law.has_attraction()),
         force_(law.attraction_force),
+        wall_force_(law.attraction(ContactClass::end_wall)),
         range_(law.attraction_range),
         effect_(law.attraction_effect),
-        held_(acts_ ? static_cast<std::size_t>(scene.grains.size()) : 0, force_, range_) {}
+        held_(acts_ ? static_cast<std::size_t>(scene.grains.size()) : 0, range_) {}
 
   /// Finds out who starts in a well; the grains must have predicted their events.
   void start(const State& state, const Setup& setup);
@@ -29,12 +30,16 @@ class Wells {
   void wall_edge(int i, int axis, int side, Meeting meeting);
 
   bool act() const { return acts_; }
-  double energy() const { return -(static_cast<double>(filled_) * force_ * range_); }  ///< J
+  double energy() const {  ///< J
+    return -(static_cast<double>(filled_) * force_ + static_cast<double>(filled_at_walls_) * wall_force_) *
+           range_;
+  }
   /// Below which closing speed an impact of grain i (and j) is elastic, where `limit` holds without
   /// attraction.
   double elastic_below(double limit, int i, int j = -1) const {
     if constexpr (Scene::driven)
-      if (acts_) return held_.elastic_below(limit, i, j, scene_.now);
+      if (acts_)
+        return std::max(j < 0 && wall_force_ == 0 ? limit : 0, held_.elastic_below(limit, i, j, scene_.now));
     return limit;
   }
   /// Grains i and j (or i and a wall) have touched and part with this momentum.
@@ -46,20 +51,20 @@ class Wells {
   bool let_any_go() const { return let_go_ > 0; }
 
  private:
-  double depth() const { return force_ * range_; }
-  /// Opening speeds after the edge: of a capture, and of an escape that can pay.
-  double captured(double opening, double reduced) const {
-    return -std::sqrt(opening * opening + 2 * depth() / reduced);
+  /// Opening speeds after the edge of a well of this force: of a capture, and of an escape that can pay.
+  double captured(double force, double opening, double reduced) const {
+    return -std::sqrt(opening * opening + 2 * force * range_ / reduced);
   }
-  double escaped(double opening, double reduced) const {
-    return std::sqrt(opening * opening - 2 * depth() / reduced);
+  double escaped(double force, double opening, double reduced) const {
+    return std::sqrt(opening * opening - 2 * force * range_ / reduced);
   }
-  bool can_pay(double opening, double reduced) const { return reduced / 2 * opening * opening > depth(); }
-  /// A bond gives way without paying for it.
-  void let_go() {
-    --filled_;
+  bool can_pay(double force, double opening, double reduced) const {
+    return reduced / 2 * opening * opening > force * range_;
+  }
+  /// A bond of this force gives way without paying for it.
+  void let_go(double force) {
     ++let_go_;
-    accounts_.loss_of(effect_) -= force_ * range_;
+    accounts_.loss_of(effect_) -= force * range_;
   }
 
   Scene& scene_;
@@ -67,16 +72,16 @@ class Wells {
   LoopAccounts<Scene>& accounts_;
   Partings<Scene>& partings_;
   bool acts_;
-  double force_, range_;  // N, m
+  double force_, wall_force_, range_;  // N, N, m
   int effect_;
   HeldBonds held_;
-  std::int64_t filled_ = 0, let_go_ = 0;
+  std::int64_t filled_ = 0, filled_at_walls_ = 0, let_go_ = 0;
 };
 
 template <class Scene>
 void Wells<Scene>::start(const State& state, const Setup& setup) {
   filled_ += scene_.grains.bonds();
-  if (!acts_) return;
+  if (wall_force_ == 0) return;
   for (int i = 0; i < scene_.grains.size(); ++i) {
     const Flight3 flight = scene_.grains.flight(i);
     const Vec3 position(flight.x[0] - state.x_box, flight.x[1], flight.x[2]);
@@ -86,7 +91,7 @@ void Wells<Scene>::start(const State& state, const Setup& setup) {
             (axis == 0 ? setup.box.length : setup.box.width[static_cast<std::size_t>(axis - 1)]) / 2;
         const bool inside = half - scene_.grains.radius(i) - side * position[axis] < range_;
         walls_.across(axis).set_inside(i, side, inside);
-        if (inside) ++filled_;
+        if (inside) ++filled_at_walls_;
       }
   }
 }
@@ -98,16 +103,17 @@ void Wells<Scene>::pair_edge(int i, int j, Meeting meeting) {
   const double ma = scene_.grains.mass(i), mb = scene_.grains.mass(j), reduced = ma * mb / (ma + mb);
   double next = opening;
   if (meeting == Meeting::capture) {
-    next = captured(opening, reduced);
+    next = captured(force_, opening, reduced);
     scene_.grains.set_bond(i, j, true);
     ++filled_;
-  } else if (can_pay(opening, reduced)) {
-    next = escaped(opening, reduced);
+  } else if (can_pay(force_, opening, reduced)) {
+    next = escaped(force_, opening, reduced);
     scene_.grains.set_bond(i, j, false);
     --filled_;
-  } else if (held_.gives_way(HeldBonds::of_pair(i, j), reduced, opening, scene_.now)) {
+  } else if (held_.gives_way(HeldBonds::of_pair(i, j), force_, reduced, opening, scene_.now)) {
     scene_.grains.set_bond(i, j, false);
-    let_go();
+    --filled_;
+    let_go(force_);
   } else {
     next = -opening;
   }
@@ -125,17 +131,18 @@ void Wells<Scene>::wall_edge(int i, int axis, int side, Meeting meeting) {
   const double m = scene_.grains.mass(i), M = scene_.box.mass(), reduced = box_yields ? m * M / (m + M) : m;
   double next = -opening;
   if (meeting == Meeting::capture) {
-    next = captured(opening, reduced);
+    next = captured(wall_force_, opening, reduced);
     walls.set_inside(i, side, true);
-    ++filled_;
-  } else if (can_pay(opening, reduced)) {
-    next = escaped(opening, reduced);
+    ++filled_at_walls_;
+  } else if (can_pay(wall_force_, opening, reduced)) {
+    next = escaped(wall_force_, opening, reduced);
     walls.set_inside(i, side, false);
-    --filled_;
-  } else if (held_.gives_way(HeldBonds::of_wall(i, axis, side), reduced, opening, scene_.now)) {
+    --filled_at_walls_;
+  } else if (held_.gives_way(HeldBonds::of_wall(i, axis, side), wall_force_, reduced, opening, scene_.now)) {
     next = opening;
     walls.set_inside(i, side, false);
-    let_go();
+    --filled_at_walls_;
+    let_go(wall_force_);
   }
   const double impulse = reduced * (next - opening);  // opens the gap further when positive
   Vec3 on_grain = Vec3::Zero();

@@ -143,10 +143,10 @@ class Merge {
     } else {
       contact.dashpot = 0;
     }
-    const bool attracts = model_.law.has_attraction();
+    const bool attracts = model_.law.attraction(contact.kind) > 0;
     if (attracts) set_attraction(model_.law, fresh, overlap_before, rate, step_, contact);
     if (rubs(model_, contact)) stretch_tangentially(bodies_, step_ * part_touching, contact);
-    contact.over = contact.overlap <= -(attracts ? model_.law.attraction_range : 0);
+    contact.over = contact.overlap <= -model_.law.reach(contact.kind);
   }
 
   void begin_touch(double rate, Contact& contact) {
@@ -174,7 +174,7 @@ bool any_at_wall(const Bodies& bodies, int axis, double centre, double half, dou
 }
 
 void wall_candidates(const ContactModel& model, const Bodies& bodies, Merge& merge) {
-  const double range = model.law.has_attraction() ? model.law.attraction_range : 0;
+  const double range = model.law.reach(ContactClass::end_wall);
   const std::array<double, 3> half{model.length / 2, model.width[0] / 2, model.width[1] / 2};
   const std::array<double, 3> centre{bodies.x_box(), 0, 0};
   std::array<bool, 3> near{};
@@ -235,8 +235,8 @@ double stored_energy(const ContactModel& model, const Contact& contact) {
                                       : contact.spring.stiffness * contact.overlap * contact.overlap / 2;
     if (rubs(model, contact)) energy += energy_of_stretch(model, contact);
   }
-  if (model.law.has_attraction() && contact.overlap > -model.law.attraction_range)
-    energy -= model.law.attraction_force * (contact.overlap + model.law.attraction_range);
+  if (const double reach = model.law.reach(contact.kind); reach > 0 && contact.overlap > -reach)
+    energy -= model.law.attraction(contact.kind) * (contact.overlap + reach);
   return energy;
 }
 

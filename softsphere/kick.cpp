@@ -94,7 +94,8 @@ class HalfKick {
       contact.elastic_force = contact.spring.stiffness * overlap;
       viscous = contact.dashpot * contact.spring.damping * rate;
     }
-    contact.normal_force = contact.elastic_force + viscous - contact.attraction * model_.law.attraction_force;
+    contact.normal_force =
+        contact.elastic_force + viscous - contact.attraction * model_.law.attraction(contact.kind);
   }
 
   void add_contact_force(Contact& contact) {

@@ -54,7 +54,7 @@ class SoftRun {
                setup.box.width},
         bodies_(bodies_of(initial_state(setup, options.run), model_.box_mass)),
         box_(physics_),
-        neighbours_(bodies_, model_.law.has_attraction() ? model_.law.attraction_range : 0.0,
+        neighbours_(bodies_, model_.law.reach(ContactClass::grain_grain),
                     search == PairSearch::every_step ? 0.0 : skin_in_diameters * setup.grains.diameter),
         record_(setup, "soft", model_.box_mass, [this](double x) { return box_.spring_energy(x); }) {
     accounts_.effect_work.resize(setup.effects.size());

@@ -79,18 +79,25 @@ Candidate candidate_of(const EffectRecord& record, const Search& search, const S
   return candidate;
 }
 
-/// The same search, once for each value of its shape. The momentum balance tells those of what acts on the
+/// Each of the searches, once for each value of this shape.
+std::vector<Search> with_each(const std::vector<Search>& searches, const SearchedShape& shape) {
+  std::vector<Search> shapes;
+  for (const Search& search : searches)
+    for (const double value : shape.values) {
+      shapes.push_back(search);
+      shapes.back().odds /= static_cast<double>(shape.values.size());
+      for (auto& [parameter, beside] : shapes.back().besides)
+        if (parameter == shape.parameter) beside = value;
+    }
+  return shapes;
+}
+
+/// The same search, once for each value of its shapes. The momentum balance tells those of what acts on the
 /// box.
 std::vector<Search> shapes_of(const EffectRecord& record, const Search& search) {
   if (!has_shapes(record)) return {search};
-  std::vector<Search> shapes;
-  for (const double value : search.shape->values) {
-    shapes.push_back(search);
-    shapes.back().odds /= static_cast<double>(search.shape->values.size());
-    for (auto& [parameter, beside] : shapes.back().besides)
-      if (parameter == search.shape->parameter) beside = value;
-  }
-  return shapes;
+  const std::vector<Search> shapes = with_each({search}, *search.shape);
+  return search.other_shape ? with_each(shapes, *search.other_shape) : shapes;
 }
 
 /// False where this setup cannot have it: a cubic spring without a displacement.

@@ -73,19 +73,24 @@ void set_parameters(const DiagnosisState& final, const DiagnosisTools& tools, Di
   }
 }
 
+void note_shape(const std::string& effect, const EffectRecord& record, const SearchedShape& shape,
+                Diagnosis& d, std::span<const EffectRecord* const> known) {
+  const std::string unit(record.find(shape.parameter)->unit);
+  const double fitted = get_number(d.amended, effect + "." + std::string(shape.parameter), known);
+  std::string others;
+  for (const double value : shape.values)
+    if (value != fitted) others += (others.empty() ? "" : ", ") + write_quantity(value, unit);
+  d.notes.push_back(effect + " was fitted with " + std::string(shape.parameter) + " = " +
+                    write_quantity(fitted, unit) + "; it was looked for with " + others + " too");
+}
+
 /// Which of the shapes that were tried an effect was fitted with: no strength tells it.
 void note_shapes(Diagnosis& d, std::span<const EffectRecord* const> known) {
   for (const std::string& effect : d.missing) {
     const EffectRecord* record = find_record(known, effect);
     if (record == nullptr || !has_shapes(*record)) continue;
-    const SearchedShape& shape = *record->search.shape;
-    const std::string unit(record->find(shape.parameter)->unit);
-    const double fitted = get_number(d.amended, effect + "." + std::string(shape.parameter), known);
-    std::string others;
-    for (const double value : shape.values)
-      if (value != fitted) others += (others.empty() ? "" : ", ") + write_quantity(value, unit);
-    d.notes.push_back(effect + " was fitted with " + std::string(shape.parameter) + " = " +
-                      write_quantity(fitted, unit) + "; it was looked for with " + others + " too");
+    note_shape(effect, *record, *record->search.shape, d, known);
+    if (record->search.other_shape) note_shape(effect, *record, *record->search.other_shape, d, known);
   }
 }
 
@@ -248,6 +253,10 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   findings.camera_stands_out = !standing_out(d.camera).empty();
   findings.explained = share_taken_away(given.fit.scatter, final.fit.scatter);
   findings.features = final.fit.test();
+  if (tools.options().codes_differ)
+    for (const std::string& effect : d.missing)
+      findings.features.undecided_below =
+          std::max(findings.features.undecided_below, tools.options().codes_differ(effect));
   findings.far_p_value = final.fit.far_p_value;
   findings.balance = d.momentum.test_of(d.momentum.final_fit);
   findings.left = final.fit.left();

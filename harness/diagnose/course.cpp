@@ -155,6 +155,7 @@ DiagnosisState Course::with_terms(DiagnosisState state, const std::vector<FoundT
   const MomentumAudit& balance = result_.momentum;
   state.theta = free_parameters(state.setup, frequency, (balance.possible ? 0.004 : 0.01) * frequency);
   state.theta = believed(std::move(state.theta), tools_.measurement().known, tools_.known());
+  state.before_fits = state.theta;
   return with_balance(state, terms, tools_.measurement(), *tools_.workshop().engine, tools_.options(),
                       result_.notes);
 }

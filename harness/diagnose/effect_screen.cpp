@@ -76,7 +76,24 @@ double EffectScreen::log_likelihood_ratio(const std::vector<MeasuredFeatures>& o
   return simulations_->log_likelihood_ratio(other, values, count);
 }
 
+std::vector<ScreenedPair> EffectScreen::pairs(const std::vector<Candidate>& candidates) const {
+  std::vector<ScreenedPair> list;
+  for (auto a = signatures_.begin(); a != signatures_.end(); ++a)
+    for (auto b = std::next(a); b != signatures_.end(); ++b) {
+      const Candidate &first = candidates[a->first], &second = candidates[b->first];
+      if (first.effect == second.effect) continue;
+      const PairPosterior found = posterior_of(a->second, first.strengths, b->second, second.strengths);
+      if (std::isfinite(found.log_evidence))
+        list.push_back({a->first, b->first, found.first, found.second, found.log_evidence});
+    }
+  std::stable_sort(list.begin(), list.end(), [](const ScreenedPair& a, const ScreenedPair& b) {
+    return a.log_evidence > b.log_evidence;
+  });
+  return list;
+}
+
 Screening EffectScreen::weigh(const std::vector<Candidate>& candidates) {
+  signatures_.clear();
   struct Weighed {
     ScreenedEffect effect;
     Looked looked;
@@ -88,6 +105,7 @@ Screening EffectScreen::weigh(const std::vector<Candidate>& candidates) {
     const Candidate& candidate = candidates[one.effect.candidate];
     const Signature signature = simulations_->signature_of(one.looked);
     weigh_by(signature, candidate, one.effect);
+    if (!one.looked.exact) signatures_.insert_or_assign(one.effect.candidate, signature);
     one.change = signature.change(candidate.strength_of(one.effect.value));
   };
   // Beside nothing alone, while the best one is not known.

@@ -3,6 +3,7 @@
 // beside the fitted model, with its parameters as they are fitted, and the measured features say which
 // strength they ask for when those parameters move along. A fit only confirms.
 #pragma once
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +31,13 @@ struct Screening {
     std::string effect, reason;
   };
   std::vector<LeftOut> left_out;  ///< candidates that the engine could not simulate
+};
+
+/// Two effects at once, as their signatures add.
+struct ScreenedPair {
+  std::size_t first = 0, second = 0;               ///< indices among the candidates
+  double first_strength = 0, second_strength = 0;  ///< from absence, most likely ones
+  double log_evidence = 0;                         ///< as of one
 };
 
 /// Simulations of each different setup of a candidate at each level, by what a run costs.
@@ -70,6 +78,10 @@ class EffectScreen {
 
   Screening weigh(const std::vector<Candidate>& candidates);
 
+  /// Pairs of different effects among those weighed last whose signatures were simulated, best first; no
+  /// simulations of their own.
+  std::vector<ScreenedPair> pairs(const std::vector<Candidate>& candidates) const;
+
   /// ln of the likelihood of another model of the same runs over that of the model without candidates, both
   /// by their means and spreads at the values given, camera and what else is free moved along: simulated at
   /// `values`, parameters among them wherever a fit put them. BudgetSpent, PhysicsError and InputError pass.
@@ -78,6 +90,7 @@ class EffectScreen {
 
  private:
   std::unique_ptr<ScreenSimulations> simulations_;
+  std::map<std::size_t, Signature> signatures_;  ///< of candidates that were simulated, by index
   ScreenEffort effort_;
   std::size_t known_;  ///< effects, of which any may be missing
 };

@@ -25,6 +25,7 @@ constexpr Effort look{1, 128, 0}, refit{2, 160, 128}, beside{2, 160, 128, true},
     conclude{1, 192, 160, false, false, true}, apart{2, 160, 128, true, false, true},
     least{1, 64, 0, false, true};
 constexpr int most_when_dear = 80;
+constexpr std::size_t most_pairs = 2;
 constexpr ScreenEffort rank{}, rank_when_dear{32, 48, {8, 8, 8}, {12, 12, 12}};
 
 constexpr Rule far_off{
@@ -48,6 +49,10 @@ constexpr Rule moves_along{
     "moves_along", 0.5, "widths of the fit's box",
     "parameters that a level moves farther are moved there: slopes err by the square of it, a quarter of "
     "what they err by at the edge (an assumption); 12 simulations move them by 0.2 by chance"};
+constexpr Rule astray{
+    "astray", 2, "errors of what is believed",
+    "the restitutions of a rejected model beyond are not where effects are looked for: what a 95 % interval "
+    "leaves out"};
 }  // namespace effort
 
 /// Of simulations and time, up to the end of a step: the search for effects is to have its part though the

@@ -81,21 +81,31 @@ std::vector<Knob> at_values(const Refit& fit) {
   return knobs;
 }
 
+DiagnosisState with_rival(const DiagnosisState& before, const Rival& rival, DiagnosisTools& tools) {
+  const Candidate& candidate = *rival.candidate;
+  DiagnosisState state = before;
+  state.setup = prepared(before.setup, candidate, tools.known());
+  const std::vector<Knob> added = knobs_of(candidate, rival.screened);
+  // At no strength the effect would be forgotten with what its presence needs besides: the range of an
+  // attraction, and whether the walls attract.
+  for (const Knob& knob : added)
+    if (!knob.exact) set_knob(state.setup, knob, tools.known());
+  state.found = together(before.found, added);
+  state.camera = without(before.camera, added);
+  state.dear = before.dear || candidate.dear;
+  if (std::find(state.missing.begin(), state.missing.end(), candidate.effect) == state.missing.end())
+    state.missing.push_back(candidate.effect);  // else of another component
+  return state;
+}
+
 void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
                double lowest, Effort effort) {
   const Candidate& candidate = *rival.candidate;
-  DiagnosisState& state = rival.state = before;
-  state.setup = prepared(before.setup, candidate, tools.known());
-  const std::vector<Knob> added = knobs_of(candidate, rival.screened);
-  state.found = together(before.found, added);
-  state.camera = without(before.camera, added);
-  if (std::find(state.missing.begin(), state.missing.end(), candidate.effect) == state.missing.end())
-    state.missing.push_back(candidate.effect);  // else of another component
+  DiagnosisState& state = rival.state = with_rival(before, rival, tools);
   const std::vector<Knob> knobs =
       together(together(covering_the_users_values(before.theta), state.found), state.camera);
   const std::string stage = "trying " + candidate.effect;
   state.fit = tools.fit(state, stage, knobs, effort, &before.fit, lowest);
-  state.dear = before.dear || candidate.dear;
   rival.fitted = true;
   rival.held_out_gain = before.fit.judged_held_out_chi2 - state.fit.judged_held_out_chi2;
   if (is_arithmetic(rival)) return;
@@ -113,10 +123,10 @@ void weigh_rival(Rival& rival, double candidates) {
   rival.weighed = rival.fitted || rival.screened.weighed;
   const StrengthSeen& seen = rival.screened.seen;
   rival.log_odds = prior_log_odds(seen.odds, candidates);
-  if (rival.screened.weighed) rival.log_odds += rival.screened.log_evidence;
+  if (rival.screened.weighed) rival.log_odds += rival.screened.log_evidence - rival.nothing_gained;
   if (!std::isfinite(rival.log_ratio)) return;
   StrengthSeen fitted = strength_fitted(rival);
-  fitted.gain = 2 * rival.log_ratio;
+  fitted.gain = 2 * (rival.log_ratio - rival.nothing_gained);
   rival.log_odds = log_odds_of(fitted, candidates);
 }
 
@@ -157,7 +167,7 @@ RankedEffect ranked_as(const Rival& rival) {
                       rival.screened.value,    rival.screened.look_alikes};
   if (!rival.fitted) return ranked;
   ranked.fitted = true;
-  if (std::isfinite(rival.log_ratio)) ranked.gain = 2 * rival.log_ratio;
+  if (std::isfinite(rival.log_ratio)) ranked.gain = 2 * (rival.log_ratio - rival.nothing_gained);
   ranked.held_out_gain = rival.held_out_gain;
   // of a difference of two chi2 of nested models
   ranked.standard_error = 2 * std::sqrt(std::abs(rival.held_out_gain));

@@ -20,6 +20,8 @@ struct Rival {
   DiagnosisState state{};  ///< where it was fitted
   bool weighed = false;    ///< log_odds is more than its prior
   bool attempted = false;  ///< its fit had its turn
+  /// ln likelihood of the model without it where it was fitted, over that where the screen is.
+  double nothing_gained = 0;
 };
 
 /// What it does to the features is arithmetic on the recording: its signature is exact, and the gain of a
@@ -31,6 +33,9 @@ bool is_found(const Rival& rival);
 
 /// The knobs of a fit at its values.
 std::vector<Knob> at_values(const Refit& fit);
+
+/// The state `before` with this effect at the strength that its signature asks for, not fitted.
+DiagnosisState with_rival(const DiagnosisState& before, const Rival& rival, DiagnosisTools& tools);
 
 /// Fits it beside the state `before`; `lowest`: chi2 of the best fit so far, of which a poor first look is
 /// worth another. BudgetSpent, PhysicsError and InputError pass.

@@ -10,6 +10,7 @@
 #include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "nuisance.hpp"
+#include "pair_rivals.hpp"
 #include "rival.hpp"
 #include "rules.hpp"
 #include "setup_keys.hpp"
@@ -50,6 +51,23 @@ ScreenStart start_from(const Refit& fit, const std::vector<Knob>& knobs) {
       e.coefficients.row(0) -= moved * e.coefficients.row(1 + static_cast<Eigen::Index>(k));
   }
   return start;
+}
+
+/// The data reject the model, and what imitates an effect has led its restitutions to where hardly anything
+/// tells of effects: of restitutions of .345 and .999 neither friction nor attraction sees anything.
+bool is_led_astray(const DiagnosisState& state) {
+  return is_rejected(state.fit) && std::any_of(state.theta.begin(), state.theta.end(), [](const Knob& knob) {
+           return is_believed(knob) &&
+                  std::abs(knob.centre - knob.believed) > effort::astray * knob.believed_error;
+         });
+}
+
+/// Its parameters back at what was believed of them before a fit led them astray.
+DiagnosisState as_believed(DiagnosisState state) {
+  for (const Knob& before : state.before_fits)
+    for (Knob& knob : state.theta)
+      if (knob.key == before.key) knob = before, knob.width *= knob.key == "spring.frequency" ? 0.15 : 0.5;
+  return state;
 }
 
 std::vector<Candidate> open_candidates(const DiagnosisState& state, DiagnosisTools& tools,
@@ -94,6 +112,29 @@ void camera_first(std::vector<Rival*>& order, DiagnosisTools& tools) {
     std::swap(order[0], order[1]);
 }
 
+/// The data accept it as fitted.
+bool holds(const Rival& rival) { return rival.fitted && rival.state.fit.p_value > rules::holds; }
+
+/// Until one holds.
+void fit_pairs(const DiagnosisState& from, DiagnosisTools& tools, EffectScreen& screen, double& lowest,
+               std::vector<PairRival>& pairs, SearchRound& round) {
+  const double known = static_cast<double>(tools.known().size());
+  for (PairRival& pair : pairs) try {
+      const bool dear = pair.first.candidate->dear || pair.second.candidate->dear;
+      fit_pair(pair, from, tools, screen, lowest, dear ? effort::attempt_when_dear : effort::attempt, known);
+      lowest = std::min(lowest, pair.second.state.fit.judged_chi2);
+      if (holds(pair.second)) break;
+    } catch (const BudgetSpent&) {
+      break;
+    } catch (const PhysicsError& error) {
+      round.notes.push_back(pair.second.candidate->effect + " and " + pair.first.candidate->effect +
+                            " could not be tried: " + error.what());
+    } catch (const InputError& error) {
+      round.notes.push_back(pair.second.candidate->effect + " and " + pair.first.candidate->effect +
+                            " could not be tried: " + error.what());
+    }
+}
+
 }  // namespace
 
 std::vector<Hypothesis> not_looked_at(const DiagnosisState& state, DiagnosisTools& tools,
@@ -116,13 +157,21 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   }
   tools.begin("ranking the effects");
   const double all = static_cast<double>(tools.known().size());
-  EffectScreen screen(tools.features(state.setup), state.knobs(), tools.workshop(),
-                      state.dear ? effort::rank_when_dear : effort::rank, tools.next_batch(),
-                      start_from(state.fit, state.knobs()));
+  const bool astray = is_led_astray(state);
+  const DiagnosisState from = astray ? as_believed(state) : state;
+  const ScreenEffort& ranking = state.dear ? effort::rank_when_dear : effort::rank;
+  EffectScreen screen(tools.features(from.setup), from.knobs(), tools.workshop(), ranking, tools.next_batch(),
+                      astray ? ScreenStart{} : start_from(state.fit, state.knobs()));
+  const double nothing_gained =
+      astray ? std::max(0.0, screen.log_likelihood_ratio(tools.features(state.setup), state.knobs(),
+                                                         ranking.nothing))
+             : 0;
   const Screening screening = screen.weigh(candidates);
   std::vector<Rival> rivals;
   for (const ScreenedEffect& screened : screening.list)
-    rivals.push_back({&candidates[screened.candidate], screened});
+    rivals.push_back({.candidate = &candidates[screened.candidate],
+                      .screened = screened,
+                      .nothing_gained = nothing_gained});
   for (const Screening::LeftOut& left_out : screening.left_out) {
     round.notes.push_back(left_out.effect + " was not looked for: it cannot be simulated here (" +
                           left_out.reason + ")");
@@ -146,7 +195,7 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
       round.notes.push_back(rival.candidate->effect + " could not be tried: " + error.what());
     };
     const auto fit = [&](Effort effort) {
-      fit_rival(rival, state, tools, screen, lowest, effort);
+      fit_rival(rival, from, tools, screen, lowest, effort);
       lowest = std::min(lowest, rival.state.fit.judged_chi2);
       weigh_rival(rival, all);
     };
@@ -175,8 +224,22 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
   double promised = -std::numeric_limits<double>::infinity();
   for (const Rival& rival : rivals)
     if (rival.weighed) promised = std::max(promised, rival.log_odds);
+  std::vector<PairRival> pairs;
+  if (rejected && static_cast<double>(state.missing.size()) + 2 <= rules::most_effects)
+    pairs = pairs_beyond(rivals, screen.pairs(candidates), candidates, all);
+  if (pairs.size() > effort::most_pairs) pairs.resize(effort::most_pairs);
+  const bool pairs_first = !pairs.empty() && is_far_beyond(pairs.front(), rivals);
+  bool pairs_tried = false;
   for (bool more = true; more && tried < static_cast<int>(rules::most_tried);) {
     more = false;
+    // Two that the data reject each alone may hold together.
+    if (rejected && !pairs_tried && (tried > 0 || pairs_first) &&
+        std::none_of(rivals.begin(), rivals.end(), holds)) {
+      pairs_tried = true;
+      fit_pairs(from, tools, screen, lowest, pairs, round);
+      if (std::any_of(pairs.begin(), pairs.end(), [](const PairRival& pair) { return holds(pair.second); }))
+        break;
+    }
     std::stable_sort(order.begin(), order.end(), by_odds);
     // A model that the data reject is not what is there: while nothing was found, the best of a bad lot are
     // fitted whatever their odds.
@@ -202,13 +265,23 @@ SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
     if (std::isfinite(rival->log_odds))
       round.table.push_back({{rival->candidate->effect}, rival->log_odds, 0});
   }
+  const PairRival* best_pair = nullptr;
+  for (const PairRival& pair : pairs) {
+    round.table.push_back({pair.effects(), pair.log_odds, 0});
+    if (pair.fitted && pair.log_odds > (best_pair == nullptr ? 0 : best_pair->log_odds)) best_pair = &pair;
+  }
   weigh(round.table);
   if (probability_of_something(round.table) <= rules::adds_effect) return round;
   std::vector<Rival*> fitted;
   for (Rival* rival : order)
     if (is_found(*rival)) fitted.push_back(rival);
-  if (fitted.empty()) return round;
   std::stable_sort(fitted.begin(), fitted.end(), by_odds);
+  if (best_pair != nullptr && (fitted.empty() || best_pair->log_odds > fitted[0]->log_odds)) {
+    round.added = true;
+    round.next = best_pair->second.state.settled(tools.known());
+    return round;
+  }
+  if (fitted.empty()) return round;
   camera_first(fitted, tools);
   round.added = true;
   round.next = fitted[0]->state.settled(tools.known());

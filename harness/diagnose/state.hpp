@@ -22,7 +22,8 @@ struct DiagnosisState {
   std::vector<Knob> camera;          ///< what is known of the camera to an error
   std::vector<std::string> missing;  ///< effects found, in the order added
   Refit fit;
-  bool dear = false;  ///< an effect makes runs cost several times a plain one
+  bool dear = false;                ///< an effect makes runs cost several times a plain one
+  std::vector<Knob> before_fits{};  ///< theta before any fit
 
   std::vector<Knob> knobs() const;
   /// The same, its knobs at the values of its fit.

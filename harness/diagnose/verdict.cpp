@@ -47,7 +47,7 @@ Verdict verdict_of(const Findings& findings) {
 }
 
 double worst_p_value(const Findings& findings) {
-  const double of_features = findings.features.misfit < rules::codes_differ
+  const double of_features = findings.features.misfit < findings.features.undecided_below
                                  ? std::max<double>(findings.features.p_value, rules::holds)
                                  : findings.far_p_value;
   const double of_tests =

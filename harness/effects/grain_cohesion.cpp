@@ -8,6 +8,7 @@ namespace {
 void apply(const EffectChoice& choice, int index, Physics& physics) {
   physics.contact.attraction_force = choice.number("force");
   physics.contact.attraction_range = choice.number("range");
+  physics.contact.attraction_of_walls = choice.number("walls");
   physics.contact.attraction_effect = index;
 }
 }  // namespace
@@ -17,7 +18,7 @@ extern const EffectRecord grain_cohesion{
     .label = "attraction of the grains",
     .family = "contact",
     .acts_on = ActsOn::contact,
-    .sentence = "Grains attract each other and the walls with a constant force up to a small gap.",
+    .sentence = "Grains attract each other, and the walls them, with a constant force up to a small gap.",
     .formula =
         "F towards each other for 0 <= gap <= d; hard spheres see a square well of depth F d and width d, "
         "entered with v_n^2 + 2 F d/mu and left only with more than F d",
@@ -33,7 +34,7 @@ extern const EffectRecord grain_cohesion{
                     .high = 10,
                     .neutral = 0,
                     .typical = 8e-3,
-                    .sentence = "Attraction of two grains, or of a grain and a wall, within the range.",
+                    .sentence = "Attraction of two grains within the range.",
                     .unit_shown = "mN"},
                    {.name = "range",
                     .unit = "m",
@@ -42,7 +43,14 @@ extern const EffectRecord grain_cohesion{
                     .high = 2e-3,
                     .typical = 2e-5,
                     .sentence = "Gap between the surfaces up to which it acts.",
-                    .unit_shown = "mm"}},
+                    .unit_shown = "mm"},
+                   {.name = "walls",
+                    .default_value = 1.0,
+                    .low = 0,
+                    .high = 10,
+                    .sentence =
+                        "Attraction of a grain and a wall, of that of two grains; 0: the walls do not "
+                        "attract (another material; magnetised grains in a box that is not)."}},
     .claims = "attraction of grains",
     .engines = {{"hard", {Fidelity::exact}},
                 {"soft",
@@ -50,17 +58,19 @@ extern const EffectRecord grain_cohesion{
     // What matters to moving grains is force times range, and to resting ones the force. Dry and electrified
     // grains attract each other over their roughness, some hundredths of a millimetre; a bridge of liquid
     // reaches to about the cube root of its volume (G. Lian, C. Thornton and M. J. Adams, J. Colloid
-    // Interface Sci. 161, 138 (1993)), 0.2 mm for 0.01 mm^3. Stronger forces let the hard engine's wells hold
-    // the layer at the wall without end. Dry grains of some millimetres rarely stick: exp(-2).
+    // Interface Sci. 161, 138 (1993)), 0.2 mm for 0.01 mm^3. Walls that attract hold the layer from some 60
+    // mN on, so that nothing is lost; walls that do not leave a clump that still falls from end to end (the
+    // slope of the decay changes by 10 % up to 0.3 N). Dry grains of some millimetres rarely stick: exp(-2).
     .search = {.strengths = {{.parameters = "force",
                               .typical = 8e-3,
-                              .levels = {2e-3, 8e-3, 32e-3},
+                              .levels = {2e-3, 8e-3, 24e-3, 64e-3, 192e-3},
                               .low = 0,
-                              .high = 64e-3,
+                              .high = 0.3,
                               .strongest = 64e-3}},
-               .besides = {{"range", 2e-5}},
+               .besides = {{"range", 2e-5}, {"walls", 1}},
                .shape = SearchedShape{"range", {2e-5, 2e-4}},
-               .cost = Search::Cost::dear,
+               .other_shape = SearchedShape{"walls", {0, 1}},
+               .cost = Search::Cost::slow,
                .odds = 0.135},
     .apply = &apply};
 

@@ -71,7 +71,7 @@ ModelJudgement judgement_of(const ModelTest& features, const ModelTest& balance,
       complete = false, add(doubts, said);
     else if (features.p_value > features_rejected)
       add(in_favour, said);
-    else if (features.misfit < codes_differ)
+    else if (features.misfit < features.undecided_below)
       add(doubts, said + times_of(features.misfit) + ", and two codes of one physics differ by as much");
     else
       add(against, said + times_of(features.misfit));

@@ -33,6 +33,9 @@ struct ModelTest {
   /// chi2 over that of the model's own runs.
   double misfit = std::numeric_limits<double>::quiet_NaN();
   std::string why_not = "";  ///< why there is no such test; empty: there is
+  /// Misfit below which a small p-value decides nothing: more where the model has an effect that two codes
+  /// make less alike (effects/engine_differences.hpp).
+  double undecided_below = codes_differ;
 };
 
 /// One rms difference between model and measurement, m. What is no number is not asked about.

@@ -11,24 +11,34 @@ namespace shakedown {
 
 namespace {
 
+/// Far from a minimum the sum is some thousand times the degrees, by which the search for the minimum is
+/// scaled badly and stops on its way: its logarithm has the same minimum.
+double scaled(const Objective& objective, const Eigen::VectorXd& z) {
+  return objective.degrees * std::log1p(std::max(0.0, objective(z)) / objective.degrees);
+}
+
 double evaluate(const std::vector<double>& z, std::vector<double>& gradient, void* data) {
   const auto& objective = *static_cast<const Objective*>(data);
   const Eigen::Map<const Eigen::VectorXd> at(z.data(), static_cast<Eigen::Index>(z.size()));
   if (!gradient.empty())
-    for (Eigen::Index k = 0; k < at.size(); ++k) {  // exact for a polynomial of degree four up to (1e-4)^2
+    for (Eigen::Index k = 0; k < at.size(); ++k) {
       Eigen::VectorXd up = at, down = at;
       up[k] += 1e-4;
       down[k] -= 1e-4;
-      gradient[static_cast<std::size_t>(k)] = (objective(up) - objective(down)) / 2e-4;
+      gradient[static_cast<std::size_t>(k)] = (scaled(objective, up) - scaled(objective, down)) / 2e-4;
     }
-  return objective(at);
+  return scaled(objective, at);
 }
 
 }  // namespace
 
+double Objective::true_sum(const Eigen::VectorXd& phi) const {
+  const double measured = sum(phi), wider = inflation(phi), expected = degrees * wider;
+  return measured > expected ? degrees + measured - expected : measured / wider;
+}
+
 double Objective::chi2(const Eigen::VectorXd& z) const {
-  const Eigen::VectorXd phi = regression_terms(*knobs, z);
-  return sum(phi) / inflation(phi) + disbelief(z);
+  return true_sum(regression_terms(*knobs, z)) + disbelief(z);
 }
 
 double Objective::disbelief(const Eigen::VectorXd& z) const {
@@ -43,8 +53,9 @@ double Objective::disbelief(const Eigen::VectorXd& z) const {
 
 double Objective::operator()(const Eigen::VectorXd& z) const {
   const Eigen::VectorXd phi = regression_terms(*knobs, z);
-  const double wider = inflation(phi);
-  return sum(phi) / wider + degrees * std::log(wider) + disbelief(z);
+  // How much wider the emulator's error makes what chaos and a wrong model leave.
+  const double left = true_sum(phi), of_model = std::max(1.0, left / degrees);
+  return left + degrees * std::log1p((inflation(phi) - 1) / of_model) + disbelief(z);
 }
 
 Minimum minimum_of(const Objective& objective, double farthest, int starts, const Eigen::VectorXd& first) {

@@ -26,7 +26,11 @@ struct Objective {
   double inflation(const Eigen::VectorXd& phi) const {
     return error.size() == 0 ? 1.0 : 1 + phi.dot(error * phi) / degrees;
   }
-  /// The sum with the emulator's share taken off: comparable between boxes and with pseudo-experiments.
+  /// The sum with the emulator's share taken off. Its error adds to what a wrong model leaves, it does not
+  /// multiply it: divided by, a misfit of many times the degrees would be least where the emulator knows
+  /// least.
+  double true_sum(const Eigen::VectorXd& phi) const;
+  /// true_sum and disbelief: comparable between boxes and with pseudo-experiments.
   double chi2(const Eigen::VectorXd& z) const;
   /// What the knobs' values cost by what is known of them beforehand.
   double disbelief(const Eigen::VectorXd& z) const;

@@ -49,11 +49,12 @@ Signature::Signature(const std::vector<SignatureLevel>& levels, const SignatureR
   const Eigen::MatrixXd weighted = design.transpose() * weight.asDiagonal();
   const Eigen::MatrixXd of_levels = (weighted * design).ldlt().solve(weighted);  // order x levels
   shapes_ = changes * of_levels.transpose();
-  const Eigen::VectorXd shared = of_levels.rowwise().sum();
-  const double of_nothing = exact ? 0 : without.noise;
+  shared_ = of_levels.rowwise().sum();
+  of_nothing_ = exact ? 0 : without.noise;
   square_ = shapes_.transpose() * shapes_;
-  noise_ = of_levels * noise.asDiagonal() * of_levels.transpose() + of_nothing * shared * shared.transpose();
-  overlap_ = shapes_.transpose() * without.residual - of_nothing * shared;
+  noise_ =
+      of_levels * noise.asDiagonal() * of_levels.transpose() + of_nothing_ * shared_ * shared_.transpose();
+  overlap_ = shapes_.transpose() * without.residual - of_nothing_ * shared_;
   chi2_per_feature_ =
       without.residual.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, features));
 }
@@ -93,16 +94,62 @@ double Signature::share_seen(double strength) const {
   return square > 0 ? square / (square + noise) : 0;
 }
 
-StrengthPosterior posterior_of(const Signature& signature, const StrengthPrior& prior) {
+PairSignature::PairSignature(const Signature& first, const Signature& second)
+    : first_(&first), second_(&second), cross_(first.shapes_.transpose() * second.shapes_) {
+  const double both = std::min(first.of_nothing_, second.of_nothing_);  // what is exact shares none
+  shared_ = both * first.shared_ * second.shared_.transpose();
+}
+
+double PairSignature::log_likelihood(double first, double second) const {
+  const Eigen::VectorXd v = first_->weights(first), w = second_->weights(second);
+  const double noise = v.dot(first_->noise_ * v) + w.dot(second_->noise_ * w) + 2 * v.dot(shared_ * w);
+  const double square =
+      v.dot(first_->square_ * v) + w.dot(second_->square_ * w) + 2 * v.dot(cross_ * w) - noise;
+  if (!(square > 0)) return 0;
+  const double overlap = first_->overlap_.dot(v) + second_->overlap_.dot(w);
+  return square * (overlap - square / 2) / (square + noise * std::max(1.0, first_->chi2_per_feature_));
+}
+
+namespace {
+
+/// Strengths that are equally likely beforehand: a Cauchy distribution is uniform in the angle whose tangent
+/// the strength is.
+Eigen::ArrayXd likely_strengths(const StrengthPrior& prior, int steps) {
   EXPECT(prior.typical > 0 && prior.low < prior.high);
-  constexpr int steps = 2000;
-  // A Cauchy distribution is uniform in the angle whose tangent the strength is.
   const double first = std::atan(prior.low / prior.typical), last = std::atan(prior.high / prior.typical);
-  Eigen::ArrayXd strength(steps), likelihood(steps);
-  for (int i = 0; i < steps; ++i) {
+  Eigen::ArrayXd strength(steps);
+  for (int i = 0; i < steps; ++i)
     strength[i] = prior.typical * std::tan(first + (i + 0.5) / steps * (last - first));
-    likelihood[i] = signature.log_likelihood(strength[i]);
+  return strength;
+}
+
+}  // namespace
+
+PairPosterior posterior_of(const Signature& first, const StrengthPrior& of_first, const Signature& second,
+                           const StrengthPrior& of_second) {
+  constexpr int steps = 100;
+  const Eigen::ArrayXd x = likely_strengths(of_first, steps), y = likely_strengths(of_second, steps);
+  const PairSignature both(first, second);
+  Eigen::ArrayXXd likelihood(steps, steps);
+  for (int i = 0; i < steps; ++i)
+    for (int j = 0; j < steps; ++j) likelihood(i, j) = both.log_likelihood(x[i], y[j]);
+  PairPosterior found;
+  if (!likelihood.isFinite().all()) {
+    found.log_evidence = std::numeric_limits<double>::quiet_NaN();
+    return found;
   }
+  Eigen::Index row = 0, column = 0;
+  const double most = likelihood.maxCoeff(&row, &column);
+  found.log_evidence = most + std::log((likelihood - most).exp().mean());
+  found.first = x[row], found.second = y[column];
+  return found;
+}
+
+StrengthPosterior posterior_of(const Signature& signature, const StrengthPrior& prior) {
+  constexpr int steps = 2000;
+  const Eigen::ArrayXd strength = likely_strengths(prior, steps);
+  Eigen::ArrayXd likelihood(steps);
+  for (int i = 0; i < steps; ++i) likelihood[i] = signature.log_likelihood(strength[i]);
   StrengthPosterior found;
   if (!likelihood.isFinite().all()) {
     found.log_evidence = std::numeric_limits<double>::quiet_NaN();

@@ -42,6 +42,8 @@ class Signature {
   double share_seen(double strength) const;
 
  private:
+  friend class PairSignature;
+
   /// |D|^2 without noise, and the noise, at these weights.
   struct Squares {
     double square, noise;
@@ -56,7 +58,23 @@ class Signature {
   Eigen::MatrixXd shapes_;          ///< features x order
   Eigen::MatrixXd square_, noise_;  ///< order x order: of the shapes, and of their errors
   Eigen::VectorXd overlap_;         ///< with the residual
+  Eigen::VectorXd shared_;          ///< the part of the error of nothing that each shape has
+  double of_nothing_ = 0;           ///< expected square of that error
   double chi2_per_feature_ = 1;
+};
+
+/// Two effects at once: their changes add, as far as each is a line in the other (an assumption that a fit
+/// is to confirm). The signatures are of one screen and outlive this.
+class PairSignature {
+ public:
+  PairSignature(const Signature& first, const Signature& second);
+
+  /// As of one signature, both effects there.
+  double log_likelihood(double first, double second) const;
+
+ private:
+  const Signature *first_, *second_;
+  Eigen::MatrixXd cross_, shared_;  ///< order x order: of the shapes, and of the error that both have
 };
 
 /// What is known of a strength before and where it may lie.
@@ -75,5 +93,14 @@ struct StrengthPosterior {
 
 /// By a sum over 2000 strengths, equally likely beforehand.
 StrengthPosterior posterior_of(const Signature& signature, const StrengthPrior& prior);
+
+struct PairPosterior {
+  double log_evidence = 0;       ///< ln of the likelihood averaged over both priors, over that of nothing
+  double first = 0, second = 0;  ///< strengths where the likelihood is largest
+};
+
+/// By a sum over 100 x 100 strengths, equally likely beforehand.
+PairPosterior posterior_of(const Signature& first, const StrengthPrior& of_first, const Signature& second,
+                           const StrengthPrior& of_second);
 
 }  // namespace shakedown

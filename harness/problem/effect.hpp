@@ -111,6 +111,7 @@ struct Search {
   std::vector<std::pair<std::string_view, double>> besides{};  ///< parameters that its presence needs, SI
   std::optional<SearchedHarmonic> harmonic{};
   std::optional<SearchedShape> shape{};
+  std::optional<SearchedShape> other_shape{};  ///< a second one of what ensembles take: each with each
   /// Cost of a run with it: plain as one without, slow three to five times that, dear ten times that.
   enum class Cost { plain, slow, dear } cost = Cost::plain;
   /// How likely it is in such an experiment beside a usual effect (viscous damping, friction): a prior.

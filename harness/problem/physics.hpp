@@ -66,10 +66,17 @@ struct ContactLaw {
   double tangential_restitution = 1;  ///< slip reversed times this where friction suffices
   bool has_friction() const { return friction[0] > 0 || friction[1] > 0 || friction[2] > 0; }
 
-  double attraction_force = 0;  ///< N, constant attraction up to a gap of
-  double attraction_range = 0;  ///< m
-  int attraction_effect = -1;   ///< line in Setup::effects
+  double attraction_force = 0;     ///< N, constant attraction up to a gap of
+  double attraction_range = 0;     ///< m
+  double attraction_of_walls = 1;  ///< force between a grain and a wall, of that between two grains
+  int attraction_effect = -1;      ///< line in Setup::effects
   bool has_attraction() const { return attraction_force > 0 && attraction_range > 0; }
+  bool walls_attract() const { return has_attraction() && attraction_of_walls > 0; }
+  /// N, and the gap up to which it acts, m.
+  double attraction(ContactClass contact) const {
+    return contact == ContactClass::grain_grain ? attraction_force : attraction_force * attraction_of_walls;
+  }
+  double reach(ContactClass contact) const { return attraction(contact) > 0 ? attraction_range : 0; }
 };
 
 /// A sin(2 pi f t + phase).

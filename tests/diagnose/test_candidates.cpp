@@ -88,16 +88,17 @@ TEST(Candidates, KnobsStandWhereTheEffectIsAbsent) {
 TEST(Candidates, AShapeThatNoStrengthTellsMakesAlternatives) {
   const std::vector<Candidate> list =
       candidates_for(shakedown::Setup{}, {"grain_cohesion"}, all_effects(), *engine_named("hard"));
-  ASSERT_EQ(list.size(), 2u);
-  std::vector<double> ranges;
+  std::vector<std::pair<double, double>> range_and_walls;
   double odds = 0;
   for (const Candidate& candidate : list) {
-    ASSERT_EQ(candidate.fixed.size(), 1u);
-    EXPECT_EQ(candidate.fixed.front().first, "grain_cohesion.range");
-    ranges.push_back(candidate.fixed.front().second);
+    ASSERT_EQ(candidate.fixed.size(), 2u);
+    EXPECT_EQ(candidate.fixed[0].first, "grain_cohesion.range");
+    EXPECT_EQ(candidate.fixed[1].first, "grain_cohesion.walls");
+    range_and_walls.emplace_back(candidate.fixed[0].second, candidate.fixed[1].second);
     odds += candidate.prior.odds;
   }
-  EXPECT_EQ(ranges, (std::vector{2e-5, 2e-4}));
+  EXPECT_EQ(range_and_walls,
+            (std::vector<std::pair<double, double>>{{2e-5, 0}, {2e-5, 1}, {2e-4, 0}, {2e-4, 1}}));
   EXPECT_DOUBLE_EQ(odds, 0.135);  // as likely together as one
 }
 

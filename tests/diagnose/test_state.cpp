@@ -2,6 +2,11 @@
 // What a fit tells of an effect's strength.
 #include <gtest/gtest.h>
 
+#include "effects.hpp"
+#include "engines.hpp"
+#include "hidden_measurements.hpp"
+#include "rival.hpp"
+#include "setup_file.hpp"
 #include "state.hpp"
 
 using namespace shakedown;
@@ -39,4 +44,27 @@ TEST(Told, ByAnyOfAnEffectsStrengths) {
 TEST(Told, FromWhereItsAbsenceIs) {
   EXPECT_TRUE(is_told(fitted(), "side_wall_restitution", 1.5));
   EXPECT_FALSE(is_told(fitted(), "side_wall_restitution", 1.7));
+}
+
+// Where a fit begins: what shapes an effect must be there from the start, though setups forget effects at no
+// strength.
+TEST(Rivals, BeginWithTheShapeOfTheirCandidate) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  const Experiment experiment = measured({{}, {}, {}, {0.104}});
+  const Measurement measurement = measurement_of(believed(), experiment, all_effects());
+  DiagnoseOptions options;
+  options.known = all_effects();
+  DiagnosisTools tools(measurement, *engine, options);
+  const std::vector<Candidate> candidates =
+      candidates_for(believed(), {"grain_cohesion"}, all_effects(), *engine);
+  for (const Candidate& candidate : candidates) {
+    Rival rival{&candidate, {}};
+    rival.screened.value = candidate.levels.front().value;
+    DiagnosisState before;
+    before.setup = believed();
+    const DiagnosisState state = with_rival(before, rival, tools);
+    for (const MeasuredFeatures& measured : tools.features(state.setup))
+      for (const auto& [key, value] : candidate.fixed)
+        EXPECT_EQ(get_number(measured.setup, key, all_effects()), value) << key;
+  }
 }

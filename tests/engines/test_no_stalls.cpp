@@ -25,6 +25,7 @@ std::vector<Strong> strong_settings() {
   return {{"friction", "grain_friction", {{"grain_grain", 0.5}, {"grain_wall", 0.5}}},
           {"cohesion", "grain_cohesion", {{"force", 0.05}, {"range", 1e-4}}},
           {"short_cohesion", "grain_cohesion", {{"force", 0.05}, {"range", 2e-5}}},
+          {"clump", "grain_cohesion", {{"force", 0.3}, {"range", 2e-4}, {"walls", 0.0}}},
           {"glue", "grain_cohesion", {{"force", 0.2}, {"range", 2e-5}}},
           {"slow_impacts_elastic", "velocity_dependent_restitution", {{"exponent", 0.5}}},
           {"viscoelastic", "velocity_dependent_restitution", {{"law", std::string("viscoelastic")}}},

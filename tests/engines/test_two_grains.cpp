@@ -241,6 +241,25 @@ TEST_P(SquareWell, TakesItsDepthToLeave) {
   }
 }
 
+/// A box of another material than its grains.
+TEST_P(SquareWell, WallsMayAttractNothing) {
+  shakedown::Setup it = resting_box();
+  add_effect(it, "grain_cohesion", {{"force", 0.1}, {"range", 1e-4}, {"walls", 0.0}});
+  it.run.duration = 0.02;
+  for (const ContactClass kind : kinds) {
+    SCOPED_TRACE(contact_class_names[static_cast<std::size_t>(kind)]);
+    const double speed = 0.5 * well_speed(kind);
+    const Trajectory result =
+        run_with(*GetParam().make(), it, meeting(kind, place_of(kind).normal * speed, 1e-3));
+    const bool held = separation(kind, result.end_state) < 1e-4;
+    EXPECT_EQ(held, kind == ContactClass::grain_grain);
+    if (held) continue;
+    const double parting = -place_of(kind).normal.dot(parting_of(kind, result.end_state).velocity);
+    EXPECT_NEAR(parting / (bounce(kind) * speed), 1, GetParam().name == "hard" ? 1e-12 : 0.02);
+    EXPECT_NEAR(result.ledger.effect_loss.front(), 0, 1e-15);
+  }
+}
+
 /// Two grains bound to each other turn about their centre: at the surface speed v each is pulled outwards
 /// with the reduced mass times v^2 over their distance, and the attraction holds up to its force, however
 /// slowly they came to the edge of the well.

@@ -112,6 +112,52 @@ TEST(Signature, OfNothingIsNoEvidenceThoughItsSimulationsAreFew) {
   EXPECT_LE(beyond, 0.05 * experiments);  // seen: 5
 }
 
+TEST(PairSignature, IsTheSumOfItsParts) {
+  const Eigen::VectorXd first = 15 * shape(3), second = 15 * (shape(3) + shape(7)).normalized(),
+                        residual = 0.8 * first + 0.6 * second + noise(8);
+  const SignatureResidual without{residual, 0};
+  const Signature one({{1.0, first, 0}}, without, true), other({{1.0, second, 0}}, without, true);
+  const PairSignature both(one, other);
+  for (const double x : {0.0, 0.4, 1.1})
+    for (const double y : {0.0, 0.7}) {
+      const Eigen::VectorXd sum = x * first + y * second;
+      // seen: 2e-13
+      EXPECT_NEAR(both.log_likelihood(x, y), sum.dot(residual) - sum.squaredNorm() / 2, 4e-12);
+    }
+  EXPECT_NEAR(both.log_likelihood(0.4, 0), one.log_likelihood(0.4), 4e-12);
+  // Each alone takes up what both share; together each has its own.
+  const StrengthPrior prior{0.5, 0, 4};
+  const PairPosterior found = posterior_of(one, prior, other, prior);
+  EXPECT_NEAR(found.first, 0.8, 0.2);  // three standard errors; seen: 0.05
+  EXPECT_NEAR(found.second, 0.6, 0.2);
+  EXPECT_GT(posterior_of(one, prior).strength, 1);
+  EXPECT_GT(found.log_evidence, posterior_of(one, prior).log_evidence + 10);
+}
+
+TEST(PairSignature, OfOneEffectIsNoBetterThanThatOne) {
+  const Eigen::VectorXd there = 20 * shape(3), absent = 20 * shape(11), residual = 0.7 * there + noise(9);
+  const SignatureResidual without{residual, 0};
+  const Signature one({{1.0, there, 0}}, without, true), other({{1.0, absent, 0}}, without, true);
+  const StrengthPrior prior{0.5, 0, 4};
+  EXPECT_LT(posterior_of(one, prior, other, prior).log_evidence, posterior_of(one, prior).log_evidence);
+}
+
+TEST(PairSignature, TakesOffTheNoiseThatBothShareOnce) {
+  // Nothing there: the mean without them errs, and both changes have that error.
+  double sum = 0;
+  constexpr int cases = 40, runs = 12;
+  for (std::uint64_t seed = 0; seed < cases; ++seed) {
+    const Eigen::VectorXd error = noise(1000 + seed, 1 / std::sqrt(runs)),
+                          residual = noise(2000 + seed) - error;
+    const SignatureResidual without{residual, static_cast<double>(features) / runs};
+    const auto none = [](double) { return Eigen::VectorXd(Eigen::VectorXd::Zero(features)); };
+    const Signature one(simulated({1}, runs, 3000 + 10 * seed, none, error), without),
+        other(simulated({1}, runs, 5000 + 10 * seed, none, error), without);
+    sum += PairSignature(one, other).log_likelihood(1, 1);
+  }
+  EXPECT_NEAR(sum / cases, 0, 1.5);  // seen: see below
+}
+
 TEST(Signature, WhatIsNoNumberIsNoEvidence) {
   Eigen::VectorXd residual = noise(1);
   residual[7] = std::nan("");

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Two effects at once: where each alone explains little, so that neither would be found beside the other.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rival.hpp"
+
+namespace shakedown {
+
+struct PairRival {
+  Rival first, second;      ///< of `second` the state and the log ratio are those of both
+  double log_evidence = 0;  ///< of their signatures, as ScreenedPair's
+  double log_odds = 0;      ///< beside nothing
+  bool fitted = false;
+
+  std::vector<std::string> effects() const { return {first.candidate->effect, second.candidate->effect}; }
+};
+
+/// The pairs that their signatures make more probable than that of any single rival, most probable first.
+/// `known`: the number of known effects.
+std::vector<PairRival> pairs_beyond(const std::vector<Rival>& rivals, const std::vector<ScreenedPair>& pairs,
+                                    const std::vector<Candidate>& candidates, double known);
+
+/// Its signatures make it more probable than any single rival by more than signatures err.
+bool is_far_beyond(const PairRival& pair, const std::vector<Rival>& rivals);
+
+/// Fits both beside the state `before` and weighs them, as fit_rival does with one.
+void fit_pair(PairRival& pair, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
+              double lowest, Effort effort, double known);
+
+}  // namespace shakedown
