@@ -60,11 +60,13 @@ extern const EffectRecord grain_cohesion{
     // reaches to about the cube root of its volume (G. Lian, C. Thornton and M. J. Adams, J. Colloid
     // Interface Sci. 161, 138 (1993)), 0.2 mm for 0.01 mm^3. Walls that attract hold the layer from some 60
     // mN on, so that nothing is lost; walls that do not leave a clump that still falls from end to end (the
-    // slope of the decay changes by 10 % up to 0.3 N). Dry grains of some millimetres rarely stick: exp(-2).
+    // slope of the decay changes by 10 % up to 0.3 N). What 20 mN over 0.02 mm does is as much as hard wells
+    // and soft contacts differ by (README.md), 2 mN over 0.2 mm: less is not looked for, it would be found in
+    // every recording of the other kind. Dry grains of some millimetres rarely stick: exp(-2).
     .search = {.strengths = {{.parameters = "force",
                               .typical = 8e-3,
-                              .levels = {2e-3, 8e-3, 24e-3, 64e-3, 192e-3},
-                              .low = 0,
+                              .levels = {4e-3, 12e-3, 36e-3, 0.1, 0.3},
+                              .low = 4e-3,
                               .high = 0.3,
                               .strongest = 64e-3}},
                .besides = {{"range", 2e-5}, {"walls", 1}},
