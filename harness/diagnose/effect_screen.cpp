@@ -49,11 +49,15 @@ bool is_left_open(const ScreenedEffect& effect, double most, double known) {
          could_be + prior_log_odds(effect.seen.odds, known) > doubted;
 }
 
-/// The cheapest first, so that where simulations run out most have been looked at.
+/// What is most probable beforehand for what it costs first, so that where simulations run out as much as can
+/// be has been looked at.
 std::vector<std::size_t> by_cost(const std::vector<Candidate>& candidates) {
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto cost = [&](std::size_t c) { return candidates[c].dear ? 2 : candidates[c].slow ? 1 : 0; };
+  const auto cost = [&](std::size_t c) {  // plain runs, for the odds of a usual effect
+    const double runs = candidates[c].dear ? 10 : candidates[c].slow ? 4 : 1;
+    return runs / std::max(1e-6, candidates[c].prior.odds);
+  };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return cost(a) < cost(b); });
   return order;

@@ -65,7 +65,7 @@ extern const EffectRecord grain_cohesion{
     // every recording of the other kind. Dry grains of some millimetres rarely stick: exp(-2).
     .search = {.strengths = {{.parameters = "force",
                               .typical = 8e-3,
-                              .levels = {4e-3, 12e-3, 36e-3, 0.1, 0.3},
+                              .levels = {4e-3, 8e-3, 24e-3, 0.08, 0.24},
                               .low = 4e-3,
                               .high = 0.3,
                               .strongest = 64e-3}},
