@@ -245,12 +245,15 @@ void DrivenBox::begin_dense(double friction_force) {
       throw PhysicsError("the forces on the box change too fast near t = " + std::to_string(time_) +
                          " s, x = " + std::to_string(x_) + " m; make the formula of user_force smoother");
   }
+  // Past a jump they grow again by half each; ten thousand short ones are a millisecond of motion at most,
+  // and a tenth of a second of computing.
+  constexpr int most_short_pieces = 10000;
   short_pieces_ = length <= 10 * shortest_piece ? short_pieces_ + 1 : 0;
-  if (short_pieces_ > 10000)
+  if (short_pieces_ > most_short_pieces)
     throw PhysicsError(
         "the force on the box jumps to and fro near t = " + std::to_string(time_) +
         " s, x = " + std::to_string(x_) +
-        " m; write friction as dry_friction, and make jumps in the formula of user_force smooth");
+        " m; write friction as clamp_dry_friction, and make jumps in the formula of user_force smooth");
   planned_length_ = length_ = length;
   double jerk = 0;
   top_acceleration_ = 0;

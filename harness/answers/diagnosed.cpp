@@ -35,7 +35,6 @@ DiagnoseOptions usual_diagnose_options() {
   DiagnoseOptions options;
   options.known = all_effects();
   options.strength_uncertainty = &strength_uncertainty;
-  options.codes_differ = &misfit_of_engines;
   return options;
 }
 

@@ -72,18 +72,19 @@ MomentumTerm term_of(const EffectRecord& record, const Search& search, const Sea
   return term;
 }
 
-/// The term, or one for each value of its shape where the setup does not say it.
+/// The term, or one for each value of its shape where the setup does not say it; of what acts on the box none
+/// has more than one shape.
 void add_shapes(const EffectRecord& record, const Search& search, const MomentumTerm& term,
                 std::vector<MomentumTerm>& terms) {
   const std::string key =
-      search.shape ? std::string(record.name) + "." + std::string(search.shape->parameter) : "";
+      search.shapes.empty() ? "" : std::string(record.name) + "." + std::string(search.shapes[0].parameter);
   const auto is_shape = [&](const auto& beside) { return beside.first == key; };
   if (std::none_of(term.besides.begin(), term.besides.end(), is_shape)) return terms.push_back(term);
-  for (const double value : search.shape->values) {
+  for (const double value : search.shapes[0].values) {
     terms.push_back(term);
     MomentumTerm& shaped = terms.back();
     shaped.shape = key;
-    shaped.odds = term.odds / static_cast<double>(search.shape->values.size());
+    shaped.odds = term.odds / static_cast<double>(search.shapes[0].values.size());
     std::find_if(shaped.besides.begin(), shaped.besides.end(), is_shape)->second = value;
   }
 }

@@ -125,8 +125,8 @@ int measure_power(const HideArguments& arguments, const Trial& trial) {
                                 model = engine_named("hard");
   arguments.json.check();
   const TrialTools tools{
-      laboratory.get(),           model.get(),          all_effects(),         arguments.budget,
-      arguments.question.threads, catch_interruption(), &strength_uncertainty, &misfit_of_engines};
+      laboratory.get(),           model.get(),          all_effects(),        arguments.budget,
+      arguments.question.threads, catch_interruption(), &strength_uncertainty};
   const Power power = power_of(trial, arguments.repeats, tools, [&](int done, const std::string& answer) {
     fmt::print(stderr, "{:>3} of {}: {}\n", done, arguments.repeats, answer);
   });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "camera.hpp"
 #include "effect_strength.hpp"
@@ -96,8 +97,9 @@ std::vector<Search> with_each(const std::vector<Search>& searches, const Searche
 /// box.
 std::vector<Search> shapes_of(const EffectRecord& record, const Search& search) {
   if (!has_shapes(record)) return {search};
-  const std::vector<Search> shapes = with_each({search}, *search.shape);
-  return search.other_shape ? with_each(shapes, *search.other_shape) : shapes;
+  std::vector<Search> searches{search};
+  for (const SearchedShape& shape : search.shapes) searches = with_each(searches, shape);
+  return searches;
 }
 
 /// False where this setup cannot have it: a cubic spring without a displacement.
@@ -166,8 +168,17 @@ double Candidate::strength_of(double value) const {
 }
 
 bool has_shapes(const EffectRecord& record) {
-  return record.search.shape.has_value() &&
+  return !record.search.shapes.empty() &&
          (record.acts_on == ActsOn::grains || record.acts_on == ActsOn::contact);
+}
+
+std::vector<std::size_t> by_odds_for_cost(const std::vector<Candidate>& candidates) {
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto odds = [&](std::size_t c) { return candidates[c].prior.odds / candidates[c].plain_runs(); };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return odds(a) > odds(b); });
+  return order;
 }
 
 bool is_modelled(const Engine& engine, const EffectRecord& record) {

@@ -29,6 +29,9 @@ struct Candidate {
   std::vector<Level> levels{};
   StrengthPrior strengths{};  ///< those that its levels and the parameter's bounds allow
 
+  /// What a run costs, in plain ones (Search::Cost).
+  double plain_runs() const { return dear ? 10 : slow ? 4 : 1; }
+
   const std::vector<Knob>& fitted_knobs() const { return knobs.empty() ? when_tried : knobs; }
   double value_of(double strength) const;
   double strength_of(double value) const;
@@ -42,6 +45,10 @@ std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std:
 
 /// Ensembles try each value of its shape, as candidates of their own.
 bool has_shapes(const EffectRecord& record);
+
+/// Indices of the candidates, what is most probable beforehand for what it costs first, so that where
+/// simulations run out as much as can be has been looked at.
+std::vector<std::size_t> by_odds_for_cost(const std::vector<Candidate>& candidates);
 
 /// True where the engine can run the setup with this effect at its defaults.
 bool is_modelled(const Engine& engine, const EffectRecord& record);

@@ -89,8 +89,7 @@ void note_shapes(Diagnosis& d, std::span<const EffectRecord* const> known) {
   for (const std::string& effect : d.missing) {
     const EffectRecord* record = find_record(known, effect);
     if (record == nullptr || !has_shapes(*record)) continue;
-    note_shape(effect, *record, *record->search.shape, d, known);
-    if (record->search.other_shape) note_shape(effect, *record, *record->search.other_shape, d, known);
+    for (const SearchedShape& shape : record->search.shapes) note_shape(effect, *record, shape, d, known);
   }
 }
 
@@ -253,10 +252,6 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   findings.camera_stands_out = !standing_out(d.camera).empty();
   findings.explained = share_taken_away(given.fit.scatter, final.fit.scatter);
   findings.features = final.fit.test();
-  if (tools.options().codes_differ)
-    for (const std::string& effect : d.missing)
-      findings.features.undecided_below =
-          std::max(findings.features.undecided_below, tools.options().codes_differ(effect));
   findings.far_p_value = final.fit.far_p_value;
   findings.balance = d.momentum.test_of(d.momentum.final_fit);
   findings.left = final.fit.left();

@@ -100,9 +100,6 @@ struct DiagnoseOptions {
   /// Relative uncertainty of an effect's strength because data may be of the other engine's kind
   /// (effects/engine_differences.hpp); null: none.
   double (*strength_uncertainty)(std::string_view effect) = nullptr;
-  /// Misfit that data of the other engine's kind leave of a right model with this effect (as above); 0: as
-  /// one without; null: of all.
-  double (*codes_differ)(std::string_view effect) = nullptr;
   EnsembleCache* ensembles = nullptr;    ///< shared by diagnoses of one setup; may be null
   SimulationJournal* journal = nullptr;  ///< of this diagnosis, begun before or not; may be null
 };

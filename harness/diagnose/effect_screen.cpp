@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "effort.hpp"
@@ -47,20 +46,6 @@ bool is_left_open(const ScreenedEffect& effect, double most, double known) {
                could_be = effect.log_evidence + effect.gain / 2 * (1 / share - 1);
   return effect.log_evidence > effort::glance_sees * most + doubted &&
          could_be + prior_log_odds(effect.seen.odds, known) > doubted;
-}
-
-/// What is most probable beforehand for what it costs first, so that where simulations run out as much as can
-/// be has been looked at.
-std::vector<std::size_t> by_cost(const std::vector<Candidate>& candidates) {
-  std::vector<std::size_t> order(candidates.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto cost = [&](std::size_t c) {  // plain runs, for the odds of a usual effect
-    const double runs = candidates[c].dear ? 10 : candidates[c].slow ? 4 : 1;
-    return runs / std::max(1e-6, candidates[c].prior.odds);
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return cost(a) < cost(b); });
-  return order;
 }
 
 }  // namespace
@@ -117,7 +102,7 @@ Screening EffectScreen::weigh(const std::vector<Candidate>& candidates) {
     return is_left_open(effect, 0, static_cast<double>(known_));
   };
   bool spent = false;
-  for (const std::size_t c : by_cost(candidates)) {
+  for (const std::size_t c : by_odds_for_cost(candidates)) {
     const Candidate& candidate = candidates[c];
     Weighed one{{c, candidate.effect, 0, candidate.levels.front().value, 0, candidate.prior}, {}};
     if (!spent) try {

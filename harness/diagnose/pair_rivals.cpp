@@ -30,7 +30,7 @@ bool is_far_beyond(const PairRival& pair, const std::vector<Rival>& rivals) {
   const Rival* best = best_signature(rivals);
   if (best == nullptr) return false;
   const double single = best->screened.log_evidence;
-  return pair.log_evidence - single > std::max(std::log(10), effort::signature_errs * single);
+  return pair.log_evidence - single > signatures_err_by(single);
 }
 
 std::vector<PairRival> pairs_beyond(const std::vector<Rival>& rivals, const std::vector<ScreenedPair>& pairs,
@@ -64,6 +64,7 @@ void fit_pair(PairRival& pair, const DiagnosisState& before, DiagnosisTools& too
               double lowest, Effort effort, double known) {
   fit_rival(pair.second, with_rival(before, pair.first, tools), tools, screen, lowest, effort);
   pair.fitted = true;
+  if (!std::isfinite(pair.second.log_ratio)) return;  // no time to weigh it: its signatures' odds stand
   pair.first.state = pair.second.state;
   pair.first.log_ratio = pair.first.nothing_gained;  // the ratio of both is told with the second
   pair.first.fitted = true;

@@ -15,6 +15,7 @@ struct PairRival {
   bool fitted = false;
 
   std::vector<std::string> effects() const { return {first.candidate->effect, second.candidate->effect}; }
+  std::string words() const { return first.candidate->effect + " and " + second.candidate->effect; }
 };
 
 /// The pairs that their signatures make more probable than that of any single rival, most probable first.

@@ -74,6 +74,10 @@ bool is_arithmetic(const Rival& rival) { return rival.candidate->fitted_knobs().
 
 bool is_found(const Rival& rival) { return rival.fitted && rival.log_odds > 0; }
 
+bool holds(const Rival& rival) { return rival.fitted && rival.state.fit.p_value > rules::holds; }
+
+double signatures_err_by(double best) { return std::max(std::log(10), effort::signature_errs * best); }
+
 std::vector<Knob> at_values(const Refit& fit) {
   std::vector<Knob> knobs = fit.knobs;
   for (std::size_t k = 0; k < knobs.size(); ++k)
@@ -131,12 +135,12 @@ void weigh_rival(Rival& rival, double candidates) {
 }
 
 void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
-  const auto holds = [](const Rival& rival) {
-    return is_found(rival) && std::isfinite(rival.log_ratio) && rival.state.fit.p_value > rules::holds;
+  const auto counts = [](const Rival& rival) {
+    return is_found(rival) && std::isfinite(rival.log_ratio) && holds(rival);
   };
   const Rival* best = nullptr;
   for (const Rival& rival : rivals)
-    if (holds(rival) && (best == nullptr || rival.log_odds > best->log_odds)) best = &rival;
+    if (counts(rival) && (best == nullptr || rival.log_odds > best->log_odds)) best = &rival;
   if (best == nullptr) return;
   const std::vector<Eigen::MatrixXd>& covariances = best->state.fit.covariances;
   const auto prior = [&](const Rival& rival) { return prior_log_odds(rival.screened.seen.odds, candidates); };
@@ -146,7 +150,7 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
                smaller = 1 / std::sqrt(1 + std::numbers::pi / 8 * error * error);
   const double of_best = chi2_left(best->state.fit, covariances), from = best->log_odds - prior(*best);
   for (Rival& rival : rivals)
-    if (&rival != best && holds(rival))
+    if (&rival != best && counts(rival))
       rival.log_odds =
           from + prior(rival) + smaller * (of_best - chi2_left(rival.state.fit, covariances)) / 2;
 }

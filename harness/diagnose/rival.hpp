@@ -31,6 +31,13 @@ bool is_arithmetic(const Rival& rival);
 /// A fit found it.
 bool is_found(const Rival& rival);
 
+/// The data accept it as fitted.
+bool holds(const Rival& rival);
+
+/// By how much ln odds of signatures are wrong, where the best one has so many: a factor of ten, far from
+/// nothing effort::signature_errs.
+double signatures_err_by(double best);
+
 /// The knobs of a fit at its values.
 std::vector<Knob> at_values(const Refit& fit);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "errors.hpp"
@@ -19,19 +20,6 @@
 namespace shakedown {
 
 namespace {
-
-bool is_joint(const Knob& knob) { return joined_keys(knob.key).size() > 1; }
-
-/// What moves together, each by itself.
-std::vector<Knob> taken_apart(const std::vector<Knob>& knobs) {
-  std::vector<Knob> parts;
-  for (const Knob& knob : knobs)
-    for (const std::string& key : joined_keys(knob.key)) {
-      parts.push_back(knob);
-      parts.back().key = key;
-    }
-  return parts;
-}
 
 /// What the screen of the model at `knobs`, where this fit has put it, need not simulate again.
 ScreenStart start_from(const Refit& fit, const std::vector<Knob>& knobs) {
@@ -51,28 +39,6 @@ ScreenStart start_from(const Refit& fit, const std::vector<Knob>& knobs) {
       e.coefficients.row(0) -= moved * e.coefficients.row(1 + static_cast<Eigen::Index>(k));
   }
   return start;
-}
-
-/// The data reject the model, and what imitates an effect has led its restitutions to where hardly anything
-/// tells of effects: of restitutions of .345 and .999 neither friction nor attraction sees anything.
-bool is_led_astray(const DiagnosisState& state) {
-  return is_rejected(state.fit) && std::any_of(state.theta.begin(), state.theta.end(), [](const Knob& knob) {
-           return is_believed(knob) &&
-                  std::abs(knob.centre - knob.believed) > effort::astray * knob.believed_error;
-         });
-}
-
-/// Its parameters back at what was believed of them before a fit led them astray, each as wide as a line
-/// reaches there: a frequency that is 0.06 % off turns the phase by a hundredth after fifteen swings.
-DiagnosisState as_believed(DiagnosisState state) {
-  constexpr double of_a_restitution = 0.5, of_the_frequency = 0.15;  // of the first fit's box
-  for (const Knob& before : state.before_fits)
-    for (Knob& knob : state.theta) {
-      if (knob.key != before.key) continue;
-      knob = before;
-      knob.width *= knob.key == "spring.frequency" ? of_the_frequency : of_a_restitution;
-    }
-  return state;
 }
 
 std::vector<Candidate> open_candidates(const DiagnosisState& state, DiagnosisTools& tools,
@@ -117,28 +83,222 @@ void camera_first(std::vector<Rival*>& order, DiagnosisTools& tools) {
     std::swap(order[0], order[1]);
 }
 
-/// The data accept it as fitted.
-bool holds(const Rival& rival) { return rival.fitted && rival.state.fit.p_value > rules::holds; }
+/// The steps of one round, and what they share.
+class Round {
+ public:
+  Round(const DiagnosisState& state, DiagnosisTools& tools, const std::vector<std::string>& seen_by_balance)
+      : state_(state),
+        tools_(tools),
+        astray_(is_led_astray(state)),
+        from_(astray_ ? as_believed(state) : state),
+        candidates_(open_candidates(from_, tools, seen_by_balance)),
+        known_(static_cast<double>(tools.known().size())),
+        rejected_(is_rejected(state.fit)),
+        lowest_(state.fit.judged_chi2) {
+    round_.next = state;
+  }
 
-/// Until one holds.
-void fit_pairs(const DiagnosisState& from, DiagnosisTools& tools, EffectScreen& screen, double& lowest,
-               std::vector<PairRival>& pairs, SearchRound& round) {
-  const double known = static_cast<double>(tools.known().size());
-  for (PairRival& pair : pairs) try {
-      const bool dear = pair.first.candidate->dear || pair.second.candidate->dear;
-      fit_pair(pair, from, tools, screen, lowest, dear ? effort::attempt_when_dear : effort::attempt, known);
-      lowest = std::min(lowest, pair.second.state.fit.judged_chi2);
-      if (holds(pair.second)) break;
-    } catch (const BudgetSpent&) {
-      break;
-    } catch (const PhysicsError& error) {
-      round.notes.push_back(pair.second.candidate->effect + " and " + pair.first.candidate->effect +
-                            " could not be tried: " + error.what());
-    } catch (const InputError& error) {
-      round.notes.push_back(pair.second.candidate->effect + " and " + pair.first.candidate->effect +
-                            " could not be tried: " + error.what());
+  SearchRound run() {
+    if (!candidates_.empty()) {
+      tools_.begin("ranking the effects");
+      rank();
+      fit_the_most_probable();
+      if (rejected_) weigh_beside_the_best(rivals_, known_);
     }
-}
+    tell();
+    if (probability_of_something(round_.table) > rules::adds_effect) add_the_best();
+    return std::move(round_);
+  }
+
+ private:
+  /// Every effect by its signature, and pairs of them.
+  void rank() {
+    const ScreenEffort& ranking = state_.dear ? effort::rank_when_dear : effort::rank;
+    screen_ = std::make_unique<EffectScreen>(
+        tools_.features(from_.setup), from_.knobs(), tools_.workshop(), ranking, tools_.next_batch(),
+        astray_ ? ScreenStart{} : start_from(state_.fit, state_.knobs()));
+    if (astray_)
+      nothing_gained_ = std::max(
+          0.0, screen_->log_likelihood_ratio(tools_.features(state_.setup), state_.knobs(), ranking.nothing));
+    const Screening screening = screen_->weigh(candidates_);
+    for (const ScreenedEffect& screened : screening.list)
+      rivals_.push_back({.candidate = &candidates_[screened.candidate],
+                         .screened = screened,
+                         .nothing_gained = nothing_gained_});
+    for (const Screening::LeftOut& left_out : screening.left_out) {
+      round_.notes.push_back(left_out.effect + " was not looked for: it cannot be simulated here (" +
+                             left_out.reason + ")");
+      round_.table.push_back({{left_out.effect}, prior_log_odds(1, known_), 0});
+    }
+    for (Rival& rival : rivals_) {
+      weigh_rival(rival, known_);
+      order_.push_back(&rival);
+      if (!rival.weighed) round_.not_tried.push_back(rival.candidate->effect);
+    }
+    if (rejected_ && static_cast<double>(state_.missing.size()) + 2 <= rules::most_effects)
+      pairs_ = pairs_beyond(rivals_, screen_->pairs(candidates_), candidates_, known_);
+    if (pairs_.size() > effort::most_pairs) pairs_.resize(effort::most_pairs);
+  }
+
+  /// Fits confirm the most probable, and what has more than a tenth of its probability; where a fit takes
+  /// back what a signature promised, the next has its turn.
+  void fit_the_most_probable() {
+    // A fit may find more than any signature promised: it is to be weighed beside fits of those that promised
+    // as much, not beside their signatures.
+    double promised = -std::numeric_limits<double>::infinity();
+    for (const Rival& rival : rivals_)
+      if (rival.weighed) promised = std::max(promised, rival.log_odds);
+    bool pairs_due = !pairs_.empty();
+    const bool pairs_first = pairs_due && is_far_beyond(pairs_.front(), rivals_);
+    while (tried_ < static_cast<int>(rules::most_tried)) {
+      // Two that the data reject each alone may hold together.
+      if (pairs_due && (tried_ > 0 || pairs_first) && none_holds()) {
+        pairs_due = false;
+        fit_pairs();
+        if (std::any_of(pairs_.begin(), pairs_.end(), [](const PairRival& p) { return holds(p.second); }))
+          return;
+      }
+      Rival* next = next_to_fit(promised);
+      if (next == nullptr) return;
+      attempt(*next);
+    }
+  }
+
+  bool none_holds() const { return std::none_of(rivals_.begin(), rivals_.end(), holds); }
+
+  void sort_by_odds() {
+    std::stable_sort(order_.begin(), order_.end(),
+                     [](const Rival* a, const Rival* b) { return a->log_odds > b->log_odds; });
+  }
+
+  /// Null: none is worth a fit.
+  Rival* next_to_fit(double promised) {
+    sort_by_odds();
+    // A model that the data reject is not what is there: while nothing was found, the best of a bad lot are
+    // fitted whatever their odds.
+    const bool all_bad = rejected_ && std::none_of(rivals_.begin(), rivals_.end(), is_found);
+    const double worth_asking = std::log(rules::doubtful);  // less than the odds at which a model is doubted
+    const double best = std::min(promised, order_.front()->log_odds);
+    const double worth_a_fit = all_bad ? -std::numeric_limits<double>::infinity()
+                                       : std::max(worth_asking, best - signatures_err_by(best));
+    for (Rival* rival : order_) {
+      // Of what is arithmetic only the fit that is to be added is needed.
+      const double least =
+          is_arithmetic(*rival) ? std::max(0.0, order_.front()->log_odds - as_much) : worth_a_fit;
+      if (!rival->attempted && rival->weighed && rival->log_odds > least) return rival;
+    }
+    return nullptr;
+  }
+
+  void attempt(Rival& rival) {
+    rival.attempted = true;
+    ++tried_;
+    const auto fit = [&](Effort effort) {
+      fit_rival(rival, from_, tools_, *screen_, lowest_, effort);
+      lowest_ = std::min(lowest_, rival.state.fit.judged_chi2);
+      weigh_rival(rival, known_);
+    };
+    try {
+      try {
+        fit(rival.candidate->dear ? effort::attempt_when_dear : effort::attempt);
+      } catch (const BudgetSpent&) {
+        // What is sure is fitted with what was kept for the last fit.
+        if (probability_among(rivals_, rival) <= rules::adds_effect) throw;
+        tools_.limit_to(1);
+        fit(effort::least);
+      }
+    } catch (const BudgetSpent&) {
+      round_.not_tried.push_back(rival.candidate->effect);
+    } catch (const PhysicsError& error) {
+      note_failure(rival.candidate->effect, error);
+    } catch (const InputError& error) {
+      note_failure(rival.candidate->effect, error);
+    }
+  }
+
+  /// Until one holds.
+  void fit_pairs() {
+    for (PairRival& pair : pairs_) try {
+        const bool dear = pair.first.candidate->dear || pair.second.candidate->dear;
+        fit_pair(pair, from_, tools_, *screen_, lowest_, dear ? effort::attempt_when_dear : effort::attempt,
+                 known_);
+        lowest_ = std::min(lowest_, pair.second.state.fit.judged_chi2);
+        if (holds(pair.second)) return;
+      } catch (const BudgetSpent&) {
+        return;
+      } catch (const PhysicsError& error) {
+        note_failure(pair.words(), error);
+      } catch (const InputError& error) {
+        note_failure(pair.words(), error);
+      }
+  }
+
+  void note_failure(const std::string& what, const std::exception& error) {
+    round_.notes.push_back(what + " could not be tried: " + error.what());
+  }
+
+  /// A pair stands in the table where it was fitted: beside one of its effects alone the next round asks for
+  /// the other.
+  void tell() {
+    sort_by_odds();
+    for (Rival* rival : order_) {
+      if (rival->weighed) round_.ranking.push_back(ranked_as(*rival));
+      if (std::isfinite(rival->log_odds))
+        round_.table.push_back({{rival->candidate->effect}, rival->log_odds, 0});
+    }
+    if (const PairRival* pair = best_pair()) round_.table.push_back({pair->effects(), pair->log_odds, 0});
+    weigh(round_.table);
+  }
+
+  /// Null: no pair was fitted, or the data accept a single effect and no pair, so that odds told in the
+  /// metric of a model that is wrong say nothing against it.
+  const PairRival* best_pair() const {
+    const PairRival* best = nullptr;
+    for (const PairRival& pair : pairs_)
+      if (pair.fitted && std::isfinite(pair.log_odds) && (none_holds() || holds(pair.second)) &&
+          (best == nullptr || pair.log_odds > best->log_odds))
+        best = &pair;
+    return best;
+  }
+
+  void add_the_best() {
+    std::vector<Rival*> fitted;
+    for (Rival* rival : order_)
+      if (is_found(*rival)) fitted.push_back(rival);
+    const PairRival* pair = best_pair();
+    if (pair != nullptr && pair->log_odds > (fitted.empty() ? 0 : fitted.front()->log_odds)) {
+      round_.added = true;
+      round_.next = pair->second.state.settled(tools_.known());
+      return;
+    }
+    if (fitted.empty()) return;
+    camera_first(fitted, tools_);
+    round_.added = true;
+    round_.next = fitted[0]->state.settled(tools_.known());
+    const auto second = std::find_if(fitted.begin(), fitted.end(), [&](const Rival* rival) {
+      return rival->candidate->effect != fitted[0]->candidate->effect;
+    });
+    if (second == fitted.end()) return;
+    round_.runner_up = (*second)->candidate->effect;
+    round_.runner_up_setup = (*second)->state.settled(tools_.known()).setup;
+  }
+
+  const DiagnosisState& state_;
+  DiagnosisTools& tools_;
+  const bool astray_;
+  const DiagnosisState from_;  ///< about which the round looks
+  const std::vector<Candidate> candidates_;
+  const double known_;   ///< number of known effects
+  const bool rejected_;  ///< the state before
+  double lowest_;        ///< chi2 of the best fit so far
+  double nothing_gained_ = 0;
+  std::unique_ptr<EffectScreen> screen_;
+  std::vector<Rival> rivals_;
+  std::vector<Rival*> order_;  ///< by odds
+  std::vector<PairRival> pairs_;
+  int tried_ = 0;
+  SearchRound round_{{{{}, 0, 0}}, {}, {}, {}, false, {}, "", {}};
+};
 
 }  // namespace
 
@@ -154,239 +314,7 @@ std::vector<Hypothesis> not_looked_at(const DiagnosisState& state, DiagnosisTool
 
 SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
                          const std::vector<std::string>& seen_by_balance) {
-  SearchRound round{{{{}, 0, 0}}, {}, {}, {}, false, state, "", {}};
-  const bool astray = is_led_astray(state);
-  const DiagnosisState from = astray ? as_believed(state) : state;
-  const std::vector<Candidate> candidates = open_candidates(from, tools, seen_by_balance);
-  if (candidates.empty()) {
-    weigh(round.table);
-    return round;
-  }
-  tools.begin("ranking the effects");
-  const double all = static_cast<double>(tools.known().size());
-  const ScreenEffort& ranking = state.dear ? effort::rank_when_dear : effort::rank;
-  EffectScreen screen(tools.features(from.setup), from.knobs(), tools.workshop(), ranking, tools.next_batch(),
-                      astray ? ScreenStart{} : start_from(state.fit, state.knobs()));
-  const double nothing_gained =
-      astray ? std::max(0.0, screen.log_likelihood_ratio(tools.features(state.setup), state.knobs(),
-                                                         ranking.nothing))
-             : 0;
-  const Screening screening = screen.weigh(candidates);
-  std::vector<Rival> rivals;
-  for (const ScreenedEffect& screened : screening.list)
-    rivals.push_back({.candidate = &candidates[screened.candidate],
-                      .screened = screened,
-                      .nothing_gained = nothing_gained});
-  for (const Screening::LeftOut& left_out : screening.left_out) {
-    round.notes.push_back(left_out.effect + " was not looked for: it cannot be simulated here (" +
-                          left_out.reason + ")");
-    round.table.push_back({{left_out.effect}, prior_log_odds(1, all), 0});
-  }
-  for (Rival& rival : rivals) weigh_rival(rival, all);
-  std::vector<Rival*> order;
-  for (Rival& rival : rivals) order.push_back(&rival);
-  const double worth_asking = std::log(rules::doubtful);  // less than the odds at which a model is doubted
-  const auto by_odds = [](const Rival* a, const Rival* b) { return a->log_odds > b->log_odds; };
-  std::stable_sort(order.begin(), order.end(), by_odds);
-  for (const Rival& rival : rivals)
-    if (!rival.weighed) round.not_tried.push_back(rival.candidate->effect);
-  double lowest = state.fit.judged_chi2;
-  int tried = 0;
-  const auto attempt = [&](Rival& rival) {
-    rival.attempted = true;
-    if (tried >= static_cast<int>(rules::most_tried)) return;
-    ++tried;
-    const auto could_not = [&](const std::exception& error) {
-      round.notes.push_back(rival.candidate->effect + " could not be tried: " + error.what());
-    };
-    const auto fit = [&](Effort effort) {
-      fit_rival(rival, from, tools, screen, lowest, effort);
-      lowest = std::min(lowest, rival.state.fit.judged_chi2);
-      weigh_rival(rival, all);
-    };
-    try {
-      try {
-        fit(rival.candidate->dear ? effort::attempt_when_dear : effort::attempt);
-      } catch (const BudgetSpent&) {
-        // What is sure is fitted with what was kept for the last fit.
-        if (probability_among(rivals, rival) <= rules::adds_effect) throw;
-        tools.limit_to(1);
-        fit(effort::least);
-      }
-    } catch (const BudgetSpent&) {
-      round.not_tried.push_back(rival.candidate->effect);
-    } catch (const PhysicsError& error) {
-      could_not(error);
-    } catch (const InputError& error) {
-      could_not(error);
-    }
-  };
-  // Fits confirm the most probable, and what has more than a tenth of its probability; where a fit takes back
-  // what a signature promised, the next has its turn.
-  const bool rejected = is_rejected(state.fit);
-  // A fit may find more than any signature promised: it is to be weighed beside fits of those that promised
-  // as much, not beside their signatures.
-  double promised = -std::numeric_limits<double>::infinity();
-  for (const Rival& rival : rivals)
-    if (rival.weighed) promised = std::max(promised, rival.log_odds);
-  std::vector<PairRival> pairs;
-  if (rejected && static_cast<double>(state.missing.size()) + 2 <= rules::most_effects)
-    pairs = pairs_beyond(rivals, screen.pairs(candidates), candidates, all);
-  if (pairs.size() > effort::most_pairs) pairs.resize(effort::most_pairs);
-  const bool pairs_first = !pairs.empty() && is_far_beyond(pairs.front(), rivals);
-  bool pairs_tried = false;
-  for (bool more = true; more && tried < static_cast<int>(rules::most_tried);) {
-    more = false;
-    // Two that the data reject each alone may hold together.
-    if (rejected && !pairs_tried && (tried > 0 || pairs_first) &&
-        std::none_of(rivals.begin(), rivals.end(), holds)) {
-      pairs_tried = true;
-      fit_pairs(from, tools, screen, lowest, pairs, round);
-      if (std::any_of(pairs.begin(), pairs.end(), [](const PairRival& pair) { return holds(pair.second); }))
-        break;
-    }
-    std::stable_sort(order.begin(), order.end(), by_odds);
-    // A model that the data reject is not what is there: while nothing was found, the best of a bad lot are
-    // fitted whatever their odds.
-    const bool all_bad = rejected && std::none_of(rivals.begin(), rivals.end(), is_found);
-    const double best = std::min(promised, order.front()->log_odds);
-    const double worth_a_fit =
-        all_bad ? -std::numeric_limits<double>::infinity()
-                : std::max(worth_asking, best - std::max(std::log(10), effort::signature_errs * best));
-    for (Rival* rival : order) {
-      // Of what is arithmetic only the fit that is to be added is needed.
-      const double least =
-          is_arithmetic(*rival) ? std::max(0.0, order.front()->log_odds - as_much) : worth_a_fit;
-      if (rival->attempted || !rival->weighed || !(rival->log_odds > least)) continue;
-      attempt(*rival);
-      more = true;
-      break;
-    }
-  }
-  if (rejected) weigh_beside_the_best(rivals, all);
-  std::stable_sort(order.begin(), order.end(), by_odds);
-  for (Rival* rival : order) {
-    if (rival->weighed) round.ranking.push_back(ranked_as(*rival));
-    if (std::isfinite(rival->log_odds))
-      round.table.push_back({{rival->candidate->effect}, rival->log_odds, 0});
-  }
-  const PairRival* best_pair = nullptr;
-  for (const PairRival& pair : pairs) {
-    round.table.push_back({pair.effects(), pair.log_odds, 0});
-    if (pair.fitted && pair.log_odds > (best_pair == nullptr ? 0 : best_pair->log_odds)) best_pair = &pair;
-  }
-  weigh(round.table);
-  if (probability_of_something(round.table) <= rules::adds_effect) return round;
-  std::vector<Rival*> fitted;
-  for (Rival* rival : order)
-    if (is_found(*rival)) fitted.push_back(rival);
-  std::stable_sort(fitted.begin(), fitted.end(), by_odds);
-  if (best_pair != nullptr && (fitted.empty() || best_pair->log_odds > fitted[0]->log_odds)) {
-    round.added = true;
-    round.next = best_pair->second.state.settled(tools.known());
-    return round;
-  }
-  if (fitted.empty()) return round;
-  camera_first(fitted, tools);
-  round.added = true;
-  round.next = fitted[0]->state.settled(tools.known());
-  const auto second = std::find_if(fitted.begin(), fitted.end(), [&](const Rival* rival) {
-    return rival->candidate->effect != fitted[0]->candidate->effect;
-  });
-  if (second != fitted.end()) {
-    round.runner_up = (*second)->candidate->effect;
-    round.runner_up_setup = (*second)->state.settled(tools.known()).setup;
-  }
-  return round;
-}
-
-namespace {
-
-/// Two strengths that do much the same have two valleys: most of the one, or most of the other. The better of
-/// both fits; where the data do not tell which, its intervals reach over both.
-Refit with_other_valley(const DiagnosisState& apart, const std::vector<std::string>& parts,
-                        DiagnosisTools& tools, const std::string& stage) {
-  DiagnosisState other = apart;
-  const auto value_of = [&](const Refit& fit, const std::string& key) {
-    return std::find_if(fit.values.begin(), fit.values.end(),
-                        [&](const FittedValue& value) { return value.key == key; });
-  };
-  double sum = 0;
-  for (const std::string& key : parts) sum += value_of(apart.fit, key)->value;
-  const double mean = sum / static_cast<double>(parts.size());
-  for (Knob& part : other.found) {
-    if (std::find(parts.begin(), parts.end(), part.key) == parts.end()) continue;
-    // What was below the mean begins where the range of such strengths ends (three times what both are
-    // together, as in `concluded`), what was above it at half the mean.
-    const bool was_below = value_of(apart.fit, part.key)->value < mean;
-    part.centre = std::clamp(was_below ? 3 * mean : mean / 2, part.low, part.high);
-    part.width = std::min(part.width, std::max(part.centre / 2, part.width / 10));
-  }
-  other.fit = tools.fit(other, stage, other.knobs(), effort::attempt);
-  const double better = (apart.fit.scatter - other.fit.scatter) * apart.fit.degrees;
-  if (std::abs(better) > rules::emulator_noise) return better > 0 ? other.fit : apart.fit;
-  Refit both = better > 0 ? other.fit : apart.fit;
-  for (FittedValue& value : both.values)
-    for (const Refit* fit : {&std::as_const(apart).fit, &std::as_const(other).fit}) {
-      const auto there = value_of(*fit, value.key);
-      value.low = std::min(value.low, there->low), value.high = std::max(value.high, there->high);
-    }
-  return both;
-}
-
-}  // namespace
-
-DiagnosisState concluded(const DiagnosisState& state, DiagnosisTools& tools, const std::string& stage) {
-  DiagnosisState whole = state;
-  if (std::none_of(state.found.begin(), state.found.end(), is_joint)) {
-    whole.fit = tools.fit(state, stage, state.knobs(), effort::conclude);
-    return whole;
-  }
-  DiagnosisState apart = state;
-  apart.found = taken_apart(state.found);
-  std::vector<std::string> parts;
-  for (Knob& part : apart.found) {
-    // One may be far from what both were together: from nothing to three times that.
-    const bool was_joint = std::none_of(state.found.begin(), state.found.end(),
-                                        [&](const Knob& knob) { return knob.key == part.key; });
-    if (!was_joint) continue;
-    parts.push_back(part.key);
-    part.width = std::max(part.width, 1.5 * (part.centre - part.low));
-    part.centre = std::max(part.centre, part.low + part.width);
-  }
-  apart.fit = tools.fit(apart, stage, apart.knobs(), effort::apart);
-  try {
-    apart.fit = with_other_valley(apart, parts, tools, stage);
-  } catch (const BudgetSpent&) {  // the one that was found has to do
-  }
-  // too many to follow
-  if ((apart.fit.scatter - state.fit.scatter) * apart.fit.degrees > rules::emulator_noise) {
-    whole.fit = tools.fit(state, stage, state.knobs(), effort::conclude);
-    return whole;
-  }
-  return apart;
-}
-
-DiagnosisState pruned(const DiagnosisState& state, DiagnosisTools& tools,
-                      const std::vector<std::string>& from_balance) {
-  if (state.missing.size() < 2) return state;
-  for (std::size_t i = 0; i + 1 < state.missing.size(); ++i) {
-    const std::string effect = state.missing[i];
-    if (std::find(from_balance.begin(), from_balance.end(), effect) != from_balance.end()) continue;
-    constexpr double beyond_doubt = 2;  // standard errors: what a 95 % interval leaves out
-    if (is_told(state.fit, effect, beyond_doubt)) continue;
-    DiagnosisState less = state;
-    std::erase_if(less.setup.effects,
-                  [&](const EffectChoice& choice) { return choice.record->name == effect; });
-    std::erase_if(less.found, [&](const Knob& knob) { return effect_of(knob.key) == effect; });
-    less.missing.erase(less.missing.begin() + static_cast<std::ptrdiff_t>(i));
-    less.fit = tools.fit(less, "is " + effect + " still needed?", less.knobs(), effort::beside);
-    if (less.fit.p_value <= rules::holds &&
-        (less.fit.scatter - state.fit.scatter) * state.fit.degrees > rules::emulator_noise)
-      continue;
-    return pruned(less, tools, from_balance);
-  }
-  return state;
+  return Round(state, tools, seen_by_balance).run();
 }
 
 }  // namespace shakedown

@@ -62,7 +62,25 @@ DiagnosisState DiagnosisState::settled(std::span<const EffectRecord* const> know
 }
 
 bool is_rejected(const Refit& fit) {
-  return fit.p_value <= rules::holds && !(fit.scatter < rules::codes_differ);
+  return fit.p_value <= rules::holds && !(fit.scatter < fit.codes_differ);
+}
+
+bool is_led_astray(const DiagnosisState& state) {
+  return is_rejected(state.fit) && std::any_of(state.theta.begin(), state.theta.end(), [](const Knob& knob) {
+           return is_believed(knob) &&
+                  std::abs(knob.centre - knob.believed) > effort::astray * knob.believed_error;
+         });
+}
+
+DiagnosisState as_believed(DiagnosisState state) {
+  constexpr double of_a_restitution = 0.5, of_the_frequency = 0.15;  // of the first fit's box
+  for (const Knob& before : state.before_fits)
+    for (Knob& knob : state.theta) {
+      if (knob.key != before.key) continue;
+      knob = before;
+      knob.width *= knob.key == "spring.frequency" ? of_the_frequency : of_a_restitution;
+    }
+  return state;
 }
 
 LadderStep step_of(const std::string& name, const Refit& fit) {

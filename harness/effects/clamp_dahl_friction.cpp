@@ -59,8 +59,7 @@ extern const EffectRecord clamp_dahl_friction{
     // half as standard deviation for bearings and soft clamps, one in ten has the millimetre that is seen.
     // The travels tried are middles of eight parts of that tail that are as likely as each other.
     .search = {.besides = {{"travel", 0.005}},
-               .shape = SearchedShape{"travel",
-                                      {0.00098, 0.00128, 0.00174, 0.00247, 0.00375, 0.0063, 0.0135, 0.056}},
+               .shapes = {{"travel", {0.00098, 0.00128, 0.00174, 0.00247, 0.00375, 0.0063, 0.0135, 0.056}}},
                .odds = 0.1},
     .apply = &apply};
 

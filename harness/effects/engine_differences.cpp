@@ -57,6 +57,4 @@ double strength_uncertainty(std::string_view effect) {
   return weights > 0 ? std::sqrt(squares / weights) : 0;
 }
 
-double misfit_of_engines(std::string_view effect) { return effect == "grain_cohesion" ? 2.5 : 0; }
-
 }  // namespace shakedown

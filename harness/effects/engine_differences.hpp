@@ -41,9 +41,4 @@ std::optional<AddedDifference> added_difference(std::string_view effect, double 
 /// it is known; 0 where none was looked for.
 double strength_uncertainty(std::string_view effect);
 
-/// Misfit over that of the model's own runs that data of the soft engine leave of the hard one with the same
-/// effect and the same parameters, where that is more than of a model without effects; else 0. Attraction:
-/// 2.5 (50 mN over 0.2 mm between grains, three lengths, `hide --engine soft` and `compare` with the truth).
-double misfit_of_engines(std::string_view effect);
-
 }  // namespace shakedown

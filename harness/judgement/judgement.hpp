@@ -34,7 +34,7 @@ struct ModelTest {
   double misfit = std::numeric_limits<double>::quiet_NaN();
   std::string why_not = "";  ///< why there is no such test; empty: there is
   /// Misfit below which a small p-value decides nothing: more where the model has an effect that two codes
-  /// make less alike (effects/engine_differences.hpp).
+  /// make less alike (EffectRecord::codes_differ).
   double undecided_below = codes_differ;
 };
 

@@ -25,7 +25,6 @@ Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools) {
   options.known = tools.known;
   options.stop = tools.stop;
   options.strength_uncertainty = tools.strength_uncertainty;
-  options.codes_differ = tools.codes_differ;
   options.fixed = tools.fixed;
   options.ensembles = tools.ensembles;
   return diagnose(trial.hidden.believed,

@@ -27,7 +27,6 @@ struct TrialTools {
   int threads = 0;
   const std::atomic<bool>* stop = nullptr;
   double (*strength_uncertainty)(std::string_view effect) = nullptr;  ///< DiagnoseOptions
-  double (*codes_differ)(std::string_view effect) = nullptr;          ///< DiagnoseOptions
   EnsembleCache* ensembles = nullptr;                ///< shared by the diagnoses; may be null
   std::vector<std::string> fixed{};                  ///< DiagnoseOptions
   void (*damage)(Experiment& experiment) = nullptr;  ///< done to what was measured before it is diagnosed

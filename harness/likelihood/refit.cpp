@@ -116,11 +116,20 @@ void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& meas
     result.judged_chi2 += best.round.judged_chi2(r, solution, rules[r]);
 }
 
+/// The most that two codes differ by in any effect of these models.
+double codes_differ_in(const std::vector<MeasuredFeatures>& measured) {
+  double most = codes_differ;
+  for (const MeasuredFeatures& run : measured)
+    for (const EffectChoice& effect : run.setup.effects) most = std::max(most, effect.record->codes_differ);
+  return most;
+}
+
 Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& measured,
                 const std::vector<Knob>& knobs, const Minimum& minimum, const Workshop& workshop,
                 const RefitOptions& options) {
   Refit result;
   result.knobs = knobs;
+  result.codes_differ = codes_differ_in(measured);
   judge_at(round, measured.size(), minimum.z, result);
   Eigen::MatrixXd covariance = round.covariance_at(minimum.z, reach) * std::max(1.0, result.scatter);
   const auto scattered =

@@ -59,7 +59,8 @@ struct Refit {
   double held_out_error_box = 0;
   std::vector<Validation> validation() const;  ///< of every run
   /// As a test of the model.
-  ModelTest test() const { return {p_value, scatter, ""}; }
+  ModelTest test() const { return {p_value, scatter, "", codes_differ}; }
+  double codes_differ = shakedown::codes_differ;  ///< ModelTest::undecided_below, by the model's effects
   std::vector<Difference> left() const { return differences_of(runs); }
   double promised_scatter = 1, promised_chi2 = 0;  ///< `scatter` and `judged_chi2` by the emulator, where
                                                    ///< simulations at the solution have judged

@@ -99,7 +99,8 @@ struct PairPosterior {
   double first = 0, second = 0;  ///< strengths where the likelihood is largest
 };
 
-/// By a sum over 100 x 100 strengths, equally likely beforehand.
+/// By a sum over 100 x 100 strengths, equally likely beforehand. Where a peak is narrower than a step of
+/// these ln evidence is too small by up to 1 %: seen 1079 to 1086 for 1093.
 PairPosterior posterior_of(const Signature& first, const StrengthPrior& of_first, const Signature& second,
                            const StrengthPrior& of_second);
 

@@ -110,8 +110,7 @@ struct Search {
   std::vector<SearchedStrength> strengths{};                   ///< each an alternative of its own (x, y, z)
   std::vector<std::pair<std::string_view, double>> besides{};  ///< parameters that its presence needs, SI
   std::optional<SearchedHarmonic> harmonic{};
-  std::optional<SearchedShape> shape{};
-  std::optional<SearchedShape> other_shape{};  ///< a second one of what ensembles take: each with each
+  std::vector<SearchedShape> shapes{};  ///< ensembles take each value of one with each of the others
   /// Cost of a run with it: plain as one without, slow three to five times that, dear ten times that.
   enum class Cost { plain, slow, dear } cost = Cost::plain;
   /// How likely it is in such an experiment beside a usual effect (viscous damping, friction): a prior.
@@ -148,6 +147,9 @@ struct EffectRecord {
   bool dissipative = false;  ///< its line in the energy ledger can never be negative
   std::vector<EngineCapability> engines{};
   Search search{};
+  /// Misfit, over that of the model's own runs, that data of another code of the same physics leave of a
+  /// right model with this effect; 0: as of one without (judgement/judgement.hpp, codes_differ).
+  double codes_differ = 0;
   CameraError camera_error{};
   /// How a run was made rather than a law of physics: never missing in a model.
   bool nuisance = false;

@@ -10,6 +10,10 @@ Setup believed(const std::string& duration) {
   return parse_setup("[run]\nduration = \"" + duration + "\"\n", "believed", all_effects());
 }
 
+Measurement as_measured(const Experiment& experiment, const Setup& setup) {
+  return measurement_of(setup, experiment, all_effects());
+}
+
 Experiment measured(const Hidden& hidden, const std::string& laboratory) {
   std::vector<Override> overrides = hidden.parameters;
   for (const std::string& effect : hidden.effects)

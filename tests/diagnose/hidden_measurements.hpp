@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hidden_case.hpp"
+#include "measurement.hpp"
 
 namespace shakedown {
 
@@ -20,6 +21,9 @@ struct Hidden {
 
 /// The paper's damper.
 Setup believed(const std::string& duration = "5 s");
+
+/// As a diagnosis sees it.
+Measurement as_measured(const Experiment& experiment, const Setup& setup = believed());
 
 /// By the engine of this name.
 Experiment measured(const Hidden& hidden, const std::string& laboratory = "soft");

@@ -159,3 +159,15 @@ TEST(Candidates, AnotherComponentOfAnEffectThatIsThereStaysACandidate) {
   EXPECT_FALSE(is_candidate(list, "constant_acceleration", "constant_acceleration.acceleration.x"));
   EXPECT_TRUE(is_candidate(list, "constant_acceleration", "constant_acceleration.acceleration.z"));
 }
+
+TEST(Candidates, AreLookedAtByOddsForCost) {
+  const auto with = [](double odds, bool slow, bool dear) {
+    Candidate candidate;
+    candidate.prior.odds = odds, candidate.slow = slow, candidate.dear = dear;
+    return candidate;
+  };
+  // Attraction in one of four forms, a usual effect, drag that air hardly has, friction.
+  EXPECT_EQ(by_odds_for_cost({with(0.034, true, false), with(1, false, false), with(0.005, true, false),
+                              with(1, false, true)}),
+            (std::vector<std::size_t>{1, 3, 0, 2}));
+}

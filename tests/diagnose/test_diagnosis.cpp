@@ -22,10 +22,6 @@ using namespace shakedown;
 
 namespace {
 
-Measurement as_measured(const Experiment& experiment, const shakedown::Setup& setup = believed()) {
-  return measurement_of(setup, experiment, all_effects());
-}
-
 /// As said by somebody who measured the camera: what its errors would take up is left to the physics.
 Measurement through_a_perfect_camera(Measurement measurement) {
   for (const EffectRecord* record : all_effects())
@@ -106,12 +102,6 @@ TEST(SlowDiagnosis, AnotherPackingIsAParameterNotAnEffect) {
   EXPECT_EQ(d.parameters.front().word, "random");
 }
 
-TEST(Diagnosis, ABiasOfTheCameraIsNotTakenForAPacking) {
-  const Experiment experiment = measured({{"camera_com_bias=bias:0.08"}, {}, {}, {0.040, 0.104}});
-  EXPECT_EQ(packing_before_release(believed(), as_measured(experiment), all_effects()).packing,
-            believed().release.packing);
-}
-
 TEST(SlowDiagnosis, ForcesInNoListAreUnknownAndAFormulaIsOffered) {
   const Diagnosis d = diagnosis_of({{"user_force=force:\"-c*v*exp(-((x-x0)/w)^2)\",constants.c:0.8 N "
                                      "s/m,constants.x0:45mm,constants.w:12mm"},
@@ -156,61 +146,6 @@ TEST(SlowDiagnosis, AFormulaThatCannotBeSimulatedEndsNoDiagnosis) {
   EXPECT_TRUE(std::any_of(d.notes.begin(), d.notes.end(), [](const std::string& note) {
     return note.find("cannot be simulated") != std::string::npos;
   }));
-}
-
-// Half way between the layers of fcc and of square.
-TEST(Diagnosis, AnArrangementThatNoPackingHasIsTold) {
-  Experiment experiment = measured({{}, {}, {}, {0.040}});
-  const auto chosen = [&] {
-    return packing_before_release(believed(), as_measured(experiment), all_effects());
-  };
-  EXPECT_TRUE(chosen().fits);
-  for (MeasuredRun& run : experiment.runs)
-    for (double& x : run.x_com) x -= 1e-3;
-  EXPECT_FALSE(chosen().fits);
-  EXPECT_EQ(chosen().packing, believed().release.packing);
-}
-
-// Up to a camera's scale layers of fcc and of square lie some 0.6 mm apart; 0.2 mm is the error of a dozen
-// frames of a bad camera.
-TEST(SlowDiagnosis, LayersAreToldFromEachOtherThroughNoise) {
-  for (const Packing truth : {Packing::fcc, Packing::square}) {
-    const Experiment clean = measured({{},
-                                       {{"release.packing", truth == Packing::fcc ? "fcc" : "square"}},
-                                       {},
-                                       {0.040, 0.040, 0.065, 0.085, 0.104},
-                                       5,
-                                       "0.5 s"});
-    for (std::uint64_t draw = 0; draw < 50; ++draw) {
-      Experiment experiment = clean;
-      Random random(draw, 0, Stream::other);
-      for (MeasuredRun& run : experiment.runs) {
-        const double wrong = 0.2e-3 * random.normal();
-        for (double& x : run.x_com) x += wrong;
-      }
-      EXPECT_EQ(packing_before_release(believed(), as_measured(experiment), all_effects()).packing, truth)
-          << draw;
-    }
-  }
-}
-
-// One draw against another differs by sqrt(2) times what one differs from the mean, and was called no
-// packing.
-TEST(Diagnosis, GrainsLaidAtRandomAreKnownAsThat) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Experiment experiment =
-        measured({{}, {{"release.packing", "random"}}, {}, {0.040, 0.040}, seed, "0.2 s"});
-    const PackingChoice choice = packing_before_release(believed(), as_measured(experiment), all_effects());
-    EXPECT_EQ(choice.packing, Packing::random) << seed;
-    EXPECT_TRUE(choice.fits) << seed << ": " << choice.apart;
-  }
-}
-
-TEST(Diagnosis, SoManyGrainsThatAnotherPackingCannotHoldThem) {
-  Experiment experiment = measured({{}, {}, {}, {0.040}, 5, "0.2 s"});
-  shakedown::Setup setup = believed();
-  setup.grains.count = 80;
-  EXPECT_NO_THROW(packing_before_release(setup, as_measured(experiment), all_effects()));
 }
 
 // The strength that the balance finds is that at the setup's own reference.
@@ -391,58 +326,6 @@ TEST(SlowDiagnosis, MeasurementsWithoutTheGrainsCentreConvictNobody) {
   const Diagnosis d = diagnosis_of({{}, {}, no_centre});
   EXPECT_TRUE(d.missing.empty()) << d.sentence;
   EXPECT_FALSE(d.momentum.possible);
-}
-
-/// sd of the restitutions and the frequency (Hz), as one experiment leaves them.
-FittedModel known_to(const shakedown::Setup& setup, double restitution, double frequency) {
-  const Eigen::Vector3d error(restitution, restitution, frequency);
-  return {setup, free_parameters(setup), error.cwiseAbs2().asDiagonal()};
-}
-
-double told_apart(const shakedown::Setup& one, const shakedown::Setup& other, const Design& design) {
-  const std::unique_ptr<Engine> engine = engine_named("hard");
-  const Workshop workshop{engine.get(), all_effects(), 2, nullptr, {}, nullptr};
-  return advise({design}, known_to(one, 0.02, 2e-4), other, 2e-4, 5e-4, workshop, 64, 1).front().sigmas;
-}
-
-shakedown::Setup with(const char* key, double value) {
-  shakedown::Setup setup = believed();
-  set_number(setup, key, value, all_effects());
-  return setup;
-}
-
-TEST(SlowNextExperiment, AStrongerEffectIsToldMoreEasily) {
-  const auto sigmas = [](double exponent) {
-    return told_apart(with("velocity_dependent_restitution.exponent", exponent), believed(),
-                      {37, 0.104, 0.1075});
-  };
-  EXPECT_EQ(sigmas(0), 0);
-  const double weak = sigmas(0.05);
-  EXPECT_GT(weak, 2);                        // seen: 4.4
-  EXPECT_NEAR(sigmas(0.2), 4 * weak, weak);  // linear in the strength: seen 17.4
-}
-
-// A clock that is late by t is a push of t Omega^2 Delta0 (the grains lie a little off the wall), at that
-// release and at no other.
-TEST(SlowNextExperiment, ALateClockIsToldFromAPushByAnotherRelease) {
-  const shakedown::Setup plain = believed();
-  const double omega = 2 * std::numbers::pi * plain.spring.frequency, late = 0.002;
-  const shakedown::Setup clock = with("camera_time_offset.offset", late),
-                         push = with("initial_box_velocity.velocity",
-                                     late * omega * omega * plain.release.displacement);
-  const double same = told_apart(clock, push, {37, 0.104, 0.1075}),
-               half = told_apart(clock, push, {37, 0.104, 0.05375});
-  EXPECT_LT(same, 1.5);  // seen: 0.2
-  EXPECT_GT(half, 6);    // seen: 12.7
-}
-
-TEST(NextExperiment, WhatWasMeasuredIsNotProposedAgain) {
-  const std::vector<Design> all = possible_designs(believed(), {});
-  MeasuredFeatures measured;
-  measured.setup = in_design(believed(), all.front());
-  const std::vector<Design> left = possible_designs(believed(), {measured});
-  ASSERT_EQ(left.size(), all.size() - 1);
-  EXPECT_EQ(left.front().words(), all[1].words());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "pair_rivals.hpp"
 #include "rival.hpp"
 #include "rules.hpp"
 
@@ -65,4 +66,60 @@ TEST(Rival, WhatTheDataRejectKeepsItsOdds) {
   std::vector<Rival> rivals{fitted(first, 1, 2600, {1, 1}), fitted(second, 1, 2400, {0, 0}, 0.001)};
   weigh_beside_the_best(rivals, known);
   EXPECT_DOUBLE_EQ(rivals[1].log_odds, 2400);
+}
+
+namespace {
+
+/// Candidates a, b and c with one knob each, and rivals that were screened with this ln evidence.
+struct Screened {
+  std::vector<Candidate> candidates;
+  std::vector<Rival> rivals;
+
+  explicit Screened(const std::vector<double>& log_evidence, double nothing_gained = 0) {
+    for (std::size_t c = 0; c < log_evidence.size(); ++c) {
+      candidates.push_back(named(std::string(1, static_cast<char>('a' + c))));
+      Knob knob;
+      knob.width = 1, knob.high = 10;
+      candidates.back().knobs = {knob};
+    }
+    for (std::size_t c = 0; c < log_evidence.size(); ++c) {
+      Rival rival{&candidates[c], {}};
+      rival.screened.candidate = c;
+      rival.screened.log_evidence = log_evidence[c];
+      rival.screened.weighed = true;
+      rival.nothing_gained = nothing_gained;
+      rivals.push_back(rival);
+    }
+  }
+};
+
+}  // namespace
+
+TEST(PairRival, IsAskedForWhereItsSignaturesSayMoreThanAnySingleOne) {
+  const Screened screened({100, 40, 5});
+  const std::vector<PairRival> pairs =
+      pairs_beyond(screened.rivals, {{0, 1, 0.5, 2, 200}, {0, 2, 0.5, 1, 101}}, screened.candidates, known);
+  ASSERT_EQ(pairs.size(), 1u);  // the second does not pay for its prior
+  EXPECT_EQ(pairs[0].effects(), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(pairs[0].first.screened.value, 0.5);
+  EXPECT_EQ(pairs[0].second.screened.value, 2);
+  EXPECT_NEAR(pairs[0].log_odds, 200 + 2 * prior_log_odds(1, known), 1e-12);
+  EXPECT_TRUE(is_far_beyond(pairs[0], screened.rivals));  // by 100, where signatures err by 10
+}
+
+TEST(PairRival, ThatIsBetterByWhatSignaturesErrWaitsForASingleOne) {
+  const Screened screened({1000, 40});
+  const std::vector<PairRival> pairs =
+      pairs_beyond(screened.rivals, {{0, 1, 0.5, 2, 1080}}, screened.candidates, known);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_FALSE(is_far_beyond(pairs[0], screened.rivals));
+}
+
+// Where restitutions imitate both, nothing elsewhere looks better than either about what was believed.
+TEST(PairRival, IsWeighedBesideNothingWhereItWasFitted) {
+  const Screened screened({100, 40}, 500);
+  const std::vector<PairRival> pairs =
+      pairs_beyond(screened.rivals, {{0, 1, 0.5, 2, 300}}, screened.candidates, known);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_NEAR(pairs[0].log_odds, 300 - 500 + 2 * prior_log_odds(1, known), 1e-12);
 }

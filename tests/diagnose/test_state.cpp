@@ -5,6 +5,7 @@
 #include "effects.hpp"
 #include "engines.hpp"
 #include "hidden_measurements.hpp"
+#include "parameter_knobs.hpp"
 #include "rival.hpp"
 #include "setup_file.hpp"
 #include "state.hpp"
@@ -46,12 +47,50 @@ TEST(Told, FromWhereItsAbsenceIs) {
   EXPECT_FALSE(is_told(fitted(), "side_wall_restitution", 1.7));
 }
 
+namespace {
+
+DiagnosisState at_restitutions(double grains, double walls, double p_value, double scatter) {
+  DiagnosisState state;
+  state.theta = state.before_fits = free_parameters(shakedown::Setup{});
+  state.theta[0].centre = grains, state.theta[1].centre = walls;
+  state.fit.p_value = p_value, state.fit.scatter = scatter;
+  return state;
+}
+
+}  // namespace
+
+TEST(LedAstray, IsARejectedModelFarFromWhatIsBelieved) {
+  EXPECT_TRUE(is_led_astray(at_restitutions(0.345, 0.999, 0.0025, 6)));
+  EXPECT_TRUE(is_led_astray(at_restitutions(0.75, 0.97, 0.0025, 6)));  // believed: 0.76 +- 0.1
+  EXPECT_FALSE(is_led_astray(at_restitutions(0.75, 0.95, 0.0025, 6)));
+  EXPECT_FALSE(is_led_astray(at_restitutions(0.345, 0.999, 0.2, 1)));       // the data accept it
+  EXPECT_FALSE(is_led_astray(at_restitutions(0.345, 0.999, 0.0025, 1.3)));  // as two codes differ
+}
+
+TEST(LedAstray, GoesBackToWhatWasBelieved) {
+  const DiagnosisState back = as_believed(at_restitutions(0.345, 0.999, 0.0025, 6));
+  EXPECT_EQ(back.theta[0].centre, 0.75);
+  EXPECT_EQ(back.theta[1].centre, 0.76);
+  for (std::size_t k = 0; k < back.theta.size(); ++k)
+    EXPECT_LT(back.theta[k].width, back.before_fits[k].width);
+}
+
+// A misfit of 2 rejects a model, and not one with an effect that two codes make so differently.
+TEST(Rejected, LessEasilyWhereCodesDiffer) {
+  Refit fit;
+  fit.p_value = 0.0025, fit.scatter = 2;
+  EXPECT_TRUE(is_rejected(fit));
+  fit.codes_differ = 2.5;
+  EXPECT_FALSE(is_rejected(fit));
+  EXPECT_EQ(fit.test().undecided_below, 2.5);
+}
+
 // Where a fit begins: what shapes an effect must be there from the start, though setups forget effects at no
 // strength.
 TEST(Rivals, BeginWithTheShapeOfTheirCandidate) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const Experiment experiment = measured({{}, {}, {}, {0.104}});
-  const Measurement measurement = measurement_of(believed(), experiment, all_effects());
+  const Measurement measurement = as_measured(experiment);
   DiagnoseOptions options;
   options.known = all_effects();
   DiagnosisTools tools(measurement, *engine, options);

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// What a search has found is fitted with full effort, and what it made needless goes.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "key_unit.hpp"
+#include "rules.hpp"
+#include "state.hpp"
+
+namespace shakedown {
+
+namespace {
+
+bool is_joint(const Knob& knob) { return joined_keys(knob.key).size() > 1; }
+
+/// What moves together, each by itself.
+std::vector<Knob> taken_apart(const std::vector<Knob>& knobs) {
+  std::vector<Knob> parts;
+  for (const Knob& knob : knobs)
+    for (const std::string& key : joined_keys(knob.key)) {
+      parts.push_back(knob);
+      parts.back().key = key;
+    }
+  return parts;
+}
+
+/// Two strengths that do much the same have two valleys: most of the one, or most of the other. The better of
+/// both fits; where the data do not tell which, its intervals reach over both.
+Refit with_other_valley(const DiagnosisState& apart, const std::vector<std::string>& parts,
+                        DiagnosisTools& tools, const std::string& stage) {
+  DiagnosisState other = apart;
+  const auto value_of = [&](const Refit& fit, const std::string& key) {
+    return std::find_if(fit.values.begin(), fit.values.end(),
+                        [&](const FittedValue& value) { return value.key == key; });
+  };
+  double sum = 0;
+  for (const std::string& key : parts) sum += value_of(apart.fit, key)->value;
+  const double mean = sum / static_cast<double>(parts.size());
+  for (Knob& part : other.found) {
+    if (std::find(parts.begin(), parts.end(), part.key) == parts.end()) continue;
+    // What was below the mean begins where the range of such strengths ends (three times what both are
+    // together, as in `concluded`), what was above it at half the mean.
+    const bool was_below = value_of(apart.fit, part.key)->value < mean;
+    part.centre = std::clamp(was_below ? 3 * mean : mean / 2, part.low, part.high);
+    part.width = std::min(part.width, std::max(part.centre / 2, part.width / 10));
+  }
+  other.fit = tools.fit(other, stage, other.knobs(), effort::attempt);
+  const double better = (apart.fit.scatter - other.fit.scatter) * apart.fit.degrees;
+  if (std::abs(better) > rules::emulator_noise) return better > 0 ? other.fit : apart.fit;
+  Refit both = better > 0 ? other.fit : apart.fit;
+  for (FittedValue& value : both.values)
+    for (const Refit* fit : {&std::as_const(apart).fit, &std::as_const(other).fit}) {
+      const auto there = value_of(*fit, value.key);
+      value.low = std::min(value.low, there->low), value.high = std::max(value.high, there->high);
+    }
+  return both;
+}
+
+}  // namespace
+
+DiagnosisState concluded(const DiagnosisState& state, DiagnosisTools& tools, const std::string& stage) {
+  DiagnosisState whole = state;
+  if (std::none_of(state.found.begin(), state.found.end(), is_joint)) {
+    whole.fit = tools.fit(state, stage, state.knobs(), effort::conclude);
+    return whole;
+  }
+  DiagnosisState apart = state;
+  apart.found = taken_apart(state.found);
+  std::vector<std::string> parts;
+  for (Knob& part : apart.found) {
+    // One may be far from what both were together: from nothing to three times that.
+    const bool was_joint = std::none_of(state.found.begin(), state.found.end(),
+                                        [&](const Knob& knob) { return knob.key == part.key; });
+    if (!was_joint) continue;
+    parts.push_back(part.key);
+    part.width = std::max(part.width, 1.5 * (part.centre - part.low));
+    part.centre = std::max(part.centre, part.low + part.width);
+  }
+  apart.fit = tools.fit(apart, stage, apart.knobs(), effort::apart);
+  try {
+    apart.fit = with_other_valley(apart, parts, tools, stage);
+  } catch (const BudgetSpent&) {  // the one that was found has to do
+  }
+  // too many to follow
+  if ((apart.fit.scatter - state.fit.scatter) * apart.fit.degrees > rules::emulator_noise) {
+    whole.fit = tools.fit(state, stage, state.knobs(), effort::conclude);
+    return whole;
+  }
+  return apart;
+}
+
+DiagnosisState pruned(const DiagnosisState& state, DiagnosisTools& tools,
+                      const std::vector<std::string>& from_balance) {
+  if (state.missing.size() < 2) return state;
+  for (std::size_t i = 0; i + 1 < state.missing.size(); ++i) {
+    const std::string effect = state.missing[i];
+    if (std::find(from_balance.begin(), from_balance.end(), effect) != from_balance.end()) continue;
+    constexpr double beyond_doubt = 2;  // standard errors: what a 95 % interval leaves out
+    if (is_told(state.fit, effect, beyond_doubt)) continue;
+    DiagnosisState less = state;
+    std::erase_if(less.setup.effects,
+                  [&](const EffectChoice& choice) { return choice.record->name == effect; });
+    std::erase_if(less.found, [&](const Knob& knob) { return effect_of(knob.key) == effect; });
+    less.missing.erase(less.missing.begin() + static_cast<std::ptrdiff_t>(i));
+    less.fit = tools.fit(less, "is " + effect + " still needed?", less.knobs(), effort::beside);
+    if (less.fit.p_value <= rules::holds &&
+        (less.fit.scatter - state.fit.scatter) * state.fit.degrees > rules::emulator_noise)
+      continue;
+    return pruned(less, tools, from_balance);
+  }
+  return state;
+}
+
+}  // namespace shakedown
