@@ -36,7 +36,7 @@ class HardEngine final : public Engine {
       const double time = static_cast<double>(k) / setup.run.sample_rate;
       // Small dampers have few events a sample, too few for the loop itself to look at the flag.
       const bool stopped = k > 0 && options.stop != nullptr && options.stop->load(std::memory_order_relaxed);
-      if (stopped || !system.advance_to(time, options.stop)) {
+      if (stopped || !advance(system, time, setup.run.duration, options)) {
         trajectory.interrupted = true;
         break;
       }
@@ -47,9 +47,9 @@ class HardEngine final : public Engine {
     trajectory.end_time = trajectory.time.empty() ? 0 : trajectory.time.back();
     // a rest shorter than the interval of samples
     if (!trajectory.interrupted && setup.run.duration > trajectory.end_time) {
-      system.advance_to(setup.run.duration);
+      trajectory.interrupted = !advance(system, setup.run.duration, setup.run.duration, options);
       promise.see(system.observe().total_energy);
-      trajectory.end_time = setup.run.duration;
+      if (!trajectory.interrupted) trajectory.end_time = setup.run.duration;
     }
     promise.check();
     trajectory.ledger = system.ledger();
@@ -75,6 +75,16 @@ class HardEngine final : public Engine {
     }
     void check() const { expect_kept(system.health(), system.time(), most_energy); }
   };
+
+  /// False when stopped. Where samples are far apart, progress is told between them.
+  static bool advance(HardSphereSystem& system, double until, double duration, const RunOptions& options) {
+    const double piece = duration / 100;
+    while (until - system.time() > 2 * piece) {
+      if (!system.advance_to(system.time() + piece, options.stop)) return false;
+      if (options.progress) options.progress(system.time());
+    }
+    return system.advance_to(until, options.stop);
+  }
 
   static void reserve(std::size_t samples, Trajectory& trajectory) {
     for (auto* series : {&trajectory.time, &trajectory.x_box, &trajectory.v_box, &trajectory.x_com,

@@ -65,8 +65,11 @@ inline std::int64_t steps_that_fill(double interval, double longest) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(interval / longest * (1 - 1e-12))));
 }
 
-inline bool stop_is_asked(const RunOptions& options) {
-  return options.stop != nullptr && options.stop->load(std::memory_order_relaxed);
+/// Asked every so many steps within a sample: tells the time, s, and returns whether the run goes on.
+inline bool goes_on(const RunOptions& options, std::int64_t step, std::int64_t every, double time) {
+  if (step % every != 0) return true;
+  if (step > 0 && options.progress) options.progress(time);
+  return options.stop == nullptr || !options.stop->load(std::memory_order_relaxed);
 }
 
 }  // namespace shakedown

@@ -90,7 +90,7 @@ class SoftRun {
     const double step = interval / static_cast<double>(steps), from = until - interval;
     for (std::int64_t k = 0; k < steps; ++k) {
       time_ = from + static_cast<double>(k) * step;
-      if ((k & 0xfff) == 0 && stop_is_asked(options_)) {
+      if (!goes_on(options_, k, 0x1000, time_)) {
         record_.trajectory.interrupted = true;
         return false;
       }

@@ -13,6 +13,14 @@ namespace {
 
 constexpr auto between_updates = std::chrono::milliseconds(100);
 constexpr int width = 30;
+constexpr auto first_line = std::chrono::seconds(10);
+
+std::string rest(double spent, double fraction) {
+  const double seconds = spent * (1 - fraction) / fraction;
+  if (seconds < 120) return fmt::format("{:.0f} s left", seconds);
+  return seconds < 7200 ? fmt::format("{:.0f} min left", seconds / 60)
+                        : fmt::format("{:.3g} h left", seconds / 3600);
+}
 
 /// A full disk behind standard error takes away what it would have said, not the result.
 void tell(const std::string& text) {
@@ -41,7 +49,19 @@ ProgressDisplay::~ProgressDisplay() {
 
 void ProgressDisplay::wait(std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
-  if (!ended_.wait_for(lock, patience, [this] { return over_; })) announce();
+  const auto over = [this] { return over_; };
+  if (ended_.wait_for(lock, patience, over)) return;
+  announce();
+  if (terminal_) return;
+  for (auto line = start_ + first_line; !ended_.wait_until(lock, line, over); line += line - start_)
+    tell_how_far();
+}
+
+void ProgressDisplay::tell_how_far() {
+  const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  tell(fmt::format("{:6.0f} s  {}: {}\n", spent, what_,
+                   fraction_ > 0 ? fmt::format("{:.3g} % done, {}", 100 * fraction_, rest(spent, fraction_))
+                                 : "still in its first steps"));
 }
 
 void ProgressDisplay::rename(const std::string& what) {
@@ -63,15 +83,15 @@ void ProgressDisplay::announce() {
 void ProgressDisplay::show(double fraction) {
   const std::lock_guard lock(mutex_);
   announce();
+  fraction = fraction_ = std::clamp(fraction, 0.0, 1.0);
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_ || now - last_ < between_updates) return;
   last_ = now;
-  fraction = std::clamp(fraction, 0.0, 1.0);
   const double spent = std::chrono::duration<double>(now - start_).count();
   const auto filled = static_cast<std::size_t>(width * fraction);
   std::string text = fmt::format("\r\033[K{} [{}{}] {:.0f} %", what_, std::string(filled, '='),
                                  std::string(width - filled, ' '), 100 * fraction);
-  if (fraction > 0.02) text += fmt::format(", {:.0f} s left", spent * (1 - fraction) / fraction);
+  if (fraction > 0.02) text += ", " + rest(spent, fraction);
   tell(text);
 }
 

@@ -9,8 +9,9 @@
 
 namespace shakedown {
 
-/// A bar on a terminal, one plain line otherwise; on standard error, whose failures change nothing. What is
-/// being done is said at the first sign of progress, or after `patience` where there is none. The bar is
+/// A bar on a terminal, plain lines otherwise; on standard error, whose failures change nothing. What is
+/// being done is said at the first sign of progress, or after `patience` where there is none. Without a
+/// terminal a line says after 10, 20, 40, ... s how much is done and how long the rest will take. The bar is
 /// wiped when the display goes out of scope. Any thread may call it.
 class ProgressDisplay {
  public:
@@ -28,6 +29,7 @@ class ProgressDisplay {
 
  private:
   void announce();  ///< once
+  void tell_how_far();
   void wait(std::chrono::milliseconds patience);
 
   std::mutex mutex_;
@@ -35,6 +37,7 @@ class ProgressDisplay {
   bool over_ = false;
   std::string what_;
   bool terminal_, announced_ = false;
+  double fraction_ = 0;
   std::chrono::steady_clock::time_point start_, last_;
   std::thread watch_;  // the last: it reads the others
 };

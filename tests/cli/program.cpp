@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <pty.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -42,12 +43,18 @@ int exit_code_of(pid_t child) {
 }  // namespace
 
 Outcome shakedown_program(const std::vector<std::string>& arguments) {
+  return shakedown_program(arguments, RLIM_INFINITY);
+}
+
+Outcome shakedown_program(const std::vector<std::string>& arguments, rlim_t most_seconds) {
   const Captured out, err;
   const pid_t child = ::fork();
   if (child == 0) {
     ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
     ::dup2(out.descriptor, STDOUT_FILENO);
     ::dup2(err.descriptor, STDERR_FILENO);
+    const rlimit limit{most_seconds, most_seconds};
+    ::setrlimit(RLIMIT_CPU, &limit);
     become(arguments);
   }
   const int code = exit_code_of(child);

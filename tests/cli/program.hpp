@@ -2,6 +2,7 @@
 // Runs the shakedown program as a user would.
 #pragma once
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <filesystem>
 #include <string>
@@ -16,6 +17,8 @@ struct Outcome {
 
 /// Runs `shakedown` with these arguments and no terminal.
 Outcome shakedown_program(const std::vector<std::string>& arguments);
+/// The same; what takes more than so many seconds of a core is killed (code -SIGXCPU).
+Outcome shakedown_program(const std::vector<std::string>& arguments, rlim_t most_seconds);
 
 /// False where the machine has no pseudo terminals (some containers).
 bool has_terminals();
