@@ -60,7 +60,9 @@ constexpr Rule astray{
 /// plain run). What decides that nothing is left for it is rules::for_the_search.
 namespace share {
 constexpr double model_as_given = 0.2, first_refit = 0.45;
-}
+/// Of what a round of the search may take: a signature alone names nothing, and its fit is to have its part.
+constexpr double ranking_of_a_round = 0.5;
+}  // namespace share
 
 /// Those with a name, in this order.
 std::span<const Rule> effort_rules();

@@ -46,6 +46,8 @@ std::vector<PairRival> pairs_beyond(const std::vector<Rival>& rivals, const std:
   for (const ScreenedPair& pair : pairs) {
     const auto first = rival_of(pair.first), second = rival_of(pair.second);
     if (first == rivals.end() || second == rivals.end()) continue;
+    const std::vector<std::string>& alike = first->screened.look_alikes;
+    if (std::find(alike.begin(), alike.end(), second->candidate->effect) != alike.end()) continue;
     PairRival one{*first, *second};
     one.first.screened.value = candidates[pair.first].value_of(pair.first_strength);
     one.second.screened.value = candidates[pair.second].value_of(pair.second_strength);
@@ -63,8 +65,8 @@ std::vector<PairRival> pairs_beyond(const std::vector<Rival>& rivals, const std:
 void fit_pair(PairRival& pair, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
               double lowest, Effort effort, double known) {
   fit_rival(pair.second, with_rival(before, pair.first, tools), tools, screen, lowest, effort);
+  if (!std::isfinite(pair.second.log_ratio)) return;  // no time to weigh it
   pair.fitted = true;
-  if (!std::isfinite(pair.second.log_ratio)) return;  // no time to weigh it: its signatures' odds stand
   pair.first.state = pair.second.state;
   pair.first.log_ratio = pair.first.nothing_gained;  // the ratio of both is told with the second
   pair.first.fitted = true;

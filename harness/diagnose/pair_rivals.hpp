@@ -12,14 +12,15 @@ struct PairRival {
   Rival first, second;      ///< of `second` the state and the log ratio are those of both
   double log_evidence = 0;  ///< of their signatures, as ScreenedPair's
   double log_odds = 0;      ///< beside nothing
-  bool fitted = false;
+  bool fitted = false;      ///< and weighed by that
 
   std::vector<std::string> effects() const { return {first.candidate->effect, second.candidate->effect}; }
   std::string words() const { return first.candidate->effect + " and " + second.candidate->effect; }
 };
 
 /// The pairs that their signatures make more probable than that of any single rival, most probable first.
-/// `known`: the number of known effects.
+/// Left out are pairs of look-alikes: beside the one the next round asks for the other. `known`: the number
+/// of known effects.
 std::vector<PairRival> pairs_beyond(const std::vector<Rival>& rivals, const std::vector<ScreenedPair>& pairs,
                                     const std::vector<Candidate>& candidates, double known);
 

@@ -68,6 +68,10 @@ double chi2_left(const Refit& fit, const std::vector<Eigen::MatrixXd>& covarianc
   return sum;
 }
 
+/// The odds of a difference of ln odds that is known to within `error`, averaged over what it may be, are
+/// those of a difference that is so much smaller (D. J. C. MacKay, Neural Computation 4, 720 (1992)).
+double averaged_over(double error) { return 1 / std::sqrt(1 + std::numbers::pi / 8 * error * error); }
+
 }  // namespace
 
 bool is_arithmetic(const Rival& rival) { return rival.candidate->fitted_knobs().front().exact; }
@@ -144,15 +148,30 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
   if (best == nullptr) return;
   const std::vector<Eigen::MatrixXd>& covariances = best->state.fit.covariances;
   const auto prior = [&](const Rival& rival) { return prior_log_odds(rival.screened.seen.odds, candidates); };
-  // The difference of two fits has an error of its own. Averaged over it the odds are those of a difference
-  // that is so much smaller (D. J. C. MacKay, Neural Computation 4, 720 (1992)).
-  const double error = rules::emulator_noise / 2,
-               smaller = 1 / std::sqrt(1 + std::numbers::pi / 8 * error * error);
-  const double of_best = chi2_left(best->state.fit, covariances), from = best->log_odds - prior(*best);
-  for (Rival& rival : rivals)
-    if (&rival != best && counts(rival))
+  const double of_fits = averaged_over(rules::emulator_noise / 2),
+               of_best = chi2_left(best->state.fit, covariances), from = best->log_odds - prior(*best),
+               signature = best->screened.log_evidence;
+  for (Rival& rival : rivals) {
+    if (&rival == best) continue;
+    if (counts(rival))
       rival.log_odds =
-          from + prior(rival) + smaller * (of_best - chi2_left(rival.state.fit, covariances)) / 2;
+          from + prior(rival) + of_fits * (of_best - chi2_left(rival.state.fit, covariances)) / 2;
+    else if (!rival.fitted && rival.screened.weighed && best->screened.weighed)
+      rival.log_odds =
+          from + prior(rival) +
+          averaged_over(signatures_err_by(signature)) * (rival.screened.log_evidence - signature);
+  }
+}
+
+Rival* first_to_fit(const std::vector<Rival*>& by_odds) {
+  if (by_odds.empty() || is_arithmetic(*by_odds.front())) return by_odds.empty() ? nullptr : by_odds.front();
+  const double best = by_odds.front()->log_odds, as_good = best - signatures_err_by(best);
+  Rival* first = by_odds.front();
+  for (Rival* rival : by_odds)
+    if (!is_arithmetic(*rival) && rival->log_odds >= as_good &&
+        rival->screened.seen.odds > first->screened.seen.odds)
+      first = rival;
+  return first;
 }
 
 double probability_among(const std::vector<Rival>& rivals, const Rival& one) {

@@ -55,8 +55,12 @@ void weigh_rival(Rival& rival, double candidates);
 
 /// Where the data reject the model without them all, the likelihood of each over it is told in the metric of
 /// a model that is wrong: 2 % of thousands. Fitted rivals which the data accept are weighed beside the best
-/// of them by what each leaves, in the metric of that one.
+/// of them by what each leaves, in the metric of that one; what was not fitted, by the signatures of both.
 void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates);
+
+/// Of these, most probable first, the one to fit next: signatures that differ by less than they err by say
+/// nothing, and the effect that was most probable beforehand has its turn. Null: of none.
+Rival* first_to_fit(const std::vector<Rival*>& by_odds);
 
 /// Of this effect in any of its forms, among these, each alone, and nothing.
 double probability_among(const std::vector<Rival>& rivals, const Rival& one);

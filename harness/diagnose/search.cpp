@@ -120,7 +120,10 @@ class Round {
     if (astray_)
       nothing_gained_ = std::max(
           0.0, screen_->log_likelihood_ratio(tools_.features(state_.setup), state_.knobs(), ranking.nothing));
+    const double whole = tools_.limit(), spent = std::min(whole, tools_.share_spent());
+    tools_.limit_to(spent + share::ranking_of_a_round * (whole - spent));
     const Screening screening = screen_->weigh(candidates_);
+    tools_.limit_to(whole);
     for (const ScreenedEffect& screened : screening.list)
       rivals_.push_back({.candidate = &candidates_[screened.candidate],
                          .screened = screened,
@@ -181,13 +184,14 @@ class Round {
     const double best = std::min(promised, order_.front()->log_odds);
     const double worth_a_fit = all_bad ? -std::numeric_limits<double>::infinity()
                                        : std::max(worth_asking, best - signatures_err_by(best));
+    std::vector<Rival*> open;
     for (Rival* rival : order_) {
       // Of what is arithmetic only the fit that is to be added is needed.
       const double least =
           is_arithmetic(*rival) ? std::max(0.0, order_.front()->log_odds - as_much) : worth_a_fit;
-      if (!rival->attempted && rival->weighed && rival->log_odds > least) return rival;
+      if (!rival->attempted && rival->weighed && rival->log_odds > least) open.push_back(rival);
     }
-    return nullptr;
+    return first_to_fit(open);
   }
 
   void attempt(Rival& rival) {
@@ -250,8 +254,8 @@ class Round {
     weigh(round_.table);
   }
 
-  /// Null: no pair was fitted, or the data accept a single effect and no pair, so that odds told in the
-  /// metric of a model that is wrong say nothing against it.
+  /// Null: no pair was fitted and weighed, or the data accept a single effect and no pair, so that odds told
+  /// in the metric of a model that is wrong say nothing against it.
   const PairRival* best_pair() const {
     const PairRival* best = nullptr;
     for (const PairRival& pair : pairs_)

@@ -129,6 +129,7 @@ double DiagnosisTools::share_of_time() const {
 }
 
 void DiagnosisTools::limit_to(double share) {
+  limit_ = share;
   workshop_.ask_for = [this, share](std::int64_t more) {
     if (more > 0 && static_cast<double>(runs_ + more) > share * static_cast<double>(budget_))
       throw BudgetSpent("as many simulations were made as may be");
@@ -136,7 +137,10 @@ void DiagnosisTools::limit_to(double share) {
   };
 }
 
-void DiagnosisTools::without_limit() { workshop_.ask_for = nullptr; }
+void DiagnosisTools::without_limit() {
+  limit_ = 1;
+  workshop_.ask_for = nullptr;
+}
 
 std::vector<MeasuredFeatures> DiagnosisTools::features(const Setup& setup) const {
   std::vector<MeasuredFeatures> list =

@@ -50,6 +50,8 @@ class DiagnosisTools {
   /// From now on BudgetSpent is thrown where this share of the simulations or of the time would be passed.
   void limit_to(double share);
   void without_limit();
+  /// The share that was set last; 1 where there is no limit.
+  double limit() const { return limit_; }
   bool time_is_up() const { return share_of_time() > 1; }
   int next_batch() { return 100000 * ++batch_; }
   void begin(const std::string& stage) {
@@ -82,6 +84,7 @@ class DiagnosisTools {
   std::clock_t clock_at_start_;
   SimulationPool pool_;
   Workshop workshop_;
+  double limit_ = 1;
   std::string stage_;
   int batch_ = 0;
   std::vector<DamperError> damper_errors_;

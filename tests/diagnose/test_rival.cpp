@@ -17,6 +17,7 @@ constexpr double known = 30;  // effects
 Candidate named(const std::string& effect) {
   Candidate candidate;
   candidate.effect = effect;
+  candidate.knobs.resize(1);
   return candidate;
 }
 
@@ -59,6 +60,31 @@ TEST(Rival, OfTwoThatLeaveTheSameTheOneMoreProbableBeforehandLeads) {
   weigh_beside_the_best(rivals, known);
   EXPECT_NEAR(rivals[1].log_odds - rivals[0].log_odds, prior_log_odds(1, known) - prior_log_odds(0.1, known),
               1e-12);
+}
+
+// A film of dry friction: its law with yielding has 50 more by signatures that err by 250, and no time is
+// left.
+TEST(Rival, WhatWasNotFittedIsWeighedBySignaturesThatErr) {
+  const Candidate first = named("dry"), second = named("yielding");
+  std::vector<Rival> rivals{fitted(first, 1, 2600, {1, 1}), {&second, {}}};
+  rivals[0].screened.weighed = rivals[1].screened.weighed = true;
+  rivals[0].screened.log_evidence = 2557, rivals[1].screened.log_evidence = 2608;
+  rivals[1].screened.seen.odds = 0.1;
+  weigh_rival(rivals[1], known);
+  EXPECT_GT(rivals[1].log_odds, rivals[0].log_odds);
+  weigh_beside_the_best(rivals, known);
+  const double less_likely = prior_log_odds(0.1, known) - prior_log_odds(1, known);
+  EXPECT_GT(rivals[1].log_odds - rivals[0].log_odds, less_likely);
+  EXPECT_LT(rivals[1].log_odds - rivals[0].log_odds, less_likely + 1);
+}
+
+TEST(Rival, OfSignaturesAsGoodWhatWasMoreProbableBeforehandIsFittedFirst) {
+  const Candidate first = named("dry"), second = named("yielding"), third = named("other");
+  std::vector<Rival> rivals{fitted(second, 0.1, 2608, {1, 1}), fitted(first, 1, 2557, {1, 1}),
+                            fitted(third, 2, 2000, {1, 1})};
+  EXPECT_EQ(first_to_fit({&rivals[0], &rivals[1], &rivals[2]}), &rivals[1]);
+  EXPECT_EQ(first_to_fit({&rivals[0], &rivals[2]}), &rivals[0]);
+  EXPECT_EQ(first_to_fit({}), nullptr);
 }
 
 TEST(Rival, WhatTheDataRejectKeepsItsOdds) {
@@ -105,6 +131,12 @@ TEST(PairRival, IsAskedForWhereItsSignaturesSayMoreThanAnySingleOne) {
   EXPECT_EQ(pairs[0].second.screened.value, 2);
   EXPECT_NEAR(pairs[0].log_odds, 200 + 2 * prior_log_odds(1, known), 1e-12);
   EXPECT_TRUE(is_far_beyond(pairs[0], screened.rivals));  // by 100, where signatures err by 10
+}
+
+TEST(PairRival, IsNoneOfTwoLawsOfOneFriction) {
+  Screened screened({100, 40});
+  screened.rivals[0].screened.look_alikes = {"b"};
+  EXPECT_TRUE(pairs_beyond(screened.rivals, {{0, 1, 0.5, 2, 200}}, screened.candidates, known).empty());
 }
 
 TEST(PairRival, ThatIsBetterByWhatSignaturesErrWaitsForASingleOne) {
