@@ -8,6 +8,7 @@
 #include "diagnose_report.hpp"
 #include "effects.hpp"
 #include "engine_differences.hpp"
+#include "engines.hpp"
 #include "knobs_report.hpp"
 #include "measured_against_model.hpp"
 #include "parameter_knobs.hpp"
@@ -35,6 +36,7 @@ DiagnoseOptions usual_diagnose_options() {
   DiagnoseOptions options;
   options.known = all_effects();
   options.strength_uncertainty = &strength_uncertainty;
+  options.lasting_contacts = engine_named("soft");
   return options;
 }
 
@@ -83,7 +85,8 @@ ReportKnobs knobs_of(const Diagnosis& diagnosis, const Setup& user, const Engine
 }  // namespace
 
 Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, const Setup& given,
-                 const Engine& engine, const PageOptions& page) {
+                 const PageOptions& page) {
+  const std::unique_ptr<Engine> engine = engine_named(diagnosis.engine);
   CurveOptions drawn;
   drawn.threads = page.threads;
   drawn.known = all_effects();
@@ -96,8 +99,8 @@ Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, con
   }
   const Measurement& shown = fit != nullptr ? fit->measurement : measurement;
   return report_of(diagnosis, measurement, given,
-                   measured_against_model(shown, &given, diagnosis.amended, engine, drawn),
-                   knobs_of(diagnosis, given, engine, page));
+                   measured_against_model(shown, &given, diagnosis.amended, *engine, drawn),
+                   knobs_of(diagnosis, given, *engine, page));
 }
 
 }  // namespace shakedown

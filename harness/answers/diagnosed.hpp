@@ -28,6 +28,6 @@ struct PageOptions {
 /// The page; its curves and what its knobs do are simulated here. `given`: the setup as the user had it.
 /// Throws Interrupted.
 Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, const Setup& given,
-                 const Engine& engine, const PageOptions& page);
+                 const PageOptions& page);
 
 }  // namespace shakedown

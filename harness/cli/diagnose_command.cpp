@@ -90,7 +90,7 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   }
   if (arguments.report.wanted(arguments.out))
     fmt::print(arguments.json.for_people(), "{}",
-               arguments.report.write(report_of(diagnosis, measurement, setup, *engine,
+               arguments.report.write(report_of(diagnosis, measurement, setup,
                                                 {arguments.threads, arguments.seconds, catch_interruption()}),
                                       arguments.out));
   arguments.json.write(document);

@@ -135,6 +135,7 @@ void Course::judge() {
 DiagnosisState Course::with_packing() {
   DiagnosisState state;
   state.setup = quick(user_);
+  state.dear = tools_.workshop().engine == tools_.options().lasting_contacts.get();
   const auto [packing, apart, fits] = packing_before_release(user_, tools_.measurement(), tools_.known());
   if (!fits)
     result_.notes.push_back(

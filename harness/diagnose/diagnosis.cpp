@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "course.hpp"
+#include "engine_choice.hpp"
 #include "experiment_file.hpp"
 #include "known_setup.hpp"
 #include "release_known.hpp"
@@ -51,7 +52,18 @@ Diagnosis diagnose(const Setup& setup, const Measurement& measurement, const Eng
   constexpr double periods = 1.5;  // the first swing and its way back
   const Measurement started =
       is_empty(user, released) ? released : from_first_turns(released, engine, periods);
-  Diagnosis result = Course(user, released, started, engine, options).run();
+  const bool empty = is_empty(user, released);
+  const EngineChoice choice = empty ? EngineChoice{} : chosen_engine(user, started, engine, options);
+  const Engine& chosen = choice.lasting_contacts ? *options.lasting_contacts : engine;
+  DiagnoseOptions rest = options;
+  if (options.seconds > 0 && choice.runs > 0) {
+    const double taken = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    rest.seconds = std::max(options.seconds / 2, options.seconds - taken);
+  }
+  Diagnosis result = Course(user, released, started, chosen, rest).run();
+  result.engine = chosen.name();
+  result.runs_simulated += choice.runs;
+  if (!choice.note.empty()) result.notes.push_back(choice.note);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

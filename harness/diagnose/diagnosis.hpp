@@ -59,6 +59,7 @@ struct RunnerUp {
 struct LastFit;
 
 struct Diagnosis {
+  std::string engine;  ///< that simulated
   Verdict verdict = Verdict::adequate;
   std::string sentence;
   std::vector<std::string> missing;    ///< effect ids in the order added
@@ -100,6 +101,9 @@ struct DiagnoseOptions {
   /// Relative uncertainty of an effect's strength because data may be of the other engine's kind
   /// (effects/engine_differences.hpp); null: none.
   double (*strength_uncertainty)(std::string_view effect) = nullptr;
+  /// An engine whose contacts last, asked where hard spheres may differ from it (engine_choice.hpp); null:
+  /// none.
+  std::shared_ptr<const Engine> lasting_contacts{};
   EnsembleCache* ensembles = nullptr;    ///< shared by diagnoses of one setup; may be null
   SimulationJournal* journal = nullptr;  ///< of this diagnosis, begun before or not; may be null
 };

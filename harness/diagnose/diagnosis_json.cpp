@@ -113,6 +113,7 @@ std::string diagnosis_json(const Diagnosis& d) {
                      {"p_value", number(c.p_value)}});
   const LadderStep last = d.ladder.empty() ? LadderStep{} : d.ladder.back();
   Json all{{"schema_version", 2},
+           {"engine", d.engine},
            {"verdict", std::string(name_of(d.verdict))},
            {"sentence", d.sentence},
            {"missing", d.missing},

@@ -85,7 +85,7 @@ Answer diagnosed(const Setup& setup, const Experiment& experiment, const Diagnos
   const std::shared_ptr<const Diagnosis> found = released(listener, work);
   const int threads = how.threads;
   const auto report = [=](const std::atomic<bool>* stop) {
-    return report_of(*found, asked->measurement, asked->setup, *engine, {threads, 0, stop});
+    return report_of(*found, asked->measurement, asked->setup, {threads, 0, stop});
   };
   return {diagnosis_json(*found),
           diagnosis_text(*found),
