@@ -62,6 +62,7 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   try {
     ProgressDisplay display(fmt::format("{}: diagnosing, at most {} simulations and {:g} s", arguments.data,
                                         budget, arguments.seconds));
+    display.count_limits();
     DiagnoseOptions options = usual_diagnose_options();
     options.effects = names_in(arguments.effects);
     options.budget = budget;

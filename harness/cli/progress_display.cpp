@@ -60,8 +60,9 @@ void ProgressDisplay::wait(std::chrono::milliseconds patience) {
 void ProgressDisplay::tell_how_far() {
   const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   tell(fmt::format("{:6.0f} s  {}: {}\n", spent, what_,
-                   fraction_ > 0 ? fmt::format("{:.3g} % done, {}", 100 * fraction_, rest(spent, fraction_))
-                                 : "still in its first steps"));
+                   of_limits_      ? fmt::format("{:.3g} % of the limits used", 100 * fraction_)
+                   : fraction_ > 0 ? fmt::format("{:.3g} % done, {}", 100 * fraction_, rest(spent, fraction_))
+                                   : "still in its first steps"));
 }
 
 void ProgressDisplay::rename(const std::string& what) {
@@ -91,7 +92,10 @@ void ProgressDisplay::show(double fraction) {
   const auto filled = static_cast<std::size_t>(width * fraction);
   std::string text = fmt::format("\r\033[K{} [{}{}] {:.0f} %", what_, std::string(filled, '='),
                                  std::string(width - filled, ' '), 100 * fraction);
-  if (fraction > 0.02) text += ", " + rest(spent, fraction);
+  if (of_limits_)
+    text += " of the limits";
+  else if (fraction > 0.02)
+    text += ", " + rest(spent, fraction);
   tell(text);
 }
 

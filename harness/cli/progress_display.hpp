@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -23,6 +24,8 @@ class ProgressDisplay {
 
   /// fraction: 0 to 1.
   void show(double fraction);
+  /// What is shown is the share of the limits that is used: how long the rest takes is not known.
+  void count_limits() { of_limits_ = true; }
   /// Changes what the bar says is being done; without a terminal the new stage gets a line with the time so
   /// far.
   void rename(const std::string& what);
@@ -37,6 +40,7 @@ class ProgressDisplay {
   bool over_ = false;
   std::string what_;
   bool terminal_, announced_ = false;
+  std::atomic<bool> of_limits_ = false;
   double fraction_ = 0;
   std::chrono::steady_clock::time_point start_, last_;
   std::thread watch_;  // the last: it reads the others

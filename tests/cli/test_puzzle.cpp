@@ -41,10 +41,7 @@ TEST_F(SlowPuzzle, DropTestsBringTheFrictionToLight) {
     std::filesystem::copy_file(puzzle + name, in_folder(name));
   const std::string experiment = file("with_drops.toml", contents(puzzle + "experiment.toml") + known);
   const Outcome outcome =
-      shakedown_program({"diagnose", in_folder("setup.toml"), "--data", experiment, "--effects",
-                         "grain_friction,grain_air_drag,grain_cohesion,"
-                         "blade_viscous_damping,clamp_dry_friction",
-                         "--json"});
+      shakedown_program({"diagnose", in_folder("setup.toml"), "--data", experiment, "--json"});
   ASSERT_EQ(outcome.code, 1) << outcome.err;
   const nlohmann::json answer = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(answer["verdict"], "missing");
