@@ -81,12 +81,16 @@ std::string ties_in_words(const Diagnosis& d) {
     if (std::find(d.missing.begin(), d.missing.end(), tie) == d.missing.end() && !hardly(tie))
       ties.push_back(tie);
   if (ties.empty()) return "";
+  // The most probable; the table has them all.
+  constexpr std::size_t most_named = 4;
   std::string words = " These measurements do not rule out ";
-  for (std::size_t i = 0; i < ties.size(); ++i)
-    words += (i == 0                ? ""
-              : i + 1 < ties.size() ? ", "
-                                    : " or ") +
+  const std::size_t named = ties.size() > most_named + 1 ? most_named : ties.size();
+  for (std::size_t i = 0; i < named; ++i)
+    words += (i == 0                                 ? ""
+              : i + 1 < named || named < ties.size() ? ", "
+                                                     : " or ") +
              (ties[i] == unlisted_effect ? "something in no list" : ties[i]);
+  if (named < ties.size()) words += fmt::format(" or {} less probable ones", ties.size() - named);
   if (d.missing.empty()) return words + ".";
   const TieKind kind = kind_of(ties, d.missing, d.answers);
   const std::string_view it = d.missing.size() > 1 ? "them" : "it";

@@ -41,6 +41,16 @@ TEST(Sentence, InsteadOnlyWhereAHypothesisSaysSo) {
   EXPECT_TRUE(says(d, "beside or instead of it."));
 }
 
+TEST(Sentence, OfManyThatAreNotRuledOutTheMostProbableAreNamed) {
+  Diagnosis d = found({"blade_quadratic_drag"});
+  d.answers = {{{"blade_quadratic_drag"}, 0, 0.3}};
+  for (const char* other : {"a", "b", "c", "d", "e"}) d.answers.push_back({{other}, 0, 0.1});
+  EXPECT_TRUE(says(d, "do not rule out a, b, c, d or e instead of it.")) << sentence_of(d, all_effects());
+  d.answers.push_back({{"f"}, 0, 0.1});
+  EXPECT_TRUE(says(d, "do not rule out a, b, c, d or 2 less probable ones instead of it."))
+      << sentence_of(d, all_effects());
+}
+
 TEST(Sentence, AModelThatDoesNotHoldIsToldAsThat) {
   Diagnosis d = found({"blade_quadratic_drag"});
   EXPECT_FALSE(says(d, "does not hold"));
