@@ -87,7 +87,7 @@ class Runs(unittest.TestCase):
         beside = threading.Thread(target=tick)
         beside.start()
         try:
-            shakedown.ensemble(shakedown.Setup(L040), 8, progress=lambda stage, fraction: told.append((stage, fraction)))
+            shakedown.ensemble(shakedown.Setup(L040), 64, progress=lambda stage, fraction: told.append((stage, fraction)))
         finally:
             stop.set()
             beside.join()

@@ -127,7 +127,9 @@ class Comparison(Answer):
 
     @property
     def p_value(self) -> float:
-        return float(self.to_dict()["p_value"])
+        """Of the whole measurement; nan for an empty box, which is judged by its waveform (see reason)."""
+        found = self.to_dict()["p_value"]
+        return float("nan") if found is None else float(found)
 
     @property
     def reason(self) -> str:
