@@ -12,6 +12,7 @@
 #include "diagnosis.hpp"
 #include "drawn_curves.hpp"
 #include "effects.hpp"
+#include "judged_as_given.hpp"
 #include "knobs_report.hpp"
 #include "missing_numbers.hpp"
 #include "parameter_knobs.hpp"
@@ -207,12 +208,10 @@ Compared compared_with(const Setup& setup, const Measurement& recorded, const En
   compared.notes = all_notes(recorded);
   const Measurement& measurement = compared.measurement;
   compared.momentum = audit_momentum(recorded, all_effects());
-  std::vector<Knob> knobs = as_given(setup, measurement.known, all_effects());
-  if (is_empty(setup, recorded) && compare_by_waveform(setup, recorded, engine, knobs, compared))
+  if (is_empty(setup, recorded) &&
+      compare_by_waveform(setup, recorded, engine, as_given(setup, measurement.known, all_effects()),
+                          compared))
     return compared;
-  RefitOptions refitting;
-  refitting.count = options.runs;
-  refitting.rounds = refitting.most_rounds = 1;
   std::int64_t done = 0;
   const double all = static_cast<double>(options.runs) * static_cast<double>(measurement.runs.size());
   const auto told = [&](int n) {
@@ -220,11 +219,10 @@ Compared compared_with(const Setup& setup, const Measurement& recorded, const En
     if (options.progress) options.progress(std::min(1.0, static_cast<double>(done) / all));
   };
   const Workshop workshop{&engine, all_effects(), options.threads, options.stop, told, nullptr};
-  for (Knob& knob : camera_knobs(setup, measurement, all_effects())) knobs.push_back(std::move(knob));
   compared.last = {measurement, EnsembleFit{setup, {}, {}, {}}, {}};
   EnsembleFit& ensembles = *compared.last.ensembles;
   ensembles.measured = features_with_camera(measurement, all_effects());
-  compared.fit = refit(ensembles.measured, knobs, workshop, refitting);
+  compared.fit = judged_as_given(setup, measurement, ensembles.measured, workshop, options.runs);
   ensembles.fit = ensembles.as_given = compared.fit;
   compared.decays = compare_decay(measurement, workshop, std::min(32, options.runs), 1);
   compared.judgement = judgement_of(

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "course.hpp"
+#include "effort.hpp"
 #include "engine_choice.hpp"
 #include "experiment_file.hpp"
 #include "known_setup.hpp"
@@ -50,16 +51,16 @@ Diagnosis diagnose(const Setup& setup, const Measurement& measurement, const Eng
   const Setup user = with_known(setup, measurement.known, options.known);
   const Measurement released = with_measured_release(with_fixed(measurement, user, options), options.known);
   constexpr double periods = 1.5;  // the first swing and its way back
-  const Measurement started =
-      is_empty(user, released) ? released : from_first_turns(released, engine, periods);
   const bool empty = is_empty(user, released);
+  const Measurement started = empty ? released : from_first_turns(released, engine, periods);
   const EngineChoice choice = empty ? EngineChoice{} : chosen_engine(user, started, engine, options);
   const Engine& chosen = choice.lasting_contacts ? *options.lasting_contacts : engine;
   DiagnoseOptions rest = options;
   if (options.seconds > 0 && choice.runs > 0) {
     const double taken = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    rest.seconds = std::max(options.seconds / 2, options.seconds - taken);
+    rest.seconds = std::max(share::first_refit * options.seconds, options.seconds - taken);
   }
+  if (options.budget > 0) rest.budget -= choice.runs;
   Diagnosis result = Course(user, released, started, chosen, rest).run();
   result.engine = chosen.name();
   result.runs_simulated += choice.runs;

@@ -164,9 +164,10 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
 }
 
 Rival* first_to_fit(const std::vector<Rival*>& by_odds) {
-  if (by_odds.empty() || is_arithmetic(*by_odds.front())) return by_odds.empty() ? nullptr : by_odds.front();
-  const double best = by_odds.front()->log_odds, as_good = best - signatures_err_by(best);
+  if (by_odds.empty()) return nullptr;
   Rival* first = by_odds.front();
+  if (is_arithmetic(*first)) return first;
+  const double as_good = first->log_odds - signatures_err_by(first->log_odds);
   for (Rival* rival : by_odds)
     if (!is_arithmetic(*rival) && rival->log_odds >= as_good &&
         rival->screened.seen.odds > first->screened.seen.odds)

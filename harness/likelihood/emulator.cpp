@@ -240,7 +240,7 @@ Simulated simulate(const Group& group, std::uint64_t stream, const std::vector<M
   setup.run.seed += 104729 * stream;
   std::string name;
   if (workshop.journal) {
-    name = digest(setup) + ' ' + std::to_string(run);
+    name = std::string(workshop.engine->name()) + ' ' + digest(setup) + ' ' + std::to_string(run);
     for (const std::size_t m : group.members) name += ' ' + measured[m].run;
     if (auto kept = workshop.journal->find(name)) {
       simulated.features = std::move(*kept);

@@ -14,9 +14,6 @@
 #include "experiment_file.hpp"
 #include "hidden_measurements.hpp"
 #include "next_experiment.hpp"
-#include "packing_choice.hpp"
-#include "parameter_knobs.hpp"
-#include "random.hpp"
 
 using namespace shakedown;
 

@@ -26,8 +26,7 @@ Measurement filmed(const std::string& laboratory) {
   return as_measured(make_measurements(one_layer(), runs_of_lengths({0.041, 0.065}), {}, with), one_layer());
 }
 
-EngineChoice chosen(const Measurement& measurement, const Setup& setup) {
-  DiagnoseOptions options;
+EngineChoice chosen(const Measurement& measurement, const Setup& setup, DiagnoseOptions options = {}) {
   options.known = all_effects();
   options.lasting_contacts = engine_named("soft");
   return chosen_engine(setup, measurement, *engine_named("hard"), options);
@@ -55,4 +54,16 @@ TEST(EngineChoice, OneLayerOfHardSpheresStaysOne) {
 TEST(EngineChoice, SeveralLayersAreNotInQuestion) {
   const EngineChoice two = chosen(as_measured(measured({}), believed()), believed());
   EXPECT_EQ(two.runs, 0);
+}
+
+TEST(EngineChoice, TheQuestionCountsInTheLimits) {
+  const Measurement measurement = filmed("soft");
+  DiagnoseOptions options;
+  options.seconds = 1e-6;
+  const EngineChoice no_time = chosen(measurement, one_layer(), options);
+  EXPECT_FALSE(no_time.lasting_contacts);
+  EXPECT_NE(no_time.note.find("no time"), std::string::npos) << no_time.note;
+  options.seconds = 0;
+  options.budget = least_budget(measurement);
+  EXPECT_EQ(chosen(measurement, one_layer(), options).runs, 0);
 }
