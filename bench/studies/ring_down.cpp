@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "effect_strength.hpp"
 #include "errors.hpp"
 #include "json_file.hpp"
 #include "known_effects.hpp"
@@ -21,27 +22,47 @@ namespace {
 
 constexpr double least_signal = 4;  // what is weaker nobody can be asked for
 
+/// What a law's strength is measured by.
+struct Scale {
+  double mass, angular_frequency, release;  ///< kg, 1/s, m
+};
+
 /// A law of a ring-down, with its strength on a scale of the oscillation.
 struct Law {
   std::string_view key;
   double low, high;  ///< of the strength, drawn log-uniform
   bool either_sign;
-  double (*per_unit)(double mass, double angular_frequency, double release);
+  double (*per_unit)(const Scale&);
+  double most = 1e300;  ///< of the value
 };
 
 constexpr std::array<Law, 4> laws{{
     // damping ratio c / (2 M omega)
     {"blade_viscous_damping.damping", 1e-3, 0.05, false,
-     [](double mass, double omega, double) { return 2 * mass * omega; }},
+     [](const Scale& s) { return 2 * s.mass * s.angular_frequency; }},
     // friction over the spring's force at release
     {"clamp_dry_friction.force", 1e-3, 0.03, false,
-     [](double mass, double omega, double release) { return mass * omega * omega * release; }},
+     [](const Scale& s) { return s.mass * s.angular_frequency * s.angular_frequency * s.release; }},
     // force over M a^2 / release: the share of the amplitude lost in a period is 16/3 of it
-    {"blade_quadratic_drag.drag", 2e-3, 0.1, false,
-     [](double mass, double, double release) { return mass / release; }},
+    {"blade_quadratic_drag.drag", 2e-3, 0.1, false, [](const Scale& s) { return s.mass / s.release; }},
     // change of the stiffness force at release
-    {"spring_cubic.coefficient", 3e-3, 0.2, true, [](double, double, double) { return 1.0; }},
+    {"spring_cubic.coefficient", 3e-3, 0.2, true, [](const Scale&) { return 1.0; }},
 }};
+
+/// What rigs have beside the four laws.
+constexpr std::array<Law, 4> of_rigs{{
+    // acceleration over that of the release
+    {"second_mode.amplitude", 3e-3, 0.1, false,
+     [](const Scale& s) { return s.angular_frequency * s.angular_frequency * s.release; }},
+    // change of the stiffness force at release (its reference is 0.1 m)
+    {"spring_quadratic.coefficient", 3e-3, 0.1, true, [](const Scale& s) { return 0.1 / s.release; }, 0.45},
+    // error of the release's place (its reach is 0.2 m)
+    {"camera_tilt.tilt", 2e-3, 0.05, true, [](const Scale& s) { return 0.2 / s.release; }, 0.27},
+    // length over release: the inverse of the angle
+    {"pendulum.length", 0.7, 8, false, [](const Scale& s) { return s.release; }},
+}};
+constexpr std::size_t a_pendulum = 3;
+constexpr unsigned a_cubic_spring = 1u << 3;
 
 /// Which laws a case hides, in turn: nothing twice, each alone twice, all pairs, all triples.
 constexpr std::array<unsigned, 20> laws_in_turn{0, 1, 2, 4, 8, 3,  5, 6,  9,  10,
@@ -82,40 +103,80 @@ RingDownNoise draw_noise(Random& random, double release, RecordingSettings& reco
       recording.jitter = log_between(random, 0.01, 0.2) / recording.frame_rate;
       recording.stamped = random.uniform() < 0.5;
       break;
+    case RingDownNoise::edges: break;  // drawn by themselves
   }
   recording.origin = release * between(random, -0.1, 0.1);
   recording.declared = random.uniform() < 0.5;
   return noise;
 }
 
+/// A second swing's other numbers: not so near the box's own that they beat, nor near a multiple of it.
+void draw_second_swing(Random& random, std::span<const EffectRecord* const> known, Setup& truth) {
+  constexpr double least_apart = 0.15;
+  double ratio = 1;
+  while (std::abs(ratio - std::max(1.0, std::round(ratio))) < least_apart)
+    ratio = log_between(random, 0.3, 4.5);
+  const double frequency = truth.spring.frequency;
+  set_number(truth, "second_mode.frequency", ratio * frequency, known);
+  set_number(truth, "second_mode.rate", log_between(random, 0.003, 0.3) * frequency, known);
+  set_number(truth, "second_mode.phase", between(random, -3, 3), known);
+}
+
+void hide(const Law& law, Random& random, std::span<const EffectRecord* const> known, RingDown& drawn,
+          std::vector<std::string>& keys) {
+  Setup& truth = drawn.trial.hidden.truth;
+  const Scale scale{truth.box.mass, 2 * std::numbers::pi * truth.spring.frequency,
+                    truth.release.displacement};
+  double strength = log_between(random, law.low, law.high);
+  if (law.either_sign && random.uniform() < 0.5) strength = -strength;
+  keys.emplace_back(law.key);
+  set_number(truth, keys.back(), std::clamp(strength * law.per_unit(scale), -law.most, law.most), known);
+  drawn.hidden.emplace_back(effect_of(keys.back()));
+  if (drawn.hidden.back() == "second_mode") draw_second_swing(random, known, truth);
+}
+
+/// Edges of an encoder in place of a camera's frames, not more than a table should have.
+void draw_edges(Random& random, const Setup& truth, RecordingSettings& recording) {
+  constexpr double most_rows = 20000;
+  const double release = truth.release.displacement,
+               periods = truth.spring.frequency * (truth.run.duration - recording.start);
+  do recording.edge = release * log_between(random, 1e-3, 3e-2);
+  while (4 * release / recording.edge * periods > most_rows);
+  recording.rounding = recording.edge;
+  recording.box_noise = recording.jitter = recording.wander = 0;
+  // What signals are reckoned with: as many rows of an even clock, rounded by as much.
+  recording.frame_rate = 4 * release / recording.edge * truth.spring.frequency;
+}
+
 /// One attempt; its signals may be too small.
 RingDown drawn_once(Random& random, unsigned which, const Engine& engine,
                     std::span<const EffectRecord* const> known) {
   RingDown drawn;
-  Setup truth;
+  Setup& truth = drawn.trial.hidden.truth;
   truth.grains.count = 0;
   truth.box.mass = log_between(random, 0.05, 2);
   truth.spring.frequency = log_between(random, 0.4, 4);
   truth.release.displacement = log_between(random, 0.01, 0.2);
-  const double omega = 2 * std::numbers::pi * truth.spring.frequency;
   std::vector<std::string> keys;
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    if ((which >> i & 1) == 0) continue;
-    double strength = log_between(random, laws[i].low, laws[i].high);
-    if (laws[i].either_sign && random.uniform() < 0.5) strength = -strength;
-    keys.emplace_back(laws[i].key);
-    set_number(truth, keys.back(),
-               strength * laws[i].per_unit(truth.box.mass, omega, truth.release.displacement), known);
-    drawn.hidden.emplace_back(effect_of(keys.back()));
-  }
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    if ((which >> i & 1) != 0) hide(laws[i], random, known, drawn, keys);
   RecordingSettings& recording = drawn.trial.recording;
   draw_frames(random, truth.spring.frequency, truth, recording);
   drawn.noise = draw_noise(random, truth.release.displacement, recording);
+  constexpr double share_of_rigs = 0.5, share_of_encoders = 0.15;
+  if (random.uniform() < share_of_rigs) {
+    const auto rig = static_cast<std::size_t>(random.bits() >> 20) % of_rigs.size();
+    // A pendulum's sine beside a cubic spring says the same twice.
+    if (rig != a_pendulum || (which & a_cubic_spring) == 0) hide(of_rigs[rig], random, known, drawn, keys);
+  }
+  if (random.uniform() < share_of_encoders && find_choice(truth, "camera_tilt") == nullptr) {
+    draw_edges(random, truth, recording);
+    drawn.noise = RingDownNoise::edges;
+  }
   drawn.frames_a_period = recording.frame_rate / truth.spring.frequency;
   const auto runs = 1 + random.bits() % 3;
   for (std::size_t run = 0; run < runs; ++run)
     drawn.trial.runs.push_back({"run_" + std::to_string(run + 1), {}});
-  drawn.trial.hidden.truth = truth;
   drawn.trial.hidden.believed = truth;
   drawn.trial.hidden.believed.effects.clear();
   drawn.trial.hidden.believed.spring.frequency *= 1 + 0.02 * random.normal();
@@ -123,6 +184,26 @@ RingDown drawn_once(Random& random, unsigned which, const Engine& engine,
   drawn.signals = signals_of(truth, keys, recording, engine, known);
   for (double& signal : drawn.signals) signal *= std::sqrt(static_cast<double>(runs));
   return drawn;
+}
+
+/// Whether only the waveform's finest marks tell the two apart (a pendulum's sine and a cubic spring).
+bool look_alike(const std::string& one, const std::string& other,
+                std::span<const EffectRecord* const> known) {
+  const EffectRecord *a = find_record(known, one), *b = find_record(known, other);
+  return a != nullptr && b != nullptr && !a->family.empty() && a->family == b->family &&
+         (search_of(*a).in_waveform || search_of(*b).in_waveform);
+}
+
+/// What is named, a look-alike of something hidden that is not named by the name of that.
+std::vector<std::string> as_hidden(std::vector<std::string> named, const std::vector<std::string>& hidden,
+                                   std::span<const EffectRecord* const> known) {
+  const auto among = [](const std::string& effect, const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), effect) != list.end();
+  };
+  for (std::string& effect : named)
+    for (const std::string& truth : hidden)
+      if (!among(effect, hidden) && !among(truth, named) && look_alike(effect, truth, known)) effect = truth;
+  return named;
 }
 
 /// A number that is none stands among those that could not be computed.
@@ -137,7 +218,7 @@ bool is_not_finite(const Diagnosis& diagnosis) {
 }  // namespace
 
 std::string_view name_of(RingDownNoise noise) {
-  constexpr std::array<std::string_view, 4> names{"white", "rounded", "wandering", "jittered"};
+  constexpr std::array<std::string_view, 5> names{"white", "rounded", "wandering", "jittered", "edges"};
   return names[static_cast<std::size_t>(noise)];
 }
 
@@ -212,9 +293,13 @@ RingDownAnswer read_answer(const std::filesystem::path& file, const std::string&
 
 RingDownResult judged(RingDown drawn, RingDownAnswer answer, std::span<const EffectRecord* const> known) {
   RingDownResult result;
-  const std::vector<std::string> named = physics_among(answer.missing, known);
-  std::vector<std::string> truth = drawn.hidden;
-  std::sort(truth.begin(), truth.end());
+  const auto ordered = [&](const std::vector<std::string>& effects) {
+    std::vector<std::string> physics = physics_among(effects, known);
+    std::sort(physics.begin(), physics.end());
+    return physics;
+  };
+  const std::vector<std::string> truth = ordered(drawn.hidden),
+                                 named = ordered(as_hidden(answer.missing, drawn.hidden, known));
   result.invented =
       answer.verdict == "unknown" || !std::includes(truth.begin(), truth.end(), named.begin(), named.end());
   result.right = answer.stopped.empty() && answer.verdict != "unknown" && named == truth;

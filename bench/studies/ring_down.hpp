@@ -12,8 +12,8 @@
 
 namespace shakedown {
 
-/// What spoils a recording beside a little white noise.
-enum class RingDownNoise { white, rounded, wandering, jittered };
+/// What spoils a recording beside a little white noise; `edges`: an encoder's, on no even clock.
+enum class RingDownNoise { white, rounded, wandering, jittered, edges };
 std::string_view name_of(RingDownNoise noise);
 
 struct RingDown {
@@ -32,8 +32,9 @@ struct RingDown {
 /// Damper without grains, 0.4 to 4 Hz, released from 10 to 200 mm, seen 8 to 60 periods long at 5 to 1000
 /// frames a second (eight a period at least) from somewhere in the motion on, with an origin that nobody
 /// knows; none, one, two or three of the four laws of a ring-down (linear, dry and quadratic damping, a cubic
-/// spring), each with a signal of 4 and more. `engine` computes the signals. A case depends on seed and
-/// number alone.
+/// spring), in half the cases with one thing that rigs have beside them (a second swing, a spring stiffer to
+/// one side, a tilted camera, a pendulum's sine), each with a signal of 4 and more; one in seven by the edges
+/// of an encoder. `engine` computes the signals. A case depends on seed and number alone.
 RingDown draw_ring_down(std::uint64_t seed, int number, const Engine& engine,
                         std::span<const EffectRecord* const> known);
 
@@ -57,7 +58,9 @@ RingDownAnswer answer_of(const RingDown& case_, const TrialTools& tools);
 struct RingDownResult {
   RingDown drawn;
   RingDownAnswer answer;
-  bool right = false;     ///< the physics named is the physics hidden; the camera's errors count for nothing
+  /// The physics named is the physics hidden; the camera's errors count for nothing, and effects of one
+  /// family (a pendulum's sine and a cubic spring) for one another.
+  bool right = false;
   bool invented = false;  ///< physics is named that is not hidden, or a force of no list
 };
 RingDownResult judged(RingDown drawn, RingDownAnswer answer, std::span<const EffectRecord* const> known);

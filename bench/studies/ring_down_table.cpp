@@ -47,6 +47,12 @@ Chosen hides(std::size_t number) {
   return [number](const RingDownResult& one) { return one.drawn.hidden.size() == number; };
 }
 
+Chosen hides_effect(std::string_view effect) {
+  return [effect](const RingDownResult& one) {
+    return std::find(one.drawn.hidden.begin(), one.drawn.hidden.end(), effect) != one.drawn.hidden.end();
+  };
+}
+
 Chosen signal_between(double low, double high) {
   return [=](const RingDownResult& one) {
     return !one.drawn.hidden.empty() && one.drawn.weakest() >= low && one.drawn.weakest() < high;
@@ -87,17 +93,26 @@ std::string ring_down_table(const std::vector<RingDownResult>& results) {
   add("one law", hides(1));
   add("two laws", hides(2));
   add("three laws", hides(3));
+  add("four laws", hides(4));
+  for (const std::string_view effect : {"second_mode", "spring_quadratic", "camera_tilt", "pendulum"})
+    add(fmt::format("with {}", effect), hides_effect(effect));
   add("weakest signal 4 to 12", signal_between(4, 12));
   add("weakest signal 12 and more", signal_between(12, any));
   add("weakest signal 12 to 50", signal_between(12, 50));
   add("weakest signal 50 and more", signal_between(50, any));
-  for (const RingDownNoise noise :
-       {RingDownNoise::white, RingDownNoise::rounded, RingDownNoise::wandering, RingDownNoise::jittered})
+  for (const RingDownNoise noise : {RingDownNoise::white, RingDownNoise::rounded, RingDownNoise::wandering,
+                                    RingDownNoise::jittered, RingDownNoise::edges})
     add(fmt::format("noise {}", name_of(noise)), noise_is(noise));
   add("8 to 20 frames a period", frames_between(8, 20));
   add("20 to 100 frames a period", frames_between(20, 100));
   add("100 frames a period and more", frames_between(100, any));
   text += left_by(results, true) + left_by(results, false);
+  std::vector<double> seconds;
+  for (const RingDownResult& one : results) seconds.push_back(one.answer.seconds);
+  std::sort(seconds.begin(), seconds.end());
+  if (!seconds.empty())
+    text += fmt::format("seconds a case, one thread: {:.1f} at the median, {:.1f} at most\n",
+                        seconds[seconds.size() / 2], seconds.back());
   return text + "aims: weakest signal 12 and more: right 90 %, invented 3 %; no stop, no NaN\n";
 }
 

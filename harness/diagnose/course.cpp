@@ -9,6 +9,7 @@
 #include "empty_box.hpp"
 #include "experiment_file.hpp"
 #include "from_balance.hpp"
+#include "in_order.hpp"
 #include "packing_choice.hpp"
 #include "parameter_knobs.hpp"
 #include "quantity.hpp"
@@ -67,8 +68,9 @@ void Course::judge_empty_box(const MomentumOptions& whole) {
   result_.momentum = audit_momentum(recorded_, tools_.known(), known_terms);
   const Engine& engine = *tools_.workshop().engine;
   Diagnosis by_waveform = result_;
-  if (conclude_by_waveform(emptied(user_), recorded_, engine, tools_.known(), tools_.options().effects,
-                           by_waveform) &&
+  const EffectsInQuestion asked{tools_.known(), tools_.options().effects,
+                                threads_or_all(tools_.options().threads)};
+  if (conclude_by_waveform(emptied(user_), recorded_, engine, asked, by_waveform) &&
       by_waveform.verdict != Verdict::unknown) {
     result_ = std::move(by_waveform);
     return;

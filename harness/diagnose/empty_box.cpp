@@ -237,13 +237,13 @@ LadderStep step_of(const std::string& name, double error, double floor) {
 }  // namespace
 
 bool conclude_by_waveform(const Setup& user, const Measurement& measurement, const Engine& engine,
-                          std::span<const EffectRecord* const> known, const std::vector<std::string>& only,
-                          Diagnosis& d) {
+                          const EffectsInQuestion& asked, Diagnosis& d) {
+  const std::span<const EffectRecord* const> known = asked.known;
   const MomentumAudit& balance = d.momentum;
   const double start = balance.possible && balance.frequency > 0
                            ? balance.frequency
                            : measurement.runs.front().setup.spring.frequency;
-  const WaveformAnswer answer = search_waveform(measurement, start, known, only);
+  const WaveformAnswer answer = search_waveform(measurement, start, asked);
   if (answer.sets.empty()) return false;
   const WaveformFit& fit = answer.sets.front().fit;
   const SwingRemains remains = remains_of(measurement, fit, balance, known);

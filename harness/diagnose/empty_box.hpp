@@ -3,6 +3,7 @@
 // momentum balance is all there is to find.
 #pragma once
 #include "diagnosis.hpp"
+#include "waveform_search.hpp"
 
 namespace shakedown {
 
@@ -21,11 +22,10 @@ struct SwingError {
 /// (and the origin, where that is unknown) are fitted, and what comes before is left out.
 SwingError swing_error(const Measurement& measurement, const Engine& engine, bool as_stated);
 
-/// Fills in all of the diagnosis that follows from the waveform; `only`: effects that may
-/// be named; empty: all. False where no run swings long enough.
+/// Fills in all of the diagnosis that follows from the waveform; `asked`: effects that may be named. False
+/// where no run swings long enough.
 bool conclude_by_waveform(const Setup& user, const Measurement& measurement, const Engine& engine,
-                          std::span<const EffectRecord* const> known, const std::vector<std::string>& only,
-                          Diagnosis& diagnosis);
+                          const EffectsInQuestion& asked, Diagnosis& diagnosis);
 
 /// Fills in all of the diagnosis where no law of the list explains the waveform: what the waveform says,
 /// unless the balance knows a formula, or there is no waveform.

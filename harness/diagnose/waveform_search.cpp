@@ -40,12 +40,13 @@ double longest_of(const std::vector<WaveformRun>& runs) {
 /// The course of one search.
 class WaveformSearch {
  public:
-  WaveformSearch(std::vector<WaveformRun> runs, std::span<const EffectRecord* const> known,
-                 const std::vector<std::string>& only, bool free_frequency)
-      : runs_(std::move(runs)), laws_(waveform_laws(runs_.front().setup, known)), options_{known} {
-    options_.free_frequency = free_frequency;
+  WaveformSearch(std::vector<WaveformRun> runs, const EffectsInQuestion& asked, bool free_frequency)
+      : runs_(std::move(runs)),
+        laws_(waveform_laws(runs_.front().setup, asked.known)),
+        options_{.known = asked.known, .free_frequency = free_frequency, .threads = asked.threads} {
     std::erase_if(laws_, [&](const WaveformLaw& law) {
-      return !only.empty() && std::find(only.begin(), only.end(), law.term.effect) == only.end();
+      return !asked.only.empty() &&
+             std::find(asked.only.begin(), asked.only.end(), law.term.effect) == asked.only.end();
     });
   }
 
@@ -87,7 +88,9 @@ class WaveformSearch {
       if (is_plain(law)) plain.push_back(law);
     const WaveformFit start =
         fit_waveform(runs_, {}, starting_values(runs_, {}, frequency), until(3 / frequency));
-    std::erase_if(plain, [&](const WaveformLaw& law) { return !leaves_trace(start, law); });
+    const std::vector<bool> traced = leave_trace(start, plain);
+    std::size_t next = 0;
+    std::erase_if(plain, [&](const WaveformLaw&) { return !traced[next++]; });
     std::erase_if(laws_, [&](const WaveformLaw& law) {
       return is_plain(law) && std::find(plain.begin(), plain.end(), law) == plain.end();
     });
@@ -145,8 +148,11 @@ class WaveformSearch {
     return start;
   }
   /// What frequency, places and origins do not take up.
-  bool leaves_trace(const WaveformFit& fit, const WaveformLaw& law) const {
-    return score_of(runs_, fit, law, until(3 / fit.frequency())).seen > 1e-6;
+  std::vector<bool> leave_trace(const WaveformFit& fit, const std::vector<WaveformLaw>& laws) const {
+    std::vector<bool> leave;
+    for (const LawScore& score : scores_of(runs_, fit, laws, until(3 / fit.frequency())))
+      leave.push_back(score.seen > 1e-6);
+    return leave;
   }
 
   void weigh_runs(const WaveformFit& fit) {
@@ -166,16 +172,17 @@ class WaveformSearch {
   /// The law that makes the whole most probable, if one does.
   bool add_one(WaveformFit& whole) {
     std::vector<WaveformFit> tried;
-    std::vector<std::pair<double, const WaveformLaw*>> by_gain;
+    std::vector<WaveformLaw> others;
     for (const WaveformLaw& law : laws_) {
       if (has(whole, law) || law.is_mode) continue;
-      if (!law.term.shape.empty()) {
-        if (std::optional<WaveformFit> other = in_place_of_dry(whole, law))
-          tried.push_back(std::move(*other));
-        continue;
-      }
-      by_gain.push_back({score_of(runs_, whole, law, options_).gain, &law});
+      if (law.term.shape.empty())
+        others.push_back(law);
+      else if (std::optional<WaveformFit> other = in_place_of_dry(whole, law))
+        tried.push_back(std::move(*other));
     }
+    const std::vector<LawScore> scores = scores_of(runs_, whole, others, options_);
+    std::vector<std::pair<double, const WaveformLaw*>> by_gain;
+    for (std::size_t i = 0; i < others.size(); ++i) by_gain.push_back({scores[i].gain, &others[i]});
     std::sort(by_gain.begin(), by_gain.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     constexpr std::size_t most_fitted = 3;
     constexpr double worth_a_fit = 6;  // chi2
@@ -441,13 +448,12 @@ class WaveformSearch {
 }  // namespace
 
 WaveformAnswer search_waveform(const Measurement& measurement, double frequency,
-                               std::span<const EffectRecord* const> known,
-                               const std::vector<std::string>& only) {
+                               const EffectsInQuestion& asked) {
   std::vector<WaveformRun> runs = waveform_runs(measurement);
   if (runs.empty()) return {};
   const bool held = knows_frequency_exactly(measurement);
   if (held) frequency = runs.front().setup.spring.frequency;
-  return WaveformSearch(std::move(runs), known, only, !held).run(frequency);
+  return WaveformSearch(std::move(runs), asked, !held).run(frequency);
 }
 
 bool knows_frequency_exactly(const Measurement& measurement) {

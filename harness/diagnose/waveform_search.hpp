@@ -47,10 +47,15 @@ double line_in(const std::vector<PowerAt>& spectrum);
 /// Whether the spring's frequency is no matter of a fit: the setup says it.
 bool knows_frequency_exactly(const Measurement& measurement);
 
-/// `frequency`: Hz, about where the fit begins (unless it is known exactly); `only`: effects that may act,
-/// empty: all.
+/// Which effects may act.
+struct EffectsInQuestion {
+  std::span<const EffectRecord* const> known;
+  std::vector<std::string> only{};  ///< of these names; empty: all
+  int threads = 1;                  ///< to ask them with; the answer does not depend on it
+};
+
+/// `frequency`: Hz, about where the fit begins (unless it is known exactly).
 WaveformAnswer search_waveform(const Measurement& measurement, double frequency,
-                               std::span<const EffectRecord* const> known,
-                               const std::vector<std::string>& only = {});
+                               const EffectsInQuestion& asked);
 
 }  // namespace shakedown

@@ -30,10 +30,11 @@ double met_by_reader(const SampledMotion& motion, double start_of_frame, double 
   return place;
 }
 
-/// A pinhole with a third-order lens, then what was taken for a metre, a metre's zero and its drift.
+/// A tilted pinhole with a third-order lens, then what was taken for a metre, a metre's zero and its drift.
 double on_the_table(const Camera& errors, double place, double clock) {
   const double in_reaches = place / camera_lens_reach;
-  const double image = place + errors.lens * place * in_reaches * in_reaches;
+  const double of_tilt = errors.tilt * place * place / camera_lens_reach;
+  const double image = place + of_tilt + errors.lens * place * in_reaches * in_reaches;
   return image * (1 + errors.scale) + (errors.origin + errors.drift * clock);
 }
 
@@ -54,6 +55,29 @@ Frames even_frames(double rate, double late, double end) {
     frames.instant.push_back(stamp + late);
     frames.stamp.push_back(stamp);
   }
+}
+
+Frames edge_frames(double edge, double start, const Trajectory& motion) {
+  const SampledMotion box{motion.time, motion.x_box, motion.v_box};
+  Frames frames;
+  for (std::size_t i = 0; i + 1 < motion.time.size(); ++i) {
+    const double from = motion.x_box[i] / edge, to = motion.x_box[i + 1] / edge;
+    // Edges between the two samples, in the order in which they are passed.
+    std::vector<double> passed;
+    for (double k = std::ceil(std::min(from, to)); k < std::max(from, to); ++k) passed.push_back(k * edge);
+    if (to < from) std::reverse(passed.begin(), passed.end());
+    for (const double place : passed) {
+      double low = motion.time[i], high = motion.time[i + 1];
+      for (int round = 0; round < 40; ++round) {
+        const double middle = (low + high) / 2;
+        ((position_at(box, middle) < place) == (from < to) ? low : high) = middle;
+      }
+      if (low < start) continue;
+      frames.instant.push_back(low);
+      frames.stamp.push_back(low - start);
+    }
+  }
+  return frames;
 }
 
 Recording filmed(const Camera& errors, const Frames& frames, const Trajectory& motion) {

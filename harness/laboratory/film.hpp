@@ -17,6 +17,9 @@ struct Frames {
 /// An even clock that starts `late` (s) after the release and runs to `end` (s since release).
 Frames even_frames(double rate, double late, double end);
 
+/// An encoder's rows, from `start` (s since release) on: where the box passes a multiple of `edge` (m).
+Frames edge_frames(double edge, double start, const Trajectory& motion);
+
 /// What the table says of the motion. Between its samples the box follows cubics with its own velocity, the
 /// grains' centre cubics with slopes of parabolas.
 Recording filmed(const Camera& errors, const Frames& frames, const Trajectory& motion);

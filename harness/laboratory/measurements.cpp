@@ -116,8 +116,11 @@ Camera camera_of(const Setup& truth, const RecordingSettings& settings) {
 }
 
 /// Frames of one run, to the end of its motion.
-Frames frames_of(const RecordingSettings& settings, std::uint64_t seed, std::uint64_t run, double end) {
-  Frames frames = even_frames(settings.frame_rate, settings.start + of_run(settings, seed, run).trigger, end);
+Frames frames_of(const RecordingSettings& settings, std::uint64_t seed, std::uint64_t run,
+                 const Trajectory& motion) {
+  const double start = settings.start + of_run(settings, seed, run).trigger;
+  if (settings.edge > 0) return edge_frames(settings.edge, start, motion);
+  Frames frames = even_frames(settings.frame_rate, start, motion.time.back());
   Random random(seed, run, Stream::jitter);
   for (std::size_t k = 0; k < frames.instant.size(); ++k) {
     const double late = settings.jitter * random.normal();
@@ -133,7 +136,8 @@ Frames frames_of(const RecordingSettings& settings, std::uint64_t seed, std::uin
 /// Instants between the frames are needed where the shutter or an uneven or late clock asks for them.
 double sample_rate_for(const Camera& camera, const RecordingSettings& settings) {
   constexpr double enough = 1000;  // Hz; a grain's kick bends the cubics by 1 um
-  if (camera.shutter == 0 && settings.trigger == 0 && settings.start == 0 && settings.jitter == 0)
+  if (camera.shutter == 0 && settings.trigger == 0 && settings.start == 0 && settings.jitter == 0 &&
+      settings.edge == 0)
     return settings.frame_rate;
   return settings.frame_rate * std::max(1.0, std::ceil(enough / settings.frame_rate));
 }
@@ -203,7 +207,7 @@ Experiment make_measurements(const Setup& truth, const std::vector<PlannedRun>& 
         options.stop = laboratory.stop;
         const Trajectory trajectory = laboratory.engine->run(setups[i], options);
         if (trajectory.interrupted) throw Interrupted("no run had finished, nothing was kept");
-        const Frames frames = frames_of(recording, laboratory.seed, i, trajectory.time.back());
+        const Frames frames = frames_of(recording, laboratory.seed, i, trajectory);
         record(filmed(camera_of(setups[i], recording), frames, trajectory), recording,
                setups[i].grains.count > 0, Tracker(recording, laboratory.seed, i),
                Wander(recording, laboratory.seed, i), experiment.runs[i]);

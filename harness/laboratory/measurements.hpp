@@ -36,11 +36,14 @@ struct RecordingSettings {
   double release = 0;        ///< m, standard deviation by run of the release displacement
 
   double rounding = 1e-6;  ///< m, step of the positions in the table
-  double jitter = 0;       ///< s, standard deviation of a frame's instant about an even clock
-  bool stamped = false;    ///< the table has the frames' true instants; else those of the even clock
-  double start = 0;        ///< s, the clock of each run starts so long after the release
-  double origin = 0;       ///< m, what the table says where the spring is relaxed
-  bool declared = true;    ///< the noise stands in the experiment file
+  /// m; an encoder: a row where the box passes a multiple of this, none while it rests. 0: the clock's
+  /// frames.
+  double edge = 0;
+  double jitter = 0;     ///< s, standard deviation of a frame's instant about an even clock
+  bool stamped = false;  ///< the table has the frames' true instants; else those of the even clock
+  double start = 0;      ///< s, the clock of each run starts so long after the release
+  double origin = 0;     ///< m, what the table says where the spring is relaxed
+  bool declared = true;  ///< the noise stands in the experiment file
 };
 
 /// What the experimenter knows, and how well: the box weighed to half a per cent, the grains

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <unsupported/Eigen/NonLinearOptimization>
 
+#include "in_order.hpp"
 #include "waveform_residuals.hpp"
 
 namespace shakedown {
@@ -116,6 +117,20 @@ WaveformFit fit_growing(const std::vector<WaveformRun>& runs, const std::vector<
 
 namespace {
 
+/// The residuals of a fit with one more law that hardly acts, and how they change with its strength.
+std::pair<Eigen::VectorXd, Eigen::VectorXd> last_column(const std::vector<WaveformRun>& runs,
+                                                        const WaveformFit& fit, const WaveformLaw& law,
+                                                        const WaveformOptions& options) {
+  std::vector<WaveformLaw> laws = fit.laws;
+  laws.push_back(law);
+  Eigen::VectorXd start(fit.value.size() + 1);
+  start << fit.value, law.term.inverse ? 1e-4 * law.term.typical : 0;
+  Residuals residuals(runs, laws, options);
+  Eigen::VectorXd left(residuals.values());
+  residuals.at(start, left);
+  return {left, residuals.slope_of_last_law(start, left)};
+}
+
 /// The residuals of a fit with one more law, and how they change with its first numbers.
 struct OneMore {
   Eigen::VectorXd left;
@@ -143,17 +158,25 @@ OneMore one_more(const std::vector<WaveformRun>& runs, const WaveformFit& fit, c
 
 }  // namespace
 
-LawScore score_of(const std::vector<WaveformRun>& runs, const WaveformFit& fit, const WaveformLaw& law,
-                  const WaveformOptions& options) {
-  const Eigen::VectorXd near_none =
-      Eigen::VectorXd::Constant(1, law.term.inverse ? 1e-4 * law.term.typical : 0);
-  const OneMore more = one_more(runs, fit, law, 1, near_none, options);
-  const Eigen::VectorXd column = more.columns.col(0);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(more.free);
-  const Eigen::VectorXd outside = column - more.free * qr.solve(column);
-  const double squares = outside.squaredNorm();
-  if (!(column.squaredNorm() > 0) || !(squares > 0)) return {};
-  return {std::pow(outside.dot(more.left), 2) / squares, squares / column.squaredNorm()};
+std::vector<LawScore> scores_of(const std::vector<WaveformRun>& runs, const WaveformFit& fit,
+                                const std::vector<WaveformLaw>& laws, const WaveformOptions& options) {
+  Residuals alone(runs, fit.laws, options);
+  alone.start_from(fit.value);
+  Eigen::MatrixXd slope(alone.values(), alone.inputs());
+  alone.df(Eigen::VectorXd::Zero(alone.inputs()), slope);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> free(slope);
+  std::vector<LawScore> scores(laws.size());
+  work_in_parallel_deliver_in_order(
+      static_cast<int>(laws.size()), options.threads, [&](int k) -> std::function<void()> {
+        const auto [left, column] = last_column(runs, fit, laws[static_cast<std::size_t>(k)], options);
+        const Eigen::VectorXd outside = column - slope * free.solve(column);
+        const double squares = outside.squaredNorm();
+        LawScore score;
+        if (column.squaredNorm() > 0 && squares > 0)
+          score = {std::pow(outside.dot(left), 2) / squares, squares / column.squaredNorm()};
+        return [&scores, k, score] { scores[static_cast<std::size_t>(k)] = score; };
+      });
+  return scores;
 }
 
 Eigen::Vector2d linear_mode(const std::vector<WaveformRun>& runs, const WaveformFit& fit,

@@ -66,6 +66,7 @@ struct WaveformOptions {
   bool free_frequency = true;
   double believed_frequency = 0, believed_error = 0;  ///< Hz, beforehand; no error: nothing is
   double until = 1e300;                               ///< s from the first frame of each run
+  int threads = 1;                                    ///< the fit does not depend on it
 };
 
 /// A start for a fit: frequency as given (Hz), places and speeds from the first half period, strengths small.
@@ -81,13 +82,13 @@ WaveformFit fit_waveform(const std::vector<WaveformRun>& runs, const std::vector
 WaveformFit fit_growing(const std::vector<WaveformRun>& runs, const std::vector<WaveformLaw>& laws,
                         const Eigen::VectorXd& start, const WaveformOptions& options);
 
-/// One more law beside a fit, to first order.
+/// One more law beside a fit, to first order; each of several alone.
 struct LawScore {
   double gain = 0;  ///< fall of chi2
   double seen = 0;  ///< share of what it does to the waveform that the fit's own numbers cannot take up
 };
-LawScore score_of(const std::vector<WaveformRun>& runs, const WaveformFit& fit, const WaveformLaw& law,
-                  const WaveformOptions& options);
+std::vector<LawScore> scores_of(const std::vector<WaveformRun>& runs, const WaveformFit& fit,
+                                const std::vector<WaveformLaw>& laws, const WaveformOptions& options);
 
 /// Sine and cosine part of a second swing of this frequency beside a fit, to first order.
 Eigen::Vector2d linear_mode(const std::vector<WaveformRun>& runs, const WaveformFit& fit,

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "camera.hpp"
+#include "in_order.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
 #include "swing_motion.hpp"
@@ -98,22 +99,28 @@ Residuals::Residuals(const std::vector<WaveformRun>& runs, const std::vector<Wav
   for (const WaveformRun& run : runs) setups_.push_back(prepared(run.setup, laws, options.known));
 }
 
+namespace {
+/// Of the scaled numbers, for a derivative.
+constexpr double small_step = 1e-4;
+}  // namespace
+
 int Residuals::df(const Eigen::VectorXd& scaled, Eigen::MatrixXd& slope) const {
-  constexpr double step = 1e-4;
-  Eigen::VectorXd here(values()), there(values());
+  Eigen::VectorXd here(values());
   at(value_of(scaled), here);
-  for (Eigen::Index k = 0; k < inputs_; ++k) {
-    if (scale_[k] == 0) {
-      slope.col(k).setZero();
-      continue;
-    }
-    Eigen::VectorXd moved = scaled;
-    moved[k] += step;
-    const Eigen::Index run = k < 3 * std::ssize(runs_) ? k / 3 : -1;
-    there = here;
-    at(value_of(moved), there, run);
-    slope.col(k) = (there - here) / step;
-  }
+  work_in_parallel_deliver_in_order(static_cast<int>(inputs_), options_.threads,
+                                    [&](int k) -> std::function<void()> {
+                                      if (scale_[k] == 0) {
+                                        slope.col(k).setZero();
+                                        return [] {};
+                                      }
+                                      Eigen::VectorXd moved = scaled;
+                                      moved[k] += small_step;
+                                      const Eigen::Index run = k < 3 * std::ssize(runs_) ? k / 3 : -1;
+                                      Eigen::VectorXd there = here;
+                                      at(value_of(moved), there, run);
+                                      slope.col(k) = (there - here) / small_step;
+                                      return [] {};
+                                    });
   return 0;
 }
 
@@ -134,29 +141,40 @@ void Residuals::start_from(const Eigen::VectorXd& start) {
   start_ = start;
   scale_ = Eigen::VectorXd::Zero(inputs_);
   const Eigen::Index shared = 3 * std::ssize(runs_);
-  double longest = 0, amplitude = 0;
+  double longest = 0;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const double a = runs_[r].amplitude;
     scale_.segment(3 * static_cast<Eigen::Index>(r), 3) << a, a * two_pi * start[shared], a;
     const auto last = static_cast<std::size_t>(std::max<Eigen::Index>(1, used_[r])) - 1;
     longest = std::max(longest, runs_[r].time[last] - runs_[r].time.front());
-    amplitude = std::max(amplitude, a);
   }
   if (options_.free_frequency) scale_[shared] = 1 / (two_pi * std::max(longest, 1 / start[shared]));
-  Eigen::VectorXd here(values()), there(values());
+  Eigen::VectorXd here(values());
   at(start, here);
-  const double whole = root_of_sum_of_squares();
   Eigen::Index next = shared + 1;
   for (const WaveformLaw& law : laws_)
-    for (Eigen::Index i = 0; i < law.width(); ++i, ++next) {
-      double step = 1e-3 * law.term.typical;
-      if (law.is_mode && i >= 2) step = i == 2 ? 1e-3 / longest : 1e-3 / longest;
-      Eigen::VectorXd moved = start;
-      moved[next] += step;
-      at(moved, there);
-      const double change = (there - here).norm();
-      scale_[next] = change > 0 ? std::min(step * whole / change, 1e6 * step) : 0;
-    }
+    for (Eigen::Index i = 0; i < law.width(); ++i, ++next)
+      scale_[next] = scale_of_number(next, law.is_mode && i >= 2 ? 1e-3 / longest : 1e-3 * law.term.typical,
+                                     start, here);
+}
+
+double Residuals::scale_of_number(Eigen::Index number, double step, const Eigen::VectorXd& start,
+                                  const Eigen::VectorXd& here) const {
+  Eigen::VectorXd moved = start, there(values());
+  moved[number] += step;
+  at(moved, there);
+  const double change = (there - here).norm();
+  return change > 0 ? std::min(step * root_of_sum_of_squares() / change, 1e6 * step) : 0;
+}
+
+Eigen::VectorXd Residuals::slope_of_last_law(const Eigen::VectorXd& value,
+                                             const Eigen::VectorXd& here) const {
+  const Eigen::Index last = value.size() - 1;
+  const double scale = scale_of_number(last, 1e-3 * laws_.back().term.typical, value, here);
+  Eigen::VectorXd moved = value, there(values());
+  moved[last] += small_step * scale;
+  at(moved, there);
+  return scale > 0 ? Eigen::VectorXd((there - here) / small_step) : Eigen::VectorXd::Zero(values());
 }
 
 double Residuals::root_of_sum_of_squares() const {

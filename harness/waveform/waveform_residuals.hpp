@@ -42,6 +42,9 @@ class Residuals {
   /// Steps by which the motion changes by about its amplitude, so that all numbers are alike.
   void start_from(const Eigen::VectorXd& start);
 
+  /// Change of the residuals, `here` at `value`, per such a step of the last law's strength.
+  Eigen::VectorXd slope_of_last_law(const Eigen::VectorXd& value, const Eigen::VectorXd& here) const;
+
   /// Frames of each run.
   const std::vector<Eigen::Index>& used() const { return used_; }
   const Eigen::VectorXd& scale() const { return scale_; }
@@ -49,6 +52,8 @@ class Residuals {
  private:
   int believes() const { return options_.believed_error > 0 ? 1 : 0; }
   double root_of_sum_of_squares() const;
+  double scale_of_number(Eigen::Index number, double step, const Eigen::VectorXd& start,
+                         const Eigen::VectorXd& here) const;
   bool of_run(std::size_t r, const Eigen::VectorXd& value, Eigen::Ref<Eigen::VectorXd> out) const;
 
   const std::vector<WaveformRun>& runs_;

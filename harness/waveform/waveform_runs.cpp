@@ -27,14 +27,23 @@ WaveformRun waveform_run(const Measurement::Run& run, bool every_frame) {
   const auto group =
       every_frame ? std::size_t{1}
                   : static_cast<std::size_t>(std::max(1.0, std::floor(period / interval / frames_a_period)));
-  for (std::size_t i = 0; i + group <= time.size(); i += group) {
+  // An uneven clock (an encoder's edges: no row while it rests) has a long time in few rows, which no mean
+  // may span.
+  const double longest = static_cast<double>(group) * interval * (1 + 1e-6);
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < time.size();) {
     double t = 0, sum = 0;
-    for (std::size_t k = i; k < i + group; ++k) t += time[k], sum += x[k];
-    made.time.push_back(t / static_cast<double>(group)), made.x.push_back(sum / static_cast<double>(group));
+    std::size_t k = i;
+    for (; k < time.size() && k < i + group && time[k] - time[i] < longest; ++k) t += time[k], sum += x[k];
+    const bool cut_off = k == time.size() && k < i + group && i > 0;
+    const auto count = static_cast<double>(k - i);
+    if (!cut_off) made.time.push_back(t / count), made.x.push_back(sum / count);
+    used += cut_off ? 0 : k - i;
+    i = k;
   }
   const auto [low, high] = std::minmax_element(made.x.begin(), made.x.end());
   made.amplitude = (*high - *low) / 2;
-  made.white /= std::sqrt(static_cast<double>(group));
+  made.white /= std::sqrt(static_cast<double>(used) / static_cast<double>(made.time.size()));
   // A recording without any noise is known to its rounding.
   made.noise = std::max(made.white, 1e-6 * made.amplitude);
   return made;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -66,14 +67,20 @@ TEST(RingDowns, WanderAndJitterTakeTheirPartOfTheSignal) {
 
 TEST(RingDowns, AreDrawnAsStatedAndTheSameAgain) {
   const auto engine = engine_named("hard");
+  bool any_rig = false, any_edges = false;
   for (int number = 0; number < 20; ++number) {
     const RingDown one = draw_ring_down(3, number, *engine, all_effects());
+    any_edges |= one.noise == RingDownNoise::edges;
+    for (const char* rig : {"second_mode", "spring_quadratic", "camera_tilt", "pendulum"})
+      any_rig |= std::find(one.hidden.begin(), one.hidden.end(), rig) != one.hidden.end();
     EXPECT_GE(one.frames_a_period, 7.9);
     EXPECT_GE(one.weakest(), 4);
-    EXPECT_LE(one.hidden.size(), 3u);
+    EXPECT_LE(one.hidden.size(), 4u);
+    EXPECT_EQ(one.noise == RingDownNoise::edges, one.trial.recording.edge > 0);
     EXPECT_TRUE(one.trial.hidden.believed.effects.empty());
     EXPECT_EQ(one.trial.hidden.truth.grains.count, 0);
   }
+  EXPECT_TRUE(any_rig && any_edges);
   const RingDown once = draw_ring_down(3, 7, *engine, all_effects()),
                  again = draw_ring_down(3, 7, *engine, all_effects());
   EXPECT_EQ(write_setup(once.trial.hidden.truth), write_setup(again.trial.hidden.truth));
@@ -93,6 +100,16 @@ TEST(RingDowns, AreJudgedByTheirPhysics) {
   EXPECT_FALSE(judged_as("missing", {"clamp_dry_friction"}).invented);
   EXPECT_TRUE(judged_as("missing", {"clamp_dry_friction", "oscillating_acceleration"}).invented);
   EXPECT_TRUE(judged_as("unknown", {}).invented);
+  drawn.hidden = {"clamp_dry_friction", "pendulum"};
+  EXPECT_TRUE(judged_as("missing", {"clamp_dry_friction", "spring_cubic"}).right) << "a look-alike";
+  EXPECT_TRUE(judged_as("missing", {"clamp_dry_friction", "spring_cubic", "pendulum"}).invented);
+  EXPECT_FALSE(judged_as("missing", {"clamp_dahl_friction", "pendulum"}).right);
+  drawn.hidden = {"spring_quadratic"};
+  EXPECT_TRUE(judged_as("missing", {"camera_tilt"}).right);
+  drawn.hidden = {"camera_tilt"};
+  EXPECT_TRUE(judged_as("missing", {"spring_quadratic"}).right);
+  EXPECT_TRUE(judged_as("nothing", {}).right) << "the camera's errors count for nothing";
+  drawn.hidden = {"blade_viscous_damping", "clamp_dry_friction"};
   RingDownResult stopped =
       judged(drawn, {"", {}, "frequency is not a finite number", false, 0}, all_effects());
   EXPECT_FALSE(stopped.right);

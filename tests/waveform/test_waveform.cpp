@@ -79,6 +79,35 @@ TEST(SwingMotion, IsEmptyWhereTheBoxRunsAway) {
   EXPECT_TRUE(swing_of(physics_of(setup), {0.3, 0}, {0, 1, 2, 3}, 1).empty());
 }
 
+// An encoder writes many rows while the box is fast and few where it turns: a mean over as many rows there
+// would lose the turn.
+TEST(Waveform, FramesOfAnUnevenClockAreAveragedOverShortTimesOnly) {
+  const shakedown::Setup setup = empty_box();
+  const double omega = 2 * std::numbers::pi * setup.spring.frequency, amplitude = 0.1, edge = 0.1e-3;
+  Experiment experiment;
+  MeasuredRun& run = experiment.runs.emplace_back();
+  run.name = "edges";
+  run.box_length = setup.box.length;
+  const int edges = static_cast<int>(std::floor(amplitude / edge)) - 1;
+  for (int half = 0; half < 20; ++half)
+    for (int k = -edges; k <= edges; ++k) {
+      run.x_box.push_back((half % 2 == 0 ? -k : k) * edge);
+      const double phase = std::acos(run.x_box.back() / amplitude);
+      run.time.push_back(
+          (half % 2 == 0 ? half * std::numbers::pi + phase : (half + 1) * std::numbers::pi - phase) / omega);
+    }
+  const std::vector<WaveformRun> runs = waveform_runs(measurement_of({setup}, std::move(experiment)));
+  ASSERT_EQ(runs.size(), 1u);
+  const WaveformRun& made = runs[0];
+  EXPECT_LT(made.time.size(), 2000u) << "they are averaged";
+  double most = 0;
+  for (std::size_t i = 0; i < made.time.size(); ++i)
+    most = std::max(most, std::abs(made.x[i] - amplitude * std::cos(omega * made.time[i])));
+  // The variance of time in a window of 1/48 of a period, (T/48)^2/12, is seen as 7e-4 of the amplitude; rows
+  // at the two ends of a window alone would give three times that.
+  EXPECT_LT(most, 2.1e-3 * amplitude);
+}
+
 TEST(Waveform, EightNumbersComeBack) {
   shakedown::Setup truth = empty_box();
   truth.run.duration = 20;
