@@ -110,12 +110,16 @@ RingDownNoise draw_noise(Random& random, double release, RecordingSettings& reco
   return noise;
 }
 
-/// A second swing's other numbers: not so near the box's own that they beat, nor near a multiple of it.
+/// A second swing's other numbers: not so near the box's own that they beat, which the effect says it is not
+/// for, nor near a multiple of it.
 void draw_second_swing(Random& random, std::span<const EffectRecord* const> known, Setup& truth) {
-  constexpr double least_apart = 0.15;
+  constexpr double apart_from_own = 0.25, apart_from_multiples = 0.15;
+  const auto is_apart = [](double ratio) {
+    return std::abs(ratio - 1) > apart_from_own &&
+           (ratio < 1.5 || std::abs(ratio - std::round(ratio)) > apart_from_multiples);
+  };
   double ratio = 1;
-  while (std::abs(ratio - std::max(1.0, std::round(ratio))) < least_apart)
-    ratio = log_between(random, 0.3, 4.5);
+  while (!is_apart(ratio)) ratio = log_between(random, 0.3, 4.5);
   const double frequency = truth.spring.frequency;
   set_number(truth, "second_mode.frequency", ratio * frequency, known);
   set_number(truth, "second_mode.rate", log_between(random, 0.003, 0.3) * frequency, known);

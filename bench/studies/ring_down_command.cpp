@@ -16,6 +16,7 @@
 #include "progress_display.hpp"
 #include "provenance.hpp"
 #include "ring_down.hpp"
+#include "setup_file.hpp"
 #include "study_commands.hpp"
 
 namespace shakedown {
@@ -23,7 +24,7 @@ namespace shakedown {
 namespace {
 
 struct RingDownArguments {
-  std::string out, engine = "hard", ledger = state_file("ledger.csv", STUDIES_LEDGER).string();
+  std::string out, cases_to, engine = "hard", ledger = state_file("ledger.csv", STUDIES_LEDGER).string();
   std::vector<int> only;
   int cases = 200, threads = 0;
   std::uint64_t seed = 1;
@@ -39,6 +40,16 @@ RingDownAnswer kept_or_found(const RingDown& drawn, const TrialTools& tools,
   RingDownAnswer answer = answer_of(drawn, tools);
   write_file(file, answer_json(answer, version_line()));
   return answer;
+}
+
+/// The case as files that any program can be asked with, and its truth beside them.
+void write_case(const RingDown& drawn, const TrialTools& tools, const RingDownArguments& arguments) {
+  const std::string name =
+      fmt::format("{}/seed_{}_case_{:04}", arguments.cases_to, arguments.seed, drawn.number);
+  const OutputFolder folder(name);
+  folder.write("setup.toml", write_setup(drawn.trial.hidden.believed));
+  folder.write("truth.toml", write_setup(drawn.trial.hidden.truth));
+  write_measurements(name, measured_in(drawn.trial, tools));
 }
 
 /// Several cases at a time, each on one thread.
@@ -62,6 +73,7 @@ std::vector<RingDownResult> results_of(const RingDownArguments& arguments) {
         if (tools.stop->load()) throw Interrupted("stopped before the last case");
         RingDown drawn =
             draw_ring_down(arguments.seed, numbers[static_cast<std::size_t>(i)], *model, all_effects());
+        if (!arguments.cases_to.empty()) write_case(drawn, tools, arguments);
         RingDownAnswer answer = kept_or_found(drawn, tools, arguments);
         auto result =
             std::make_shared<RingDownResult>(judged(std::move(drawn), std::move(answer), all_effects()));
@@ -104,6 +116,10 @@ Command add_ring_down_command(CLI::App& program) {
       .add_option("--out", a->out,
                   "folder for ring_downs.csv (a line a case), ring_downs.txt and every answer as it comes; "
                   "a second call with it goes on where the first stopped")
+      ->type_name("DIR");
+  command
+      .add_option("--cases-to", a->cases_to,
+                  "folder for the cases themselves: setup, experiment, tables, truth")
       ->type_name("DIR");
   command.add_option("--ledger", a->ledger, "table of seeds drawn, answered and opened (CSV); \"\": none")
       ->type_name("FILE");
