@@ -52,6 +52,23 @@ std::string motion_lines(const Ensemble& ensemble) {
               rms([](const Decay& decay) { return decay.exponential.rms; }), "mm");
 }
 
+/// Under steady forcing.
+std::string forced_lines(const Ensemble& ensemble) {
+  const auto seen = [&](double scale, int decimals, double SteadyState::*member) {
+    return with_spread(ensemble.over_runs([&](const RunResult& run) {
+      return run.observables.steady ? scale * (*run.observables.steady).*member : absent;
+    }),
+                       decimals);
+  };
+  if (ensemble.over_runs([](const RunResult& run) { return run.observables.steady ? 1.0 : absent; }).n == 0)
+    return "";
+  return line("forced: amplitude", seen(1e3, 2, &SteadyState::amplitude), "mm") +
+         line("        from cycle to cycle", seen(100, 1, &SteadyState::variation), "%") +
+         line("        lag behind it", seen(1, 3, &SteadyState::phase_lag), "rad") +
+         line("        loss factor", seen(1, 4, &SteadyState::loss_factor)) +
+         line("        effective mass of grains", seen(1e3, 1, &SteadyState::effective_mass), "g");
+}
+
 std::string energy_lines(const Ensemble& ensemble, const Setup& setup) {
   std::string text;
   for (const std::size_t i : {0u, 3u})
@@ -126,7 +143,7 @@ std::string readable_summary(const Ensemble& ensemble, const Setup& setup) {
   else if (ensemble.interrupted)
     text += fmt::format("  interrupted: {} of {} runs finished\n", finished, ensemble.requested);
   if (finished == 0) return text;
-  if (setup.domain == Domain::damper) text += motion_lines(ensemble);
+  if (setup.domain == Domain::damper) text += motion_lines(ensemble) + forced_lines(ensemble);
   text += energy_lines(ensemble, setup) + health_lines(ensemble);
   double collisions = 0, seconds = 0;
   for (const RunResult& run : ensemble.runs) {

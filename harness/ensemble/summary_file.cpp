@@ -55,6 +55,16 @@ void add_motion(const Observables& seen, Json& json) {
                                {"equivalent_damping_ratio", number(damping.equivalent_ratio)}});
 }
 
+/// Only where the damper is forced.
+void add_forced(const Observables& seen, Json& json) {
+  if (!seen.steady) return;
+  json["forced"] = {{"amplitude_mm", number(1e3 * seen.steady->amplitude)},
+                    {"variation", number(seen.steady->variation)},
+                    {"phase_lag_rad", number(seen.steady->phase_lag)},
+                    {"loss_factor", number(seen.steady->loss_factor)},
+                    {"effective_mass_g", number(1e3 * seen.steady->effective_mass)}};
+}
+
 std::string fraction_name(double fraction) {
   std::ostringstream text;
   text << fraction;
@@ -114,6 +124,7 @@ void add_work(const Trajectory& trajectory, Json& json) {
 Json run_json(const RunResult& run, const Setup& setup) {
   Json json;
   add_motion(run.observables, json);
+  add_forced(run.observables, json);
   add_energy(run, setup, json);
   add_work(run.trajectory, json);
   return json;

@@ -29,6 +29,7 @@ Observables observe(const Trajectory& trajectory, const Setup& setup) {
     seen.decay = decay_of(seen.peaks);
     seen.slope = seen.decay.linear.slope;
     if (motion.size() > 0) seen.damping = damping_of(trajectory.x_box.front(), seen.peaks);
+    seen.steady = steady_state_if_any(setup, trajectory);
   }
   for (std::size_t i = 0; i < energy_fractions.size(); ++i)
     seen.seconds_to_energy_fraction[i] = seconds_to_energy_fraction(trajectory, energy_fractions[i]);

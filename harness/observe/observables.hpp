@@ -2,10 +2,12 @@
 // The numbers by which runs, engines and experiments are compared.
 #pragma once
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "decay.hpp"
 #include "setup.hpp"
+#include "steady_forcing.hpp"
 #include "trajectory.hpp"
 
 namespace shakedown {
@@ -24,8 +26,9 @@ struct Observables {
   std::vector<HalfPeriodDamping> damping;  ///< one entry a half period, from the release on
   std::array<double, energy_fractions.size()> seconds_to_energy_fraction{};
   std::array<double, contact_classes>
-      energy_loss{};                ///< by class of contact, fractions of the initial energy, at the end
-  std::vector<double> effect_loss;  ///< by line of Setup::effects, likewise
+      energy_loss{};                  ///< by class of contact, fractions of the initial energy, at the end
+  std::vector<double> effect_loss;    ///< by line of Setup::effects, likewise
+  std::optional<SteadyState> steady;  ///< of a forced damper, over its last cycles
 };
 
 Observables observe(const Trajectory& trajectory, const Setup& setup);

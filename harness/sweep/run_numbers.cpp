@@ -53,6 +53,7 @@ constexpr std::array table{
     RunNumber{"steady_variation", [](const SeenRun& run) { return run.steady.variation; }},
     RunNumber{"steady_phase_lag_rad", [](const SeenRun& run) { return run.steady.phase_lag; }},
     RunNumber{"loss_factor", [](const SeenRun& run) { return run.steady.loss_factor; }},
+    RunNumber{"effective_mass_g", [](const SeenRun& run) { return 1e3 * run.steady.effective_mass; }},
     RunNumber{"ledger_error", [](const SeenRun& run) { return run.trajectory.health.ledger_error; }},
     RunNumber{"deepest_overlap_m", [](const SeenRun& run) { return run.trajectory.health.deepest_overlap; }},
     RunNumber{"elastic_rescues",
@@ -66,8 +67,7 @@ std::span<const RunNumber> run_numbers() { return table; }
 
 std::vector<double> numbers_of_run(const Setup& setup, const Trajectory& trajectory) {
   const Observables observables = observe(trajectory, setup);
-  const SteadyState steady = steady_forcing_of(setup) ? steady_state(setup, trajectory)
-                                                      : SteadyState{absent, absent, absent, absent};
+  const SteadyState steady = observables.steady.value_or(SteadyState{absent, absent, absent, absent, absent});
   std::vector<double> numbers;
   for (const RunNumber& number : table) numbers.push_back(number.of({trajectory, observables, steady}));
   return numbers;

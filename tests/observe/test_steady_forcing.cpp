@@ -81,3 +81,56 @@ TEST(SteadyForcing, ARunawayAtResonanceDoesNotRattle) {
   // 607.1 +- 0.5 mm with those.
   EXPECT_NEAR(-*std::min_element(trajectory.x_box.begin(), trajectory.x_box.end()), 0.6071, 3e-3);
 }
+
+// x = B k / (k - M w^2 + i c w): the loss factor is that of the same damper shaken as a whole.
+TEST(SteadyForcing, TheBoxWhoseBaseMoves) {
+  const double damping = 0.8, mass = 0.434, k = mass * std::pow(2 * std::numbers::pi * 1.23, 2), base = 2e-3;
+  for (const double frequency : {0.9, 1.23, 1.7}) {
+    const double w = 2 * std::numbers::pi * frequency, phase = 0.4;
+    std::string samples;
+    for (double t = 0; t <= 40 / frequency; t += 0.005)
+      samples += std::to_string(t) + " " + std::to_string(base * std::sin(w * t + phase)) + " ";
+    shakedown::Setup setup = parse_setup(
+        "[grains]\ncount = 0\n[release]\ndisplacement = \"1 mm\"\n[[effect]]\nname = "
+        "\"base_motion\"\nsamples = "
+        "\"" +
+            samples + "\"\n[[effect]]\nname = \"blade_viscous_damping\"\ndamping = \"0.8 N s/m\"\n",
+        "test", all_effects());
+    setup.run.duration = 39.9 / frequency;
+    const std::optional<SteadyState> steady = steady_state_if_any(setup, engine_named("hard")->run(setup));
+    ASSERT_TRUE(steady) << frequency;
+    const double amplitude = base * k / std::hypot(k - mass * w * w, damping * w);
+    EXPECT_NEAR(steady->amplitude / amplitude, 1, 3e-3) << frequency;  // samples to 1 um
+    EXPECT_NEAR(steady->phase_lag, std::atan2(damping * w, k - mass * w * w), 5e-3) << frequency;
+    EXPECT_NEAR(steady->loss_factor / (damping * w / k), 1, 1e-2) << frequency;
+    EXPECT_TRUE(std::isnan(steady->effective_mass));
+  }
+}
+
+TEST(SteadyForcing, ABaseThatHaltsHasNoSteadyState) {
+  std::string samples;
+  for (double t = 0; t <= 20; t += 0.02)
+    samples += std::to_string(t) + " " + std::to_string(t < 12 ? 2e-3 * std::sin(6 * t) : 0.0) + " ";
+  shakedown::Setup setup =
+      parse_setup("[grains]\ncount = 0\n[[effect]]\nname = \"base_motion\"\nsamples = \"" + samples + "\"\n",
+                  "test", all_effects());
+  setup.run.duration = 20;
+  EXPECT_FALSE(steady_state_if_any(setup, engine_named("hard")->run(setup)));
+}
+
+// A grain with a tenth of a millimetre of room rides along, one in a long box of a weakly shaken damper
+// floats.
+TEST(SteadyForcing, GrainsThatRideAlongWeighAllTheirMass) {
+  shakedown::Setup setup = parse_setup(
+      "[grains]\ncount = 1\n[box]\nlength = \"10.1 mm\"\n[release]\ndisplacement = \"1 "
+      "mm\"\n[[effect]]\nname = "
+      "\"oscillating_acceleration\"\namplitude = [\"0.5 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\nfrequency = \"1 "
+      "Hz\"\n[[effect]]\nname = \"blade_viscous_damping\"\ndamping = \"0.8 N s/m\"\n",
+      "test", all_effects());
+  setup = long_enough_for_forcing(setup);
+  const SteadyState riding = steady_state(setup, engine_named("hard")->run(setup));
+  EXPECT_NEAR(riding.effective_mass / setup.grains.mass, 1, 0.02);
+  setup.box.length = 1;
+  const SteadyState floating = steady_state(setup, engine_named("hard")->run(setup));
+  EXPECT_LT(std::abs(floating.effective_mass / setup.grains.mass), 0.2);
+}
