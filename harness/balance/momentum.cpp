@@ -19,7 +19,7 @@ constexpr double far_off = 0.01;
 /// What the runs are read with next: the nuisances found, and a frequency that lies far from the setup's.
 NuisanceValues values_of(const MomentumAudit& audit, double frequency) {
   NuisanceValues values;
-  if (std::abs(audit.frequency / frequency - 1) > far_off)
+  if (audit.frequency > 0 && std::abs(audit.frequency / frequency - 1) > far_off)
     values["spring.frequency"] = audit.frequency - frequency;
   for (const NuisanceFound& nuisance : audit.nuisances)
     if (std::isfinite(nuisance.value)) values[nuisance.name] = nuisance.value;
@@ -31,7 +31,8 @@ bool has_moved(const MomentumAudit& audit, const NuisanceValues& read_with, doub
   constexpr double part = 0.3;
   const auto stated = read_with.find("spring.frequency");
   const double read_at = frequency + (stated == read_with.end() ? 0 : stated->second);
-  if (std::abs(audit.frequency / read_at - 1) > far_off) return true;
+  // Frames too far apart may give a stiffness that is none, and no frequency.
+  if (audit.frequency > 0 && std::abs(audit.frequency / read_at - 1) > far_off) return true;
   return std::any_of(audit.nuisances.begin(), audit.nuisances.end(), [&](const NuisanceFound& n) {
     const auto before = read_with.find(n.name);
     return std::abs(n.value - (before == read_with.end() ? 0 : before->second)) > part * n.error;

@@ -6,6 +6,7 @@
 
 #include "balance_problem.hpp"
 #include "effects.hpp"
+#include "experiment_file.hpp"
 #include "force_map.hpp"
 #include "momentum.hpp"
 #include "momentum_run.hpp"
@@ -262,6 +263,19 @@ double top_speed_of_the_map(const Experiment& experiment) {
   const Measurement measurement = measurement_of(pushed_setups(experiment), experiment);
   const BalanceProblem balance(measurement, all_effects());
   return ForceMap(balance.windows_of(0.5, 0.125).problem, balance.runs()).scales().velocity;
+}
+
+// Frames too far apart give a stiffness that is none, and no frequency: what the setup says of it stays.
+TEST(Momentum, WithoutAStiffnessThereIsABalanceAllTheSame) {
+  const std::string folder = std::string(TEST_DATA) + "/long_pendulum/";
+  const shakedown::Setup setup = read_setup(folder + "setup.toml", all_effects());
+  MomentumOptions options;
+  options.formulas = false;
+  const MomentumAudit audit =
+      audit_momentum(measurement_of(setup, read_experiment(folder + "experiment.toml"), all_effects()),
+                     all_effects(), options);
+  EXPECT_TRUE(audit.possible);
+  EXPECT_TRUE(std::isfinite(audit.frequency));
 }
 
 TEST(Momentum, SpeedsOverAGapAreNotTheBoxs) {

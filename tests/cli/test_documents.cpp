@@ -135,6 +135,15 @@ std::pair<double, double> interval_in(const std::string& text, const std::string
   return {std::stod(found[1]), std::stod(found[2])};
 }
 
+TEST(Documents, TheRecordingOfSomebodyElseGetsTheAnswerOfTheReadMe) {
+  const fs::path folder = fs::path(TEST_DATA) / "filmed_pendulum";
+  const Outcome outcome = shakedown_program(
+      {"diagnose", (folder / "setup.toml").string(), "--data", (folder / "experiment.toml").string()});
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  const std::string sentence = outcome.out.substr(0, outcome.out.find('\n'));
+  EXPECT_NE(contents(root / "README.md").find(sentence), std::string::npos) << sentence;
+}
+
 // The tables are of our own laboratory: 0.02 N s/m, 8 mN and 1.26 Hz are hidden.
 TEST(Documents, TheRecordingOfTheReadMeGetsThatAnswer) {
   const fs::path folder = fs::path(TEST_DATA) / "leaf_spring";
