@@ -210,12 +210,14 @@ std::vector<std::string> as_hidden(std::vector<std::string> named, const std::ve
   return named;
 }
 
-/// A number that is none stands among those that could not be computed.
+/// A number that is none stands among those that could not be computed. A balance that was not possible (an
+/// encoder's rows are too uneven for it) has none, and says why.
 bool is_not_finite(const Diagnosis& diagnosis) {
   const nlohmann::json document = nlohmann::json::parse(diagnosis_json(diagnosis));
   const nlohmann::json none = document.value("not_computed", nlohmann::json::object());
-  return std::any_of(none.items().begin(), none.items().end(), [](const auto& one) {
-    return one.key().starts_with("/parameters/") || one.key().starts_with("/momentum/");
+  return std::any_of(none.items().begin(), none.items().end(), [&](const auto& one) {
+    return one.key().starts_with("/parameters/") ||
+           (diagnosis.momentum.possible && one.key().starts_with("/momentum/"));
   });
 }
 

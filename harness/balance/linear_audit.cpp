@@ -311,7 +311,9 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
   constexpr Eigen::Index least_windows = 20;
   audit.possible = p.problem.windows() > least_windows;
   if (!audit.possible) {
-    audit.why_not = "no run has both the box's and the grains' position over more than a few periods";
+    audit.why_not =
+        "no run has the positions of the box, and of its grains if there are any, in frames close together "
+        "over more than a few periods";
     return audit;
   }
   // A box that sticks obeys no sgn v: it is judged only where it moves by 30 standard deviations of the

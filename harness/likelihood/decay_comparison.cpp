@@ -16,12 +16,13 @@ struct Numbers {
   double frequency = absent, slope = absent;
   std::vector<double> peaks;
   std::string why_not;
+  std::optional<SteadyState> steady{};
 };
 
 /// Frames of one run that take part: right ones, from its start to the end of what still moves.
 struct UsedFrames {
-  std::vector<double> time, x;  ///< s, m
-  double middle = 0;            ///< m, about which the recorded box swings
+  std::vector<double> time, x, centre;  ///< s, m; centre of the grains: empty where it was not tracked
+  double middle = 0;                    ///< m, about which the recorded box swings
 };
 
 UsedFrames used_frames(const Measurement::Run& run, double end) {
@@ -29,30 +30,64 @@ UsedFrames used_frames(const Measurement::Run& run, double end) {
   const bool anywhere = starts_anywhere(recorded, setup);
   const double start = anywhere ? audit.release.start : std::max(0.0, audit.release.start);
   UsedFrames used;
+  std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < recorded.time.size(); ++i)
     if (std::isfinite(audit.x_box[i]) && recorded.time[i] >= start && recorded.time[i] <= end)
-      used.time.push_back(recorded.time[i]), used.x.push_back(audit.x_box[i]);
+      used.time.push_back(recorded.time[i]), used.x.push_back(audit.x_box[i]), numbers.push_back(i);
+  if (!audit.x_com.empty())
+    for (const std::size_t i : numbers) used.centre.push_back(audit.x_com[i]);
   if (anywhere && std::isfinite(audit.release.centre)) used.middle = audit.release.centre;
   return used;
 }
 
 /// What a simulation shows at these times; 500 Hz, so that a straight line between two samples is off by less
 /// than a micrometre for each centimetre of amplitude.
-std::vector<double> simulated_at(const std::vector<double>& times, const Recording& seen) {
+std::vector<double> at_times(const std::vector<double>& times, const std::vector<double>& time,
+                             const std::vector<double>& place) {
   std::vector<double> x;
   std::size_t after = 1;
   for (const double t : times) {
-    while (after + 1 < seen.time.size() && seen.time[after] < t) ++after;
-    const double share = (t - seen.time[after - 1]) / (seen.time[after] - seen.time[after - 1]);
-    x.push_back(seen.x_box[after - 1] + share * (seen.x_box[after] - seen.x_box[after - 1]));
+    while (after + 1 < time.size() && time[after] < t) ++after;
+    const double share = (t - time[after - 1]) / (time[after] - time[after - 1]);
+    x.push_back(place[after - 1] + share * (place[after] - place[after - 1]));
   }
   return x;
 }
 
-Numbers numbers_of(const std::vector<double>& time, const std::vector<double>& x, double middle,
-                   const Setup& setup, int most_peaks) {
-  const FrameMotion motion = frame_motion(time, x, middle, 4 * shortest_half_period(setup));
-  Numbers numbers{motion.frequency, decay_of(motion.peaks).linear.slope, {}, motion.why_not};
+/// Of a forced run, from frames on whatever clock; a cubic between them would be off where grains land.
+std::optional<SteadyState> steady_by_frames(const Setup& setup, const std::vector<double>& time,
+                                            const std::vector<double>& x, const std::vector<double>& centre) {
+  const std::optional<SteadyForcing> forcing = steady_forcing_of(setup);
+  if (!forcing || time.size() < 2) return {};
+  constexpr double steps_a_cycle = 200, fewest_frames = 20;
+  const double cycles = (time.back() - time.front()) * forcing->frequency;
+  if (cycles < steady_cycles || static_cast<double>(time.size()) < fewest_frames * cycles) return {};
+  Trajectory even;
+  const double step = 1 / (steps_a_cycle * forcing->frequency);
+  for (double t = 0; t <= time.back(); t += step) even.time.push_back(t);
+  // What comes before the first frame is not looked at.
+  const auto resampled = [&](const std::vector<double>& place) {
+    std::vector<double> values = at_times(even.time, time, place);
+    for (std::size_t i = 0; i < values.size() && even.time[i] < time.front(); ++i) values[i] = place.front();
+    return values;
+  };
+  even.x_box = resampled(x);
+  Setup seen = setup;
+  if (centre.empty())
+    seen.grains.count = 0;
+  else
+    even.x_com = resampled(centre);
+  return steady_state_if_any(seen, even);
+}
+
+Numbers numbers_of(const UsedFrames& frames, const Setup& setup, int most_peaks) {
+  const FrameMotion motion =
+      frame_motion(frames.time, frames.x, frames.middle, 4 * shortest_half_period(setup));
+  Numbers numbers{motion.frequency,
+                  decay_of(motion.peaks).linear.slope,
+                  {},
+                  motion.why_not,
+                  steady_by_frames(setup, frames.time, frames.x, frames.centre)};
   for (std::size_t i = 0; i < motion.peaks.size() && i < static_cast<std::size_t>(most_peaks); ++i)
     numbers.peaks.push_back(motion.peaks[i].position);
   return numbers;
@@ -97,14 +132,15 @@ std::vector<DecayComparison> compare_decay(const Measurement& measurement, const
         const Trajectory trajectory = workshop.engine->run(setup, options);
         if (trajectory.interrupted) throw Interrupted("interrupted");
         const Recording seen = recorded_by(physics_of(setup).camera, trajectory);
-        Numbers numbers =
-            numbers_of(frames[r].time, simulated_at(frames[r].time, seen), 0, setup, most_peaks);
+        UsedFrames as_filmed{frames[r].time, at_times(frames[r].time, seen.time, seen.x_box), {}, 0};
+        if (!frames[r].centre.empty()) as_filmed.centre = at_times(frames[r].time, seen.time, seen.x_com);
+        Numbers numbers = numbers_of(as_filmed, measurement.runs[r].setup, most_peaks);
         return [&, r, numbers = std::move(numbers)] { simulated[r].push_back(numbers); };
       });
   std::vector<DecayComparison> list;
   for (std::size_t r = 0; r < frames.size(); ++r) {
     const Measurement::Run& run = measurement.runs[r];
-    const Numbers measured = numbers_of(frames[r].time, frames[r].x, frames[r].middle, run.setup, most_peaks);
+    const Numbers measured = numbers_of(frames[r], run.setup, most_peaks);
     DecayComparison one{run.recorded.name,
                         number(measured, simulated[r], [](const Numbers& n) { return n.frequency; }),
                         number(measured, simulated[r], [](const Numbers& n) { return n.slope; }),
@@ -113,6 +149,14 @@ std::vector<DecayComparison> compare_decay(const Measurement& measurement, const
     for (std::size_t p = 0; p < measured.peaks.size(); ++p)
       one.peaks.push_back(number(measured, simulated[r],
                                  [p](const Numbers& n) { return p < n.peaks.size() ? n.peaks[p] : absent; }));
+    if (measured.steady) {
+      const auto of_steady = [&](double SteadyState::*member) {
+        return number(measured, simulated[r],
+                      [&](const Numbers& n) { return n.steady ? (*n.steady).*member : absent; });
+      };
+      one.forced = {of_steady(&SteadyState::amplitude), of_steady(&SteadyState::phase_lag),
+                    of_steady(&SteadyState::loss_factor), of_steady(&SteadyState::effective_mass)};
+    }
     list.push_back(std::move(one));
   }
   return list;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a person asks first of a measured run beside a model: frequency, slope of the decay and the first
-// peaks.
+// peaks; of a forced one its steady state.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,18 @@ struct MeasuredNumber {
   double measured = 0, model = 0, spread = 0;  ///< NaN where there is no such number
 };
 
+/// Over the last cycles of a forced run (SteadyState).
+struct ForcedComparison {
+  MeasuredNumber amplitude, phase_lag, loss_factor, effective_mass;  ///< m, rad, -, kg
+};
+
 struct DecayComparison {
   std::string run;
   MeasuredNumber frequency;           ///< Hz, of the first ten zero crossings
   MeasuredNumber slope;               ///< m/s, of |peaks| until 10 mm
   std::vector<MeasuredNumber> peaks;  ///< m, signed: the first ones
   std::string why_not;                ///< why there are no peaks; empty where there are
+  std::optional<ForcedComparison> forced{};
 };
 
 /// Simulated motion is read at the very frames of the measured one and by the same fits, so that a slow

@@ -33,7 +33,8 @@ struct FeaturePlan {
   std::vector<Reading> readings;
 };
 
-/// Bins from release to the end of what still moves: the last peak above `rest` (m), and one second more.
+/// Bins from release to the end of what still moves: the last peak above `rest` (m), and one second more; of
+/// a damper that is shaken to the end of the film.
 FeaturePlan plan_features(const Measurement::Run& measurement, Observed observed = Observed::all,
                           double rest = 4e-3, double bin = 0.1);
 

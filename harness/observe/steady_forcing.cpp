@@ -40,6 +40,8 @@ auto integral(F f, double from, double to) {
 
 namespace {
 
+bool moves_base(const EffectChoice& choice) { return choice.record->name == "base_motion"; }
+
 std::optional<SteadyForcing> forcing_of(const EffectChoice& choice) {
   const auto& harmonic = choice.record->search.harmonic;
   if (!harmonic || !harmonic->rate.empty()) return {};
@@ -83,12 +85,18 @@ std::optional<SteadyForcing> forcing_by_base(const Setup& setup, const EffectCho
 
 }  // namespace
 
+bool is_shaken(const Setup& setup) {
+  return std::any_of(setup.effects.begin(), setup.effects.end(), [](const EffectChoice& choice) {
+    return moves_base(choice) || forcing_of(choice).has_value();
+  });
+}
+
 std::optional<SteadyForcing> steady_forcing_of(const Setup& setup) {
   std::optional<SteadyForcing> found;
   for (const EffectChoice& choice : setup.effects) {
-    const bool moves_base = choice.record->name == "base_motion";
-    const std::optional<SteadyForcing> one = moves_base ? forcing_by_base(setup, choice) : forcing_of(choice);
-    if (!one && !moves_base) continue;
+    const std::optional<SteadyForcing> one =
+        moves_base(choice) ? forcing_by_base(setup, choice) : forcing_of(choice);
+    if (!one && !moves_base(choice)) continue;
     if (found || !one) return {};
     found = one;
   }
@@ -166,7 +174,9 @@ SteadyState steady_state(const Setup& setup, const Trajectory& trajectory) {
       (boundary(end) - boundary(begin) -
        omega / rate *
            integral([&](double place) { return std::cos(angle(place)) * worked_on(place); }, begin, end));
-  const double growth = value_at(trajectory.total_energy, end) - value_at(trajectory.total_energy, begin);
+  const double growth = trajectory.total_energy.empty() ? 0
+                                                        : value_at(trajectory.total_energy, end) -
+                                                              value_at(trajectory.total_energy, begin);
   state.loss_factor =
       (work - growth) / steady_cycles / (two_pi * physics.stiffness * state.amplitude * state.amplitude / 2);
   return state;

@@ -20,6 +20,10 @@ struct SteadyForcing {
   double base = 0;          ///< m, of the far end of the spring
 };
 
+/// Whether something shakes the damper all the time: it never comes to rest, and its momentum is not the
+/// spring's alone.
+bool is_shaken(const Setup& setup);
+
 /// The setup's forcing along the axis; nothing when there is none, more than one, or a base that does not
 /// swing as a sine up to the end of the run.
 std::optional<SteadyForcing> steady_forcing_of(const Setup& setup);
@@ -42,7 +46,8 @@ struct SteadyState {
 
 /// Over the last cycles of the trajectory, which has `steady_cycles` of them and 20 samples a cycle; a sweep
 /// simulates long_enough_for_forcing(setup). The loss is the work of the forcing, int (M a v_box + N m a
-/// v_com) dt or int k b v_box dt, less what the energy grew by: by parts it needs positions only.
+/// v_com) dt or int k b v_box dt, less what the energy grew by (nothing where the trajectory does not say):
+/// by parts it needs positions only.
 SteadyState steady_state(const Setup& setup, const Trajectory& trajectory);
 
 /// The same where the setup is forced and the trajectory is long and dense enough for it.
