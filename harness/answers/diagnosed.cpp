@@ -13,14 +13,20 @@
 #include "measured_against_model.hpp"
 #include "parameter_knobs.hpp"
 #include "setup_file.hpp"
+#include "suggestion.hpp"
 
 namespace shakedown {
 
 void check_diagnosed_names(const std::vector<std::string>& effects, const std::vector<std::string>& fixed) {
   std::vector<Violation> found;
+  std::vector<std::string_view> known;
+  for (const EffectRecord* effect : all_effects()) known.push_back(effect->name);
   for (const std::string& name : effects)
     if (find_effect(name) == nullptr)
-      found.push_back({{"--effects", 0, 0}, name, "is not an effect", "`shakedown effects` lists them"});
+      found.push_back({{"--effects", 0, 0},
+                       name,
+                       "is not an effect",
+                       did_you_mean(name, known) + "`shakedown effects` lists them"});
   std::vector<std::string> fitted;
   for (const Knob& knob : free_parameters(Setup{})) fitted.push_back(knob.key);
   for (const std::string& name : fixed)

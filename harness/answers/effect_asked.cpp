@@ -10,12 +10,10 @@ const EffectRecord& effect_asked(const std::string& name) {
   if (const EffectRecord* effect = find_effect(name)) return *effect;
   std::vector<std::string_view> names;
   for (const EffectRecord* effect : all_effects()) names.push_back(effect->name);
-  const std::string_view similar = nearest(name, names);
   throw InputError({{{},
                      "effects",
                      "there is no effect '" + name + "'",
-                     (similar.empty() ? "" : "did you mean '" + std::string(similar) + "'? ") +
-                         std::string("shakedown effects lists them all")}});
+                     did_you_mean(name, names) + "`shakedown effects` lists them all"}});
 }
 
 }  // namespace shakedown

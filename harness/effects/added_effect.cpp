@@ -21,10 +21,8 @@ const EffectRecord& record_named(const std::string& name) {
   if (const EffectRecord* record = find_effect(name)) return *record;
   std::vector<std::string_view> names;
   for (const EffectRecord* record : all_effects()) names.push_back(record->name);
-  const std::string_view near = nearest(name, names);
-  refuse(
-      {"EFFECT", 0, 0}, name, "is not an effect",
-      (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") + "`shakedown effects` lists them");
+  refuse({"EFFECT", 0, 0}, name, "is not an effect",
+         did_you_mean(name, names) + "`shakedown effects` lists them");
 }
 
 bool has(const Setup& setup, const EffectRecord& record) {

@@ -25,13 +25,10 @@ const EffectRecord& effect_named(const std::string& name, const std::string& ori
   if (const EffectRecord* record = find_effect(name)) return *record;
   std::vector<std::string_view> names;
   for (const EffectRecord* record : all_effects()) names.push_back(record->name);
-  const std::string_view near = nearest(name, names);
-  throw InputError(
-      {{{origin, 0, 0},
-        name,
-        "is not an effect",
-        near.empty() ? "`shakedown effects` lists them"
-                     : "did you mean '" + std::string(near) + "'? `shakedown effects` lists them"}});
+  throw InputError({{{origin, 0, 0},
+                     name,
+                     "is not an effect",
+                     did_you_mean(name, names) + "`shakedown effects` lists them"}});
 }
 
 /// Values for the parameters that must be given: their examples or defaults.

@@ -40,9 +40,7 @@ std::vector<std::string_view> keys_of_section(std::string_view section) {
 /// "did you mean ...?" and what is known.
 std::string remedy_for(std::string_view word, std::span<const std::string_view> candidates,
                        const std::string& what) {
-  const std::string_view near = nearest(word, candidates);
-  return (near.empty() ? "" : "did you mean '" + std::string(near) + "'? ") + what + ": " +
-         listed(candidates);
+  return did_you_mean(word, candidates) + what + ": " + listed(candidates);
 }
 
 // ---- overrides: written into the tree before anything is read, so that one reader checks both ----
@@ -217,9 +215,13 @@ struct Reader {
     const auto names = section_names();
     if (std::find(names.begin(), names.end(), section.key) == names.end()) {
       const bool effect = find_record(known, section.key) != nullptr;
+      std::vector<std::string_view> meant =
+          names_of(known);  // --set EFFECT.PARAMETER=VALUE has an effect there
+      meant.insert(meant.end(), names.begin(), names.end());
       return add(section.place, section.key, "is not a section of a setup",
-                 effect ? "write [[effect]] and name = " + toml_string(section.key)
-                        : remedy_for(section.key, names, "sections"));
+                 effect ? "write [[effect]] and name = " + toml_string(section.key) + ", or --set " +
+                              section.key + ".PARAMETER=VALUE"
+                        : did_you_mean(section.key, meant) + "sections: " + listed(names));
     }
     if (section.value.kind != TomlValue::Kind::table)
       return add(section.place, section.key,

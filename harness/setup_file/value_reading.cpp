@@ -98,6 +98,19 @@ ValueOrProblem<ParameterValue> widened(const ValueOrProblem<T>& value) {
   return ParameterValue(std::get<T>(value));
 }
 
+/// Which of them is meant only its writer knows, and a wrong one is a thousandfold error: both are shown.
+std::string with_units(double number, std::string_view unit) {
+  const std::string words = describe(unit_of(unit).dimension);  // "a mass (kg)"
+  const std::size_t open = words.find('(');
+  std::string si = open == std::string::npos ? "" : words.substr(open + 1, words.size() - open - 2);
+  if (si == unit) si.clear();
+  std::string text;
+  for (const std::string_view one : {std::string_view(si), unit})
+    if (!one.empty())
+      text += (text.empty() ? ": \"" : " or \"") + write_number(number) + " " + std::string(one) + "\"";
+  return text;
+}
+
 }  // namespace
 
 ValueOrProblem<double> number_in(const TomlValue& value, std::string_view unit) {
@@ -105,10 +118,9 @@ ValueOrProblem<double> number_in(const TomlValue& value, std::string_view unit) 
   if (bare && !std::isfinite(value.number)) return Problem{"is not a finite number", example(unit)};
   if (bare && unit.empty()) return value.number;
   if (bare)
-    return Problem{
-        "is the bare number " + write_number(value.number) + " (" + describe(unit_of(unit).dimension) +
-            " is expected)",
-        "write the unit that it has, e.g. \"" + write_number(value.number) + " " + std::string(unit) + "\""};
+    return Problem{"is the bare number " + write_number(value.number) + " (" +
+                       describe(unit_of(unit).dimension) + " is expected)",
+                   "write the unit that it has" + with_units(value.number, unit)};
   if (value.kind == TomlValue::Kind::text) return quantity_in(value.text, unit);
   return wrong_kind(value, describe(unit_of(unit).dimension), example(unit));
 }

@@ -25,6 +25,18 @@ TEST(EffectsCommand, KnowsWhatWasMeant) {
   const Outcome outcome = shakedown_program({"effects", "grain_frction"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("did you mean 'grain_friction'"), std::string::npos) << outcome.err;
+  const auto meant = [](const std::vector<std::string>& words) { return shakedown_program(words).err; };
+  EXPECT_NE(meant({"effects", "dry_friction"}).find("did you mean 'clamp_dry_friction'?"), std::string::npos);
+  EXPECT_NE(meant({"effects", "viscous_damping"}).find("did you mean 'blade_viscous_damping'?"),
+            std::string::npos);
+  const std::string several = meant({"effects", "frictoin"});
+  EXPECT_NE(several.find("'clamp_dry_friction'"), std::string::npos) << several;
+  EXPECT_NE(several.find("'grain_friction'"), std::string::npos) << several;
+  EXPECT_EQ(meant({"effects", "xyzzy"}).find("did you mean"), std::string::npos);
+  const std::string films = TEST_DATA "/leaf_spring/";
+  const std::string asked = meant(
+      {"diagnose", films + "setup.toml", "--data", films + "experiment.toml", "--effects", "clamp_friction"});
+  EXPECT_NE(asked.find("did you mean 'clamp_dry_friction' or"), std::string::npos) << asked;
 }
 
 TEST(SchemaCommand, PrintsAJsonSchemaOrATable) {

@@ -30,10 +30,12 @@ TEST(SetupOverride, ChangesKeysAndEffects) {
 TEST(SetupOverride, NamesItsOriginInMessages) {
   EXPECT_EQ(complaint("", {{"box.length", "65"}}),
             "--set: box.length: is the bare number 65 (a length (m) is expected); write the unit that it "
-            "has, e.g. \"65 mm\"");
+            "has: \"65 m\" or \"65 mm\"");
   EXPECT_EQ(complaint("", {{"box.lenth", "65mm"}}),
             "--set: box.lenth: is not a key of a setup (the section has no such key); did you mean 'length'? "
             "keys of [box]: mass, length, width");
+  EXPECT_EQ(complaint("", {{"test_darg.strength", "1 N s/m"}}).substr(0, 77),
+            "--set: test_darg: is not a section of a setup; did you mean 'test_drag'? sect");
   EXPECT_EQ(complaint("", {{"nothing", "65mm"}}).substr(0, 47),
             "--set: nothing: is not a section of a setup; se");
   EXPECT_THROW(parse_override("box.length"), InputError);

@@ -32,8 +32,10 @@ TEST(SetupMistakes, UnknownKeys) {
   EXPECT_EQ(complaint("[[effect]]\nname = \"test_drag\"\nstrenght = \"1 N s/m\""),
             "s.toml:3:1: test_drag.strenght: is not a parameter of this effect; did you mean 'strength'? its "
             "parameters: strength");
-  EXPECT_EQ(complaint("[test_drag]\nstrength = \"1 N s/m\""),
-            "s.toml:1:2: test_drag: is not a section of a setup; write [[effect]] and name = \"test_drag\"");
+  EXPECT_EQ(
+      complaint("[test_drag]\nstrength = \"1 N s/m\""),
+      "s.toml:1:2: test_drag: is not a section of a setup; write [[effect]] and name = \"test_drag\", or "
+      "--set test_drag.PARAMETER=VALUE");
   EXPECT_EQ(complaint("[effect]\nname = \"test_drag\""),
             "s.toml:1:2: effect: is a table (a list of effects is expected); write [[effect]] with double "
             "brackets for each effect");
@@ -44,7 +46,7 @@ TEST(SetupMistakes, UnknownKeys) {
 TEST(SetupMistakes, WrongUnitsAndBareNumbers) {
   EXPECT_EQ(complaint("[box]\nlength = 40"),
             "s.toml:2:10: box.length: is the bare number 40 (a length (m) is expected); write the unit that "
-            "it has, e.g. \"40 mm\"");
+            "it has: \"40 m\" or \"40 mm\"");
   EXPECT_EQ(complaint("[box]\nlength = \"40\""),
             "s.toml:2:10: box.length: \"40\" has no unit (a length (m) is expected); write a number and a "
             "unit in quotation marks, e.g. \"1 mm\"");
