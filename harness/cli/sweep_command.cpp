@@ -90,11 +90,14 @@ void present(const ResultFile& file, const std::string& name, const Presentation
   if (!how.table.empty()) write_file(how.table, summary_csv(file.identity(), summaries_of(rows)));
   const std::string missing =
       rows.size() < jobs ? fmt::format(" of {} so far (the digest of all comes with the last)", jobs) : "";
-  fmt::print(how.json.for_people(), "{}: {} runs{}, digest {}\n", name, rows.size(), missing,
+  const std::string finding = finding_of(file.identity(), summaries_of(rows));
+  fmt::print(how.json.for_people(), "{}\n{}: {} runs{}, digest {}\n", finding, name, rows.size(), missing,
              results_digest(rows));
   if (how.report.wanted(""))
     fmt::print(how.json.for_people(), "{}", how.report.write(report_of(file, name), ""));
-  const std::string document = json_of(rows, file.identity(), complete).dump(2) + "\n";
+  nlohmann::ordered_json document_of = json_of(rows, file.identity(), complete);
+  document_of["finding"] = finding;
+  const std::string document = document_of.dump(2) + "\n";
   how.json.write(taken != nullptr ? taken->added_to(document) : document);
 }
 

@@ -219,28 +219,28 @@ std::string place(const SweepIdentity& identity, const PointSummary& point) {
   return text;
 }
 
-/// What stands out, in a sentence.
-std::string sentence_of(const SweepIdentity& identity, const std::vector<PointSummary>& points) {
-  const std::size_t amplitude = column_of("steady_amplitude_mm"),
-                    time = column_of("seconds_to_lose_95_percent");
-  const PointSummary *most = nullptr, *soonest = nullptr;
-  for (const PointSummary& point : points) {
-    if (std::isfinite(at(point.mean, amplitude)) &&
-        (most == nullptr || point.mean[amplitude] > most->mean[amplitude]))
-      most = &point;
-    if (std::isfinite(at(point.mean, time)) && (soonest == nullptr || point.mean[time] < soonest->mean[time]))
-      soonest = &point;
-  }
-  if (most != nullptr)
-    return fmt::format("Forced, the box swings most at {}: {} mm.", place(identity, *most),
-                       for_people(most->mean[amplitude]));
-  if (soonest != nullptr)
-    return fmt::format("95 % of the energy is gone soonest at {}: after {} s.", place(identity, *soonest),
-                       for_people(soonest->mean[time]));
+}  // namespace
+
+std::string finding_of(const SweepIdentity& identity, const std::vector<PointSummary>& points) {
+  const auto best = [&](const char* number, double sign) {
+    const std::size_t column = column_of(number);
+    const PointSummary* found = nullptr;
+    for (const PointSummary& point : points) {
+      const double value = sign * at(point.mean, column);
+      if (std::isfinite(value) && (found == nullptr || value < sign * found->mean[column])) found = &point;
+    }
+    return std::pair(found, found == nullptr ? std::nan("") : found->mean[column]);
+  };
+  if (const auto [point, mm] = best("steady_amplitude_mm", -1); point != nullptr)
+    return fmt::format("Forced, the box swings most at {}: {} mm.", place(identity, *point), for_people(mm));
+  if (const auto [point, seconds] = best("seconds_to_lose_95_percent", 1); point != nullptr)
+    return fmt::format("95 % of the energy is gone soonest at {}: after {} s.", place(identity, *point),
+                       for_people(seconds));
+  if (const auto [point, left] = best("energy_left", 1); point != nullptr)
+    return fmt::format("No point loses 95 % of its energy within the run; least is left at {}: {} %.",
+                       place(identity, *point), for_people(100 * left));
   return fmt::format("{} points swept.", points.size());
 }
-
-}  // namespace
 
 Report report_of(const ResultFile& file, const std::string& name) {
   const std::vector<ResultRow> rows = file.rows();
@@ -251,7 +251,7 @@ Report report_of(const ResultFile& file, const std::string& name) {
   Report report;
   report.kind = "sweep";
   report.title = name;
-  report.sentence = sentence_of(identity, points);
+  report.sentence = finding_of(identity, points);
   report.subtitle = fmt::format("Engine {}; {} point{}, {} runs.", identity.engine, points.size(),
                                 points.size() == 1 ? "" : "s", rows.size());
   report.facts = {{"Points", fmt::format("{}", points.size()), "", Tone::plain},

@@ -28,7 +28,13 @@ TEST_F(SweepCommand, ShardsMergedEqualSerialAndTheTableHoldsThePoints) {
       sweep("serial.sqlite", {"--table", in_folder("table.csv"), "--json", in_folder("s.json")}));
   ASSERT_EQ(serial.code, 0) << serial.err;
   EXPECT_NE(serial.err.find("3 points, 9 runs"), std::string::npos) << serial.err;
-  EXPECT_EQ(nlohmann::json::parse(contents(in_folder("s.json")))["digest"], digest_in(serial.out));
+  const auto document = nlohmann::json::parse(contents(in_folder("s.json")));
+  EXPECT_EQ(document["digest"], digest_in(serial.out));
+  const std::string finding = document["finding"];
+  EXPECT_TRUE(
+      finding.starts_with("No point loses 95 % of its energy within the run; least is left at box.length = "))
+      << finding;
+  EXPECT_TRUE(serial.out.starts_with(finding + "\n")) << serial.out;
   const std::string table = contents(in_folder("table.csv"));
   EXPECT_TRUE(table.starts_with("box_length_mm,runs,failures,slope_mm_per_s,")) << table.substr(0, 100);
   EXPECT_NE(table.find("\n50,3,0,"), std::string::npos);
