@@ -21,7 +21,7 @@ std::string extended_xyz(const Frame& frame) {
   const Vec3 size = frame.box_high - frame.box_low;
   std::string text = fmt::format(
       "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" Origin=\"{} {} {}\" "
-      "Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1{}:id:I:1 Time={} "
+      "Properties=species:S:1:pos:R:3:velo:R:3:momenta:R:3:radius:R:1:mass:R:1:masses:R:1{}:id:I:1 Time={} "
       "box_position={} box_velocity={} units=SI pbc=\"F F F\"\n",
       s.size(), size.x(), size.y(), size.z(), frame.box_low.x(), frame.box_low.y(), frame.box_low.z(),
       s.spin.empty() ? "" : ":angular_velocity:R:3", frame.time, s.x_box, s.v_box);
@@ -29,7 +29,8 @@ std::string extended_xyz(const Frame& frame) {
     text += "X ";
     append(text, s.position[i], ' ');
     append(text, s.velocity[i], ' ');
-    fmt::format_to(std::back_inserter(text), "{} {} ", s.radius[i], s.mass[i]);
+    append(text, s.mass[i] * s.velocity[i], ' ');
+    fmt::format_to(std::back_inserter(text), "{} {} {} ", s.radius[i], s.mass[i], s.mass[i]);
     if (!s.spin.empty()) append(text, s.spin[i], ' ');
     fmt::format_to(std::back_inserter(text), "{}\n", i + 1);
   }

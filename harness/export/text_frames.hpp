@@ -7,8 +7,8 @@
 
 namespace shakedown {
 
-/// Extended XYZ (OVITO, ASE): id, positions, velocities, radii, masses and spins; the cell is the box, its
-/// origin moves.
+/// Extended XYZ: id, positions, velocities, radii, masses and spins, by the names of OVITO (velo, mass) and
+/// again by those of ASE (momenta, masses); the cell is the box, its origin moves.
 std::string extended_xyz(const Frame& frame);
 
 /// LAMMPS dump, units si (OVITO, VMD, pandas).

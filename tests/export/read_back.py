@@ -18,7 +18,8 @@ try:
         if form == "xyz":
             frames = ase.io.read(folder + "/motion.xyz", ":")
             last = frames[-1]
-            show(len(frames), len(last), last.info["Time"], last.positions[5][0], last.arrays["velo"][5][1], last.arrays["radius"][5], last.cell.lengths()[0])
+            show(len(frames), len(last), last.info["Time"], last.positions[5][0], last.arrays["velo"][5][1], last.arrays["radius"][5],
+                 last.get_velocities()[5][1], last.get_masses()[5], last.arrays["mass"][5], last.cell.lengths()[0])
         else:
             frames = ase.io.read(folder + "/motion.lammpstrj", ":", format="lammps-dump-text")
             last = frames[-1]
