@@ -10,7 +10,7 @@ namespace shakedown {
 
 namespace {
 
-constexpr double of_95_percent = 1.96;
+constexpr double deviations_of_95_percent = 1.96;
 
 /// Something that multiplies the balance, with its standard deviation, SI.
 struct CommonFactor {
@@ -81,7 +81,7 @@ void allow_for_scales(const Measurement& measurement, std::span<const EffectReco
       // In parts of the value: the fit here may differ a little from the one that was told.
       FoundTerm& term = audit.terms[i];
       const double change = here[i] != 0 ? term.value * (moved[i] - here[i]) / here[i] : 0;
-      const double wide = of_95_percent * std::abs(change) * factor.deviation / factor.step;
+      const double wide = deviations_of_95_percent * std::abs(change) * factor.deviation / factor.step;
       term.low = term.value - std::hypot(term.value - term.low, wide);
       term.high = term.value + std::hypot(term.high - term.value, wide);
     }

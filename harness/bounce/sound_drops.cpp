@@ -13,7 +13,7 @@ namespace shakedown {
 
 namespace {
 
-constexpr double shortest = 0.03, longest = 2.5;  // s, of a flight
+constexpr double shortest_flight = 0.03, longest_flight = 2.5;  // s, of a flight
 constexpr double least_ratio = 0.3, most_ratio = 0.995;
 constexpr double ratio_changes =
     0.025;                          // deviation of an interval from what the last two foretell, its share
@@ -58,7 +58,7 @@ Chain followed(const std::vector<Onset>& onsets, std::size_t a, std::size_t b, d
   Chain chain{{a, b}, 0};
   double interval = onsets[b].time - onsets[a].time, at = onsets[b].time;
   int missing = 0;
-  while (interval * ratio > shortest) {
+  while (interval * ratio > shortest_flight) {
     const double next = interval * ratio, deviation = ratio_changes * next + placed_to;
     const std::size_t found = nearest(onsets, at + next, furthest * deviation);
     if (found == onsets.size() || found <= chain.members.back()) {
@@ -120,8 +120,8 @@ std::vector<std::size_t> chain_of(const std::vector<Onset>& all, bool first) {
   for (std::size_t a = 0; a < onsets.size(); ++a)
     for (std::size_t b = a + 1; b < onsets.size(); ++b) {
       const double interval = onsets[b].time - onsets[a].time;
-      if (interval < shortest) continue;
-      if (interval > longest) break;
+      if (interval < shortest_flight) continue;
+      if (interval > longest_flight) break;
       for (std::size_t c = b + 1; c < onsets.size(); ++c) {
         const double ratio = (onsets[c].time - onsets[b].time) / interval;
         if (ratio < least_ratio) continue;

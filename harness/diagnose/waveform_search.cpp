@@ -18,7 +18,7 @@ namespace shakedown {
 
 namespace {
 
-constexpr double impossible = -std::numeric_limits<double>::infinity();
+constexpr double no_odds = -std::numeric_limits<double>::infinity();
 
 /// A second swing nearer than this to the box's own, or to a multiple of it, is none: the one exchanges
 /// energy with the box (beats), the other is a harmonic.
@@ -166,7 +166,7 @@ class WaveformSearch {
     return log_prior_odds(fit, static_cast<double>(laws_.size()), fit.frequency());
   }
   double log_odds_of(const WaveformFit& fit) const {
-    return fit.possible ? prior_of(fit) - fit.chi2 / 2 : impossible;
+    return fit.possible ? prior_of(fit) - fit.chi2 / 2 : no_odds;
   }
 
   /// The law that makes the whole most probable, if one does.

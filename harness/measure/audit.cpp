@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
+#include "nothing.hpp"
 #include "outliers.hpp"
 #include "robust_statistics.hpp"
 #include "slow_wander.hpp"
@@ -13,8 +13,6 @@
 namespace shakedown {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 double frame_interval_of(const std::vector<double>& time) {
   std::vector<double> intervals;

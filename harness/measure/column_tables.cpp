@@ -13,7 +13,7 @@ namespace shakedown {
 
 namespace {
 
-using Kind = TomlValue::Kind;
+using TomlKind = TomlValue::Kind;
 using Violations = std::vector<Violation>;
 using Reader = ExperimentReader;
 
@@ -27,7 +27,7 @@ class PositionReader {
   std::optional<double> read(std::string_view key) const {
     const TomlValue* value = reader_->find(key);
     if (!value) return std::nullopt;
-    if (value->kind == Kind::text && value->text.ends_with("px") && pixel_size_ > 0)
+    if (value->kind == TomlKind::text && value->text.ends_with("px") && pixel_size_ > 0)
       return pixels(*value, key);
     if (choice_->per_radian > 0 || is_unit_of_angle(choice_->unit)) return angle(*value, key);
     return number(*value, key, "mm");
@@ -51,7 +51,7 @@ class PositionReader {
 
   std::optional<double> angle(const TomlValue& value, std::string_view key) const {
     const bool has_unit =
-        value.kind == Kind::text && (value.text.ends_with("rad") || value.text.ends_with("deg"));
+        value.kind == TomlKind::text && (value.text.ends_with("rad") || value.text.ends_with("deg"));
     if (!has_unit) {
       reader_->report(value, key, "is no angle, where the column holds angles",
                       "write it in rad or deg, e.g. \"3.1416 rad\"");
@@ -100,7 +100,7 @@ RunColumns read_column_tables(const TomlValue* table, const std::string& path, R
     const auto choice = [&](const std::optional<ColumnChoice>& wider) {
       return column_choice(entry.value, below, wider.value_or(ColumnChoice{}), pixel_size, violations);
     };
-    if (entry.value.kind != Kind::table)
+    if (entry.value.kind != TomlKind::table)
       violations.push_back({entry.place, path + entry.key,
                             "is " + std::string(describe(entry.value.kind)) + " where a table is due",
                             "write [column." + entry.key + "] with from = \"header of the column\""});

@@ -23,16 +23,16 @@ namespace shakedown {
 
 namespace {
 
-using Kind = TomlValue::Kind;
+using TomlKind = TomlValue::Kind;
 using Violations = std::vector<Violation>;
 using Reader = ExperimentReader;
 
 /// A value of the file as an override of the setup would be written on the command line.
 std::string as_written(const TomlValue& value) {
-  if (value.kind == Kind::text) return toml_string(value.text);
-  if (value.kind == Kind::integer) return std::to_string(value.integer);
-  if (value.kind == Kind::boolean) return value.boolean ? "true" : "false";
-  if (value.kind == Kind::number) return write_number(value.number);
+  if (value.kind == TomlKind::text) return toml_string(value.text);
+  if (value.kind == TomlKind::integer) return std::to_string(value.integer);
+  if (value.kind == TomlKind::boolean) return value.boolean ? "true" : "false";
+  if (value.kind == TomlKind::number) return write_number(value.number);
   std::string list;
   for (const TomlValue& item : value.items) list += (list.empty() ? "" : ", ") + as_written(item);
   return "[" + list + "]";
@@ -42,7 +42,7 @@ void add_overrides(const TomlValue& table, const std::string& path, const std::s
                    MeasuredRun& run) {
   for (const TomlEntry& entry : table.entries) {
     const std::string key = path + entry.key;
-    if (entry.value.kind == Kind::table) {
+    if (entry.value.kind == TomlKind::table) {
       add_overrides(entry.value, key + ".", file, run);
       continue;
     }
@@ -64,8 +64,8 @@ void split_run_keys(const TomlValue& table, const std::string& file, MeasuredRun
   const std::vector<std::string_view> own_keys = names_of_keys(ExperimentTable::run);
   for (const TomlEntry& entry : table.entries) {
     const bool own = std::find(own_keys.begin(), own_keys.end(), entry.key) != own_keys.end();
-    if (own && (entry.key != "release" || entry.value.kind != Kind::table)) continue;
-    if (entry.value.kind == Kind::table) {
+    if (own && (entry.key != "release" || entry.value.kind != TomlKind::table)) continue;
+    if (entry.value.kind == TomlKind::table) {
       rest.entries.push_back(entry);
       continue;
     }
@@ -106,7 +106,7 @@ void take_length_and_grains(const Reader& reader, const std::filesystem::path& f
 /// box.length, as the setup writes it, means the same as box_length.
 void take_length_of_setup(const TomlValue& table, MeasuredRun& run, Violations& violations) {
   const TomlValue* box = table.find("box");
-  const TomlValue* length = box && box->kind == Kind::table ? box->find("length") : nullptr;
+  const TomlValue* length = box && box->kind == TomlKind::table ? box->find("length") : nullptr;
   if (!length) return;
   if (std::isfinite(run.box_length)) {
     violations.push_back(
@@ -292,7 +292,7 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
   if (const TomlValue* known = reader.table("known"))
     experiment.known = read_known(*known, "known.", violations, effects);
   reader.report_unknown();
-  if (!runs || runs->kind != Kind::array || runs->items.empty())
+  if (!runs || runs->kind != TomlKind::array || runs->items.empty())
     violations.push_back(
         {{name, 0, 0}, "run", "is missing (no run to compare with)", "add [[run]] with file and box_length"});
   else

@@ -17,7 +17,7 @@ namespace shakedown {
 
 namespace {
 
-using Kind = TomlValue::Kind;
+using TomlKind = TomlValue::Kind;
 
 constexpr std::array<CameraKey, 9> keys_of_camera{{
     {"camera.scale", "", false, false,
@@ -181,7 +181,7 @@ std::string example_of(std::string_view unit) {
 
 ValueOrProblem<double> number_of(const Written& written, std::string_view unit) {
   TomlValue value;
-  value.kind = Kind::text;
+  value.kind = TomlKind::text;
   value.text = written.text();
   return number_in(value, unit);
 }
@@ -197,7 +197,7 @@ ValueOrProblem<double> error_of(const ValueAndError& both, double value, std::st
 /// Value and error of `known`, or the problem.
 std::optional<Problem> take(const TomlValue& from, const Target& target, KnownValue& known) {
   const std::string remedy = "write value and error, e.g. " + example_of(target.unit);
-  if (from.kind != Kind::text)
+  if (from.kind != TomlKind::text)
     return Problem{"is " + std::string(describe(from.kind)) + " (a text with value and error is expected)",
                    remedy};
   const std::optional<ValueAndError> both = split_error(from.text);
@@ -231,7 +231,7 @@ void read_entries(const TomlValue& table, const std::string& above, const std::s
                   std::vector<Violation>& violations) {
   for (const TomlEntry& entry : table.entries) {
     const std::string key = above + entry.key;
-    if (entry.value.kind == Kind::table) {  // box.mass without quotation marks
+    if (entry.value.kind == TomlKind::table) {  // box.mass without quotation marks
       read_entries(entry.value, key + ".", path, effects, all, violations);
       continue;
     }

@@ -2,19 +2,17 @@
 #include "measurement.hpp"
 
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "errors.hpp"
 #include "experiment_file.hpp"
 #include "known_setup.hpp"
+#include "nothing.hpp"
 #include "setup_file.hpp"
 
 namespace shakedown {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// How thick the layer is depends on the grains: runs with others have a plateau of their own.
 std::string grains_of(const MeasuredRun& run) {

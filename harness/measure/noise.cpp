@@ -4,16 +4,15 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "nothing.hpp"
 #include "robust_statistics.hpp"
 
 namespace shakedown {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double usual_noise = 1e-3;       // m, of a camera of which nothing is known
 constexpr double without_a_camera = 1e-9;  // m, in positions that a simulation gave as they are
 constexpr int lowest_order = 4, highest_order = 14;
@@ -24,20 +23,13 @@ constexpr double leak_allowed = 0.2;
 constexpr double moving_share = 0.05;
 /// A step of rounding matters from this share of the noise on.
 constexpr double matters = 0.3;
-constexpr std::size_t fewest = 20;  // differences that make a standard deviation
+constexpr std::size_t fewest_differences = 20;  // differences that make a standard deviation
 /// Differences of this order and of the next agree within this share where they see noise alone, and no more
 /// than this share of them lies beyond 2.5 standard deviations (1.2 % of a normal distribution do).
 constexpr double orders_agree = 0.25, most_beyond = 0.1;
 /// Differences of noise alone are as large as what they are taken of; where a motion is resolved they are
 /// less than this share of it.
 constexpr double resolved = 0.5;
-
-std::vector<double> finite_of(const std::vector<double>& values) {
-  std::vector<double> kept;
-  for (const double value : values)
-    if (std::isfinite(value)) kept.push_back(value);
-  return kept;
-}
 
 /// Standard deviation about zero of what is normal among the values: beyond 2.5 of it they are landings or
 /// wrong frames, and the 0.91126 of the variance that a normal distribution has within corrects for the cut.
@@ -46,7 +38,7 @@ double clipped_deviation(const std::vector<double>& values) {
   std::vector<double> sizes;
   for (const double value : values)
     if (std::isfinite(value)) sizes.push_back(std::abs(value));
-  if (sizes.size() < fewest) return nothing;
+  if (sizes.size() < fewest_differences) return nothing;
   double deviation = 1.482602218505602 * median(sizes);
   for (int pass = 0; pass < 20 && deviation > 0; ++pass) {
     double squares = 0, count = 0;

@@ -2,25 +2,17 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "noise.hpp"
+#include "nothing.hpp"
 #include "robust_statistics.hpp"
 
 namespace shakedown {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 /// With fewer frames a period the motion's own kinks have the colour of noise with a memory.
 constexpr double frames_for_colour = 40;
-
-std::vector<double> finite_of(const std::vector<double>& values) {
-  std::vector<double> kept;
-  for (const double value : values)
-    if (std::isfinite(value)) kept.push_back(value);
-  return kept;
-}
 
 constexpr std::size_t lags = 1 + colour_lags;
 using Autocovariance = std::array<double, lags>;

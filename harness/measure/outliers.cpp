@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "motion_seen.hpp"
+#include "nothing.hpp"
 #include "robust_statistics.hpp"
 
 namespace shakedown {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Judges frames by their neighbours: two on the left, two on the right, one of each. A landing spoils one or
 /// two of these predictions, an outlier all three.

@@ -4,9 +4,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "nothing.hpp"
 #include "robust_statistics.hpp"
 #include "slow_wander.hpp"
 
@@ -14,7 +14,6 @@ namespace shakedown {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double first_moments =
     0.06;                          // s, in which a parabola describes the start of a damper of about 1 Hz
 constexpr std::size_t fewest = 6;  // frames of a fit

@@ -5,22 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 
+#include "nothing.hpp"
 #include "robust_statistics.hpp"
 
 namespace shakedown {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
 struct Point {
   double time, x;
 };
 
-std::vector<Point> present(const std::vector<double>& time, const std::vector<double>& x) {
+std::vector<Point> points_of(const std::vector<double>& time, const std::vector<double>& x) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < time.size() && i < x.size(); ++i)
     if (std::isfinite(x[i])) points.push_back({time[i], x[i]});
@@ -148,7 +146,7 @@ double unbroken_share(const std::vector<Point>& points, double interval) {
 
 RoughMotion rough_motion(const std::vector<double>& time, const std::vector<double>& x) {
   RoughMotion motion{nothing, nothing, nothing, nothing, nothing, nothing, 0, nothing, nothing, 0};
-  const std::vector<Point> points = present(time, x);
+  const std::vector<Point> points = points_of(time, x);
   if (points.size() < 5) return motion;
   const double interval = typical_interval(points);
   motion.unbroken = unbroken_share(points, interval);
@@ -166,7 +164,7 @@ RoughMotion rough_motion(const std::vector<double>& time, const std::vector<doub
 
 double distance_from_sine(const std::vector<double>& time, const std::vector<double>& x, double frequency,
                           double centre) {
-  const std::vector<Point> points = present(time, x);
+  const std::vector<Point> points = points_of(time, x);
   if (points.size() < 5 || !std::isfinite(frequency)) return nothing;
   const double sixth = 1 / (6 * frequency);
   const auto shift = static_cast<std::size_t>(std::lround(sixth / typical_interval(points)));

@@ -19,14 +19,15 @@ std::optional<int> whole_number(std::string_view text) {
   return number;
 }
 
-[[noreturn]] void refuse(std::string source, std::string problem, std::string remedy) {
+[[noreturn]] void refuse_share(std::string source, std::string problem, std::string remedy) {
   throw InputError({{{std::move(source), 0, 0}, "", std::move(problem), std::move(remedy)}});
 }
 
 JobShare share_of(std::string source, int index, int of) {
   if (of < 1 || index < 0 || index >= of)
-    refuse(std::move(source), fmt::format("says {} of {} (counted from 0), which is no share", index, of),
-           "say which share with --shard i/n");
+    refuse_share(std::move(source),
+                 fmt::format("says {} of {} (counted from 0), which is no share", index, of),
+                 "say which share with --shard i/n");
   return {index, of, std::move(source)};
 }
 
@@ -39,7 +40,8 @@ class Reader {
     if (!text || *text == "undefined") return {};  // Grid Engine says so outside arrays
     const std::optional<int> value = whole_number(*text);
     if (!value)
-      refuse(name, fmt::format("is \"{}\", not a whole number", *text), "say which share with --shard i/n");
+      refuse_share(name, fmt::format("is \"{}\", not a whole number", *text),
+                   "say which share with --shard i/n");
     return value;
   }
 
@@ -84,8 +86,8 @@ JobShare parse_share(std::string_view text) {
   const std::optional<int> index = whole_number(text.substr(0, slash));
   const std::optional<int> of = slash == text.npos ? std::nullopt : whole_number(text.substr(slash + 1));
   if (!index || !of || *of < 1 || *index < 1 || *index > *of)
-    refuse("--shard", fmt::format("\"{}\" is no share", text),
-           "write i/n with i from 1 to n, e.g. --shard 2/8");
+    refuse_share("--shard", fmt::format("\"{}\" is no share", text),
+                 "write i/n with i from 1 to n, e.g. --shard 2/8");
   return {*index - 1, *of, "--shard"};
 }
 

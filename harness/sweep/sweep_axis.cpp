@@ -17,7 +17,7 @@ namespace {
 constexpr double most_values = 100000;
 constexpr const char* remedy_form = "write KEY=FROM:TO:STEP or KEY=A,B,C, e.g. box.length=25mm:600mm:5mm";
 
-[[noreturn]] void refuse(std::string_view key, std::string problem, std::string remedy = remedy_form) {
+[[noreturn]] void refuse_key(std::string_view key, std::string problem, std::string remedy = remedy_form) {
   throw InputError({{{"--vary", 0, 0}, std::string(key), std::move(problem), std::move(remedy)}});
 }
 
@@ -62,13 +62,14 @@ std::vector<double> numbers_in(const std::string& key, std::vector<std::string> 
     if (is_bare(part)) part += " " + common;
     const auto parsed = parse_quantity(part);
     if (const auto* reason = std::get_if<std::string>(&parsed))
-      refuse(key, fmt::format("\"{}\" {}", part, *reason));
+      refuse_key(key, fmt::format("\"{}\" {}", part, *reason));
     const Quantity quantity = std::get<Quantity>(parsed);
     const Dimension due = std::get<Unit>(parse_unit(unit)).dimension;
     if (quantity.dimension != due)
-      refuse(key, fmt::format("\"{}\" is {} (needs {})", part, describe(quantity.dimension), describe(due)),
-             unit.empty() ? "give a bare number" : "give it in " + unit);
-    if (!std::isfinite(quantity.si)) refuse(key, fmt::format("\"{}\" is not a finite number", part));
+      refuse_key(key,
+                 fmt::format("\"{}\" is {} (needs {})", part, describe(quantity.dimension), describe(due)),
+                 unit.empty() ? "give a bare number" : "give it in " + unit);
+    if (!std::isfinite(quantity.si)) refuse_key(key, fmt::format("\"{}\" is not a finite number", part));
     numbers.push_back(quantity.si);
   }
   return numbers;
@@ -78,10 +79,12 @@ std::vector<double> numbers_in(const std::string& key, std::vector<std::string> 
 std::vector<double> steps(const std::string& key, double from, double to, double step,
                           const std::string& unit) {
   if (step == 0 || (to - from) / step < 0)
-    refuse(key, "never gets from the first value to the last", "give a step other than 0 that leads there");
+    refuse_key(key, "never gets from the first value to the last",
+               "give a step other than 0 that leads there");
   const double count = std::floor((to - from) / step * (1 + 1e-9) + 1e-9) + 1;
   if (count > most_values)
-    refuse(key, fmt::format("has {:.0f} values (at most {:.0f})", count, most_values), "take a larger step");
+    refuse_key(key, fmt::format("has {:.0f} values (at most {:.0f})", count, most_values),
+               "take a larger step");
   const double si = std::get<Unit>(parse_unit(unit)).si;
   std::vector<double> values;
   for (int i = 0; i < count; ++i) {
@@ -107,20 +110,20 @@ std::string SweepAxis::column() const {
 
 SweepAxis parse_axis(std::string_view text, std::span<const EffectRecord* const> known) {
   const std::size_t equals = text.find('=');
-  if (equals == text.npos || equals == 0) refuse(text, "names no range");
+  if (equals == text.npos || equals == 0) refuse_key(text, "names no range");
   SweepAxis axis{std::string(text.substr(0, equals)), "", {}};
   axis.unit = unit_of(axis.key, known);
   const std::string_view range = text.substr(equals + 1);
   const bool stepped = range.find(':') != range.npos;
   const std::vector<std::string> parts = parts_of(range, stepped ? ':' : ',');
   if (stepped && parts.size() != 3)
-    refuse(axis.key, fmt::format("\"{}\" has {} parts (a range has 3)", range, parts.size()));
+    refuse_key(axis.key, fmt::format("\"{}\" has {} parts (a range has 3)", range, parts.size()));
   const std::vector<double> numbers = numbers_in(axis.key, parts, axis.unit);
   axis.values = stepped ? steps(axis.key, numbers[0], numbers[1], numbers[2], axis.unit) : numbers;
   std::vector<double> sorted = axis.values;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
-    refuse(axis.key, "has one value twice", "name each value once");
+    refuse_key(axis.key, "has one value twice", "name each value once");
   return axis;
 }
 
@@ -132,7 +135,7 @@ std::vector<SweepAxis> parse_axes(const std::vector<std::string>& texts,
     try {
       axes.push_back(parse_axis(text, known));
       for (std::size_t i = 0; i + 1 < axes.size(); ++i)
-        if (axes[i].key == axes.back().key) refuse(axes[i].key, "is varied twice", "give it one range");
+        if (axes[i].key == axes.back().key) refuse_key(axes[i].key, "is varied twice", "give it one range");
     } catch (const InputError& error) {
       found.insert(found.end(), error.violations.begin(), error.violations.end());
     }

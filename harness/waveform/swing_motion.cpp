@@ -9,7 +9,7 @@ namespace shakedown {
 
 namespace {
 
-struct State {
+struct SwingState {
   double t = 0, x = 0, v = 0;
 };
 
@@ -23,9 +23,9 @@ class Swing {
     if (turns()) set_off(now_.v);
   }
 
-  const State& now() const { return now_; }
+  const SwingState& now() const { return now_; }
   bool rests() const { return resting_; }
-  double acceleration(const State& s) const {
+  double acceleration(const SwingState& s) const {
     return resting_ ? 0 : (driving(s) - direction_ * dry_) / physics_.box_mass;
   }
 
@@ -36,14 +36,14 @@ class Swing {
       if (!(std::abs(driving(now_)) <= dry_)) set_off(0);
       return;
     }
-    const State next = stepped(h);
+    const SwingState next = stepped(h);
     if (!turns() || next.v * direction_ >= 0) {
       now_ = next;
       return;
     }
     // Where the velocity is zero: regula falsi, which a parabola satisfies in a few steps.
     double low = 0, high = h, v_low = now_.v, v_high = next.v;
-    State turn = next;
+    SwingState turn = next;
     for (int i = 0; i < 4 && std::abs(turn.v) > 1e-12 * std::abs(v_high - v_low); ++i) {
       const double at = low + (high - low) * v_low / (v_low - v_high);
       turn = stepped(at);
@@ -61,7 +61,7 @@ class Swing {
   bool turns() const { return dry_ != 0 || dahl_.any(); }
 
   /// All forces but the dry one, N.
-  double driving(const State& s) const {
+  double driving(const SwingState& s) const {
     const double spring = -physics_.stiffness * s.x * (1 + physics_.spring_cubic * s.x * s.x);
     return physics_.box.newton(s.x, s.v, s.t, spring) + (dahl_.any() ? dahl_.newton(s.x) : 0);
   }
@@ -73,16 +73,16 @@ class Swing {
     if (!resting_) dahl_.turn(now_.x, direction_);
   }
 
-  State stepped(double h) const {
+  SwingState stepped(double h) const {
     const auto at = [&](double part, double v, double a) {
-      return State{now_.t + part * h, now_.x + part * h * v, now_.v + part * h * a};
+      return SwingState{now_.t + part * h, now_.x + part * h * v, now_.v + part * h * a};
     };
     const double a1 = acceleration(now_);
-    const State s2 = at(0.5, now_.v, a1);
+    const SwingState s2 = at(0.5, now_.v, a1);
     const double a2 = acceleration(s2);
-    const State s3 = at(0.5, s2.v, a2);
+    const SwingState s3 = at(0.5, s2.v, a2);
     const double a3 = acceleration(s3);
-    const State s4 = at(1, s3.v, a3);
+    const SwingState s4 = at(1, s3.v, a3);
     const double a4 = acceleration(s4);
     return {now_.t + h, now_.x + h / 6 * (now_.v + 2 * s2.v + 2 * s3.v + s4.v),
             now_.v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)};
@@ -92,11 +92,11 @@ class Swing {
   DahlState dahl_;
   double dry_ = 0, direction_ = 0;
   bool resting_ = false;
-  State now_;
+  SwingState now_;
 };
 
 /// Hermite's cubic between two steps.
-double between(const State& a, const State& b, double t) {
+double between(const SwingState& a, const SwingState& b, double t) {
   const double h = b.t - a.t;
   if (!(h > 0)) return b.x;
   const double u = (t - a.t) / h, w = 1 - u;
@@ -117,11 +117,11 @@ std::vector<double> swing_of(const Physics& physics, const SwingStart& start, co
   if (!(expected < 1e7)) return x;
   const auto most_steps = static_cast<std::size_t>(4 * expected) + 1000;
   for (std::size_t taken = 0; taken < most_steps; ++taken) {
-    const State before = swing.now();
+    const SwingState before = swing.now();
     while (x.size() < time.size() && time[x.size()] <= before.t) x.push_back(before.x);
     if (x.size() == time.size()) return x;
     swing.advance(step);
-    const State& now = swing.now();
+    const SwingState& now = swing.now();
     if (!(std::abs(now.x) <= farthest) || !std::isfinite(now.v)) return {};
     while (x.size() < time.size() && time[x.size()] <= now.t)
       x.push_back(between(before, now, time[x.size()]));

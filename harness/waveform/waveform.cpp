@@ -5,7 +5,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include "in_order.hpp"
@@ -13,9 +12,7 @@
 
 namespace shakedown {
 
-namespace {
-constexpr double two_pi = 2 * std::numbers::pi;
-}
+namespace {}
 
 bool WaveformLaw::operator==(const WaveformLaw& other) const {
   return term.key() == other.term.key() && term.besides == other.term.besides && is_mode == other.is_mode;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "camera.hpp"
 #include "in_order.hpp"
@@ -14,8 +13,6 @@
 namespace shakedown {
 
 namespace {
-
-constexpr double two_pi = 2 * std::numbers::pi;
 
 double as_parameter(const MomentumTerm& term, double strength) {
   const double whole = term.present + strength;

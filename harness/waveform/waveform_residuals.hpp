@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What the equation of motion leaves of recorded positions, and how that changes with each number of a fit.
 #pragma once
+#include <numbers>
 #include <utility>
 
 #include "waveform.hpp"
 
 namespace shakedown {
+
+inline constexpr double two_pi = 2 * std::numbers::pi;
 
 /// Numbers of a fit of these laws: three a run, the frequency, each law's.
 Eigen::Index count_of(const std::vector<WaveformRun>& runs, const std::vector<WaveformLaw>& laws);
