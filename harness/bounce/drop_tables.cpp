@@ -131,6 +131,12 @@ Table read_bounce_table(const std::string& file) {
 
 ReadDrops drops_of_table(const Table& table, const DropReading& reading) {
   if (!table.violations.empty()) throw InputError(table.violations);
+  constexpr std::size_t most_columns = 1000;  // each is compared with each
+  if (table.columns.size() > most_columns)
+    throw InputError({{{table.file, 1, 1},
+                       "",
+                       fmt::format("has {} columns ({} are the most)", table.columns.size(), most_columns),
+                       "give the times of one drop in a column or a row, or several files"}});
   if (reading.as.empty() || reading.as == "track")
     if (const TrackColumns track = track_columns(table, reading); track.time)
       return drops_of_track(table, track, reading);

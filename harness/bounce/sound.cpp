@@ -151,12 +151,14 @@ Sound read_sound(const std::string& file) {
     throw FileError(file + ": holds no sound of 4 kHz or more; record at 44.1 or 48 kHz");
   Sound sound;
   sound.rate = info.samplerate;
-  std::vector<float> frames(static_cast<std::size_t>(info.frames) * static_cast<std::size_t>(info.channels));
-  const sf_count_t read = sf_readf_float(input.get(), frames.data(), info.frames);
+  // Bit by bit: a damaged header promises more frames than there is memory for.
+  constexpr sf_count_t at_once = 1 << 14;
   const std::size_t channels = static_cast<std::size_t>(info.channels);
-  sound.channel.resize(channels, std::vector<float>(static_cast<std::size_t>(read)));
-  for (std::size_t i = 0; i < static_cast<std::size_t>(read); ++i)
-    for (std::size_t c = 0; c < channels; ++c) sound.channel[c][i] = frames[i * channels + c];
+  sound.channel.resize(channels);
+  std::vector<float> frames(static_cast<std::size_t>(at_once) * channels);
+  for (sf_count_t read = 0; (read = sf_readf_float(input.get(), frames.data(), at_once)) > 0;)
+    for (std::size_t i = 0; i < static_cast<std::size_t>(read); ++i)
+      for (std::size_t c = 0; c < channels; ++c) sound.channel[c].push_back(frames[i * channels + c]);
   return sound;
 }
 

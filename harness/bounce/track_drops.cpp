@@ -34,8 +34,10 @@ std::vector<double> bends_of(const std::vector<double>& y, std::size_t k) {
 }
 
 std::size_t frames_of_a_bend(const std::vector<double>& t) {
-  const double step = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
-  return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(bend_time / step)));
+  const double step = (t.back() - t.front()) / static_cast<double>(t.size() - 1),
+               all = static_cast<double>(t.size());
+  if (!(step > 0)) return t.size();  // no clock: no bend is seen
+  return static_cast<std::size_t>(std::clamp(std::round(bend_time / step), 1.0, all));
 }
 
 /// Frames in which the ball is lowest between falling and rising: where the track bends upwards by more than
@@ -130,6 +132,7 @@ double clock_size(const Table& table, const TableColumn& column, const DropReadi
 }  // namespace
 
 TrackImpacts impacts_of_track(std::vector<double> t, std::vector<double> y, double gravity) {
+  if (t.size() < least_frames) return {};
   if (median(bends_of(y, frames_of_a_bend(t))) >
       0)  // pixels are counted downwards: in flight the curve bends down
     for (double& one : y) one = -one;

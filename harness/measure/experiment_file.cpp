@@ -10,6 +10,7 @@
 #include "base_column.hpp"
 #include "column_reading.hpp"
 #include "column_tables.hpp"
+#include "experiment_keys.hpp"
 #include "experiment_reader.hpp"
 #include "fnv.hpp"
 #include "kept_files.hpp"
@@ -125,7 +126,8 @@ Start start_of(const Reader& reader) {
 
 double typical_rate(const std::vector<double>& time) {
   std::vector<double> intervals;
-  for (std::size_t i = 1; i < time.size(); ++i) intervals.push_back(time[i] - time[i - 1]);
+  for (std::size_t i = 1; i < time.size(); ++i)
+    if (std::isfinite(time[i] - time[i - 1])) intervals.push_back(time[i] - time[i - 1]);
   if (intervals.empty()) return 0;
   std::nth_element(intervals.begin(), intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2),
                    intervals.end());
@@ -172,7 +174,11 @@ void read_series(const Table& table, RunColumns columns, const ClockAndScale& sc
   if (run.has_com() && columns.com) run.com_uncertainty = columns.com->uncertainty;
   const double rate = typical_rate(run.time);
   run.frame_rate = scale.frame_rate > 0 ? scale.frame_rate : rate;
-  if (columns.time && scale.frame_rate > 0 && rate > 0 && std::abs(rate / scale.frame_rate - 1) > 0.02) {
+  if (rate > highest_frame_rate) {
+    violations.push_back({run.place, "column.time", "shows more than 1e9 frames a second in " + run.file,
+                          "give the clock's unit, e.g. unit = \"ms\""});
+  } else if (columns.time && scale.frame_rate > 0 && rate > 0 &&
+             std::abs(rate / scale.frame_rate - 1) > 0.02) {
     experiment.notes.push_back(run.file + ": frame_rate says " + write_quantity(scale.frame_rate, "Hz") +
                                ", the table's clock runs at about " +
                                write_quantity(std::round(rate * 100) / 100, "Hz") + ": the clock is used");

@@ -14,10 +14,9 @@ using Table = ExperimentTable;
 using Kind = ExperimentKind;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double longest_box = 1000;        // m; nobody swings a longer one, and a typing error ends here
-constexpr double highest_frame_rate = 1e9;  // Hz, above that of any camera
-constexpr double largest_pixel = 1;         // m, likewise
-constexpr double longest_arm = 1000;        // m a radian
+constexpr double longest_box = 1000;  // m; nobody swings a longer one, and a typing error ends here
+constexpr double largest_pixel = 1;   // m, likewise
+constexpr double longest_arm = 1000;  // m a radian
 
 const std::vector<ExperimentKey>& table() {
   static const std::vector<ExperimentKey> keys{

@@ -8,6 +8,8 @@
 
 namespace shakedown {
 
+constexpr double highest_frame_rate = 1e9;  ///< Hz, above that of any camera
+
 /// The tables of an experiment file whose keys are fixed; those of [known] are in known_value.hpp.
 enum class ExperimentTable { file, camera, column, run };
 

@@ -8,6 +8,7 @@
 namespace shakedown {
 
 double median(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });  // it has no place in an order
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

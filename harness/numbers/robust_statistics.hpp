@@ -7,7 +7,7 @@
 
 namespace shakedown {
 
-/// NaN when there is nothing.
+/// Of those that are numbers: NaN among them is left out. NaN when there is nothing.
 double median(std::vector<double> values);
 
 /// Standard deviation of a normal distribution with this median absolute deviation from the median: 1.4826

@@ -7,6 +7,17 @@
 
 namespace shakedown {
 
+namespace {
+
+/// Words of the user's own, such as a key, may be of any length: their beginning and their end tell which.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t most = 2000, end = 200;
+  if (text.size() <= most) return text;
+  return text.substr(0, most - end) + " ... " + text.substr(text.size() - end);
+}
+
+}  // namespace
+
 std::string to_string(const Violation& violation) {
   std::string text;
   if (!violation.place.file.empty()) {
@@ -15,23 +26,23 @@ std::string to_string(const Violation& violation) {
       text += ":" + std::to_string(violation.place.line) + ":" + std::to_string(violation.place.column);
     text += ": ";
   }
-  if (!violation.key.empty()) text += violation.key + ": ";
-  text += violation.problem;
-  if (!violation.remedy.empty()) text += "; " + violation.remedy;
+  if (!violation.key.empty()) text += shortened(violation.key) + ": ";
+  text += shortened(violation.problem);
+  if (!violation.remedy.empty()) text += "; " + shortened(violation.remedy);
   return printable(text);
 }
 
 namespace {
 
-/// As many as somebody reads; what is left is counted.
-constexpr std::size_t most_shown = 100;
+/// As much as somebody reads; what is left is counted.
+constexpr std::size_t most_shown = 100, longest = 50000;
 
 std::string joined(const std::vector<Violation>& violations) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(violations.size(), most_shown); ++i)
-    text += (text.empty() ? "" : "\n") + to_string(violations[i]);
-  if (violations.size() > most_shown)
-    text += "\nand " + std::to_string(violations.size() - most_shown) + " more";
+  std::size_t shown = 0;
+  for (; shown < std::min(violations.size(), most_shown) && text.size() < longest; ++shown)
+    text += (text.empty() ? "" : "\n") + to_string(violations[shown]);
+  if (violations.size() > shown) text += "\nand " + std::to_string(violations.size() - shown) + " more";
   return text;
 }
 

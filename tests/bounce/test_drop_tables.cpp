@@ -190,6 +190,22 @@ TEST(DropTables, SaysWhatIsWrong) {
   reading = {};
   reading.unit = "kg";
   EXPECT_NE(message("0.8\n0.6\n0.45\n0.33\n", reading).find("--unit"), std::string::npos);
+  std::string wide = "0.8";
+  for (int i = 0; i < 20000; ++i) wide += ",0.5";
+  EXPECT_NE(message((wide + "\n").c_str()).find("20001 columns"), std::string::npos);
+}
+
+TEST(DropTables, ATrackWithoutClockOrWithoutHeightsIsRefused) {
+  DropReading reading;
+  reading.as = "track";
+  reading.columns = {"t", "y"};
+  for (const auto& [step, height] :
+       {std::pair{0.0, 1.0}, std::pair{1e-300, 1.0}, std::pair{-0.01, 1.0}, std::pair{0.01, 1e308}}) {
+    std::string text = "t,y\n";
+    for (int i = 0; i < 80; ++i)
+      text += fmt::format("{},{}\n", i * step, height * (i % 3 == 0 ? -1 : 1) * (1 + i % 20));
+    EXPECT_THROW(drops_of_table(parse_table(text, "a.csv"), reading), InputError) << step << ' ' << height;
+  }
 }
 
 TEST(DropTables, ATrackGivesImpacts) {

@@ -125,3 +125,12 @@ TEST(Sound, IsReadFromWavFlacAndOgg) {
   std::ofstream(folder / "b.wav") << "RIFFxxxxWAVEbroken";
   EXPECT_THROW(read_drops((folder / "b.wav").string(), {}), FileError);
 }
+
+TEST(Sound, AHeaderThatPromisesTooMuchTakesNoMemory) {
+  const ScratchFolder folder;
+  // FLAC of 8 channels of 16 bits at 44.1 kHz: 2^36 - 1 frames, and none of them there
+  std::string bytes("fLaC\x80\0\0\x22\x10\0\x10\0\0\0\0\0\0\0\x0a\xc4\x4e\xff\xff\xff\xff\xff", 26);
+  bytes.append(16, '\0');
+  std::ofstream(folder / "a.flac", std::ios::binary) << bytes;
+  EXPECT_THROW(read_drops((folder / "a.flac").string(), {}), InputError);
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The corpora, and simple damage to them, through every reader: any compiler, the same bytes
-// each time. A refusal is fine, anything else is a finding. By hand, longer: `test_fuzz TARGET MINUTES SEED`.
+// each time. A refusal is fine, anything else is a finding. By hand, longer: `test_fuzz TARGET MINUTES SEED`;
+// one file: `test_fuzz TARGET FILE`.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,16 +23,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
+std::string bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
 std::vector<std::string> corpus_of(std::string_view target) {
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(FUZZ_CORPUS) / target))
     files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   std::vector<std::string> corpus;
-  for (const fs::path& file : files) {
-    std::ifstream stream(file, std::ios::binary);
-    corpus.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-  }
+  for (const fs::path& file : files) corpus.push_back(bytes_of(file));
   return corpus;
 }
 
@@ -135,8 +138,10 @@ int hunt(const FuzzTarget& target, double minutes, std::uint64_t seed) {
 
 int main(int count, char** words) {
   testing::InitGoogleTest(&count, words);
-  if (count == 4)
-    if (const FuzzTarget* target = find_fuzz_target(words[1]))
+  if (const FuzzTarget* target = count >= 3 ? find_fuzz_target(words[1]) : nullptr) {
+    if (count == 3) return target->read(bytes_of(words[2])), 0;
+    if (count == 4)
       return hunt(*target, std::strtod(words[2], nullptr), std::strtoull(words[3], nullptr, 10));
+  }
   return RUN_ALL_TESTS();
 }

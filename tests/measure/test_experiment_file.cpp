@@ -94,6 +94,8 @@ TEST_F(ExperimentFile, MissingColumnsFilesAndUnits) {
   EXPECT_NE(message_of("[column.box_position]\nfrom = \"x_box\"\nunit = \"mm\"\n" + run).find("no clock"),
             std::string::npos);
   EXPECT_THROW(parse(columns_ + "[[run]]\nfile = \"none.csv\"\n"), FileError);
+  write("a.csv", "t_s,x\n0,107\n2e-310,106\n4e-310,105\n6e-310,105\n8e-310,105\n");
+  EXPECT_NE(message_of(columns_ + run).find("more than 1e9 frames a second"), std::string::npos);
 }
 
 TEST_F(ExperimentFile, UnknownKeysAreSuggested) {

@@ -64,6 +64,13 @@ TEST(HostileSetups, OneEffectManyTimesGivesOneMessageEachAndNotAllAreShown) {
   }
 }
 
+TEST(HostileSetups, ANameOfAnyLengthGivesAShortMessage) {
+  const std::string message = complaint("begin" + std::string(100000, 'k') + "end = 1\n");
+  EXPECT_LT(message.size(), 10000u);
+  EXPECT_NE(message.find("begink"), std::string::npos);
+  EXPECT_NE(message.find("kend"), std::string::npos);
+}
+
 TEST(HostileSetups, ControlCharactersDoNotReachTheTerminal) {
   const std::string message = to_string(
       Violation{{"s.toml", 1, 1}, "k\x1b[31m", std::string("holds \0 and \x07", 13), "write \u00b5m"});

@@ -194,6 +194,18 @@ TEST(Report, EnergiesAddUp) {
   EXPECT_EQ(energy_plot("", {0, 1}, {10, 7}, {std::vector<double>{0, 1}, {0, 2}, {0, 0}}).curves.size(), 3u);
 }
 
+TEST(Report, NumbersOfAnySizeArePacked) {
+  for (const double size : {5e-324, 1e308}) {
+    const PackedNumbers numbers = packed({size, -size, 0.0, size});
+    ASSERT_EQ(numbers.steps.size(), 4u);
+    for (const std::optional<std::int64_t>& step : numbers.steps) EXPECT_LE(std::abs(*step), 0x1p62);
+  }
+  ReportReplay replay;
+  replay.box.time = {0, 1e300, 1e300};
+  replay.box.x = replay.box.y = replay.box.z = {1e300, -1e300, 0};
+  EXPECT_LT(packed(replay).bytes.size(), 200u);
+}
+
 TEST(PackedNumbers, KeepFourDigitsOfTheLargestAndTheGaps) {
   const std::vector<double> values{104.123, std::nan(""), -99.5, 0.01, 0};
   const PackedNumbers numbers = packed(values);

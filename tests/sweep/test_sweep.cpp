@@ -185,6 +185,12 @@ TEST_F(Sweep, DamagedFilesAreNamed) {
   fs::resize_file(folder / "cut.sqlite", fs::file_size(folder / "cut.sqlite") / 2);
   EXPECT_THROW(merge_results(folder / "merged.sqlite", {folder / "cut.sqlite"}), FileError);
   EXPECT_THROW(file("cut.sqlite"), FileError);
+  fs::copy_file(folder / "a.sqlite", folder / "view.sqlite");
+  Database(folder / "view.sqlite", Database::Access::write)
+      .execute(
+          "ALTER TABLE runs RENAME TO others; CREATE VIEW runs AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL "
+          "SELECT i + 1 FROM n) SELECT others.* FROM others, n;");
+  EXPECT_THROW(file("view.sqlite"), FileError);
   const std::string name(run_numbers().front().name);
   Database(folder / "a.sqlite", Database::Access::write)
       .execute("UPDATE runs SET \"" + name + "\" = 1.5 WHERE run = 1;");
