@@ -256,7 +256,7 @@ void CellCrossings::schedule(std::size_t i, const Flight3& anchor, double now) {
     until[axis] = v != 0 ? (edge - anchor.x[axis]) / v : never;
   }
   const double wait = std::min({until[0], until[1], until[2]});
-  place.axis = static_cast<std::uint8_t>((wait != until[0]) + ((wait != until[0]) & (wait != until[1])));
+  place.axis = static_cast<std::uint8_t>((wait != until[0]) * (1 + (wait != until[1])));
   // rounding may have put it a little beyond its edge
   const double crossing = std::max(now, anchor.time + wait);
   place.crosses = crossing < place.pair_time;
