@@ -271,7 +271,9 @@ void EventLoop<Grains, Motion>::execute(const LoggedEvent& event) {
         return meet_wall(event.partner, {event.time, event.grain, event.side, event.meeting});
       return touch_wall(event.grain, event.partner, event.side);
     case EventKind::new_anchor: return new_anchor(event.grain, false);
-    case EventKind::grain_kick: return kicks_.act();
+    case EventKind::grain_kick:
+      if (kicks_.next() < never) kicks_.act();  // else nothing kicks: the log was edited, as its digests tell
+      return;
     case EventKind::next_piece: return next_piece();
   }
 }

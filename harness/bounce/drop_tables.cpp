@@ -108,8 +108,8 @@ Table parse_bounce_table(const std::string& text, const std::string& name) {
   int counts = 0, all = 0;
   for (std::string line; std::getline(lines, line);) {
     std::smatch found;
-    constexpr std::size_t longest = 100;  // a match takes memory for each character
-    if (line.size() < longest && std::regex_match(line, found, commas)) {
+    constexpr std::size_t longest_line = 100;  // a match takes memory for each character
+    if (line.size() < longest_line && std::regex_match(line, found, commas)) {
       const double whole = std::stod(found[1]);
       counts += whole == last + 1;
       last = whole, ++all;
@@ -131,7 +131,7 @@ Table read_bounce_table(const std::string& file) {
 
 ReadDrops drops_of_table(const Table& table, const DropReading& reading) {
   if (!table.violations.empty()) throw InputError(table.violations);
-  constexpr std::size_t most_columns = 1000;  // each is compared with each
+  constexpr std::size_t most_columns = 300;  // each is compared with each
   if (table.columns.size() > most_columns)
     throw InputError({{{table.file, 1, 1},
                        "",
