@@ -3,6 +3,14 @@
 
 namespace shakedown {
 
+namespace {
+
+constexpr std::size_t strand_count = 8;
+using Strands = std::array<double, strand_count>;
+double folded(const Strands& s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
+
+}  // namespace
+
 AllPairs::AllPairs(const State& state, std::array<double, 2> half_width, double attraction_range)
     : size_(state.size()),
       padded_size_(std::max(padded(state.size()), lane_count)),
@@ -285,20 +293,21 @@ GrainSums AllPairs::sums(double t) {
     later.moment += sums_.momentum[0] * (t - sums_time_);
     return later;
   }
-  Lanes mass(0.0), kinetic(0.0), moment(0.0), px(0.0), py(0.0), pz(0.0);
-  for (std::size_t j = 0; j < padded_size_; j += lane_count) {
-    const Lanes m = load(mass_, j), vx = load(vx_, j), vy = load(vy_, j), vz = load(vz_, j);
-    mass += m;
-    kinetic += m * (vx * vx + vy * vy + vz * vz);
-    moment += m * (load(x_, j) + vx * (Lanes(t) - load(time_, j)));
-    px += m * vx;
-    py += m * vy;
-    pz += m * vz;
-  }
-  sums_ = {simd::reduce(mass),
-           simd::reduce(kinetic) / 2,
-           simd::reduce(moment),
-           {simd::reduce(px), simd::reduce(py), simd::reduce(pz)}};
+  // Eight sums of every eighth grain, and then theirs, so that rounding does not depend on the machine's
+  // width.
+  Strands mass{}, kinetic{}, moment{}, px{}, py{}, pz{};
+  for (std::size_t j = 0; j < size_; j += strand_count)
+    for (std::size_t s = 0; s < std::min(strand_count, size_ - j); ++s) {
+      const std::size_t k = j + s;
+      const double m = mass_[k], vx = vx_[k], vy = vy_[k], vz = vz_[k];
+      mass[s] += m;
+      kinetic[s] += m * (vx * vx + vy * vy + vz * vz);
+      moment[s] += m * (x_[k] + vx * (t - time_[k]));
+      px[s] += m * vx;
+      py[s] += m * vy;
+      pz[s] += m * vz;
+    }
+  sums_ = {folded(mass), folded(kinetic) / 2, folded(moment), {folded(px), folded(py), folded(pz)}};
   sums_time_ = t;
   return sums_;
 }

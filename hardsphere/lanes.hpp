@@ -10,6 +10,10 @@
 #include <vector>
 #ifdef __AVX512F__
 #include <immintrin.h>
+#ifdef __clang__
+#error \
+    "where(mask, x) = y of libstdc++ 12 does nothing here: impacts would be missed; compile with -mno-avx512f"
+#endif
 #endif
 
 namespace shakedown {
