@@ -60,7 +60,7 @@ Experiment with_known(Experiment experiment, std::span<const EffectRecord* const
   for (MeasuredRun& run : experiment.runs)
     for (const KnownValue& value : run.known)
       for (const auto& [key, number] : numbers_set_by(value, known)) {
-        std::erase_if(run.overrides, [&](const Override& one) { return one.key == key; });
+        std::erase_if(run.overrides, [&key = key](const Override& one) { return one.key == key; });
         run.overrides.push_back({key, toml_string(write_quantity(number, unit_of_key(key, known))),
                                  value.place.file + ":" + std::to_string(value.place.line)});
         run.places[key] = value.place;
