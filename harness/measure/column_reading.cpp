@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "integrated_motion.hpp"
 #include "quantity.hpp"
 #include "suggestion.hpp"
 
@@ -39,6 +40,24 @@ struct Source {
   double size = 1;
 };
 
+std::string wanted(const ColumnChoice& choice, bool is_time) {
+  if (is_time) return "seconds";
+  return choice.derivative == 0 ? "metres" : choice.derivative == 1 ? "metres a second" : "m/s^2";
+}
+
+std::string remedy_for_unit(const std::string& unit, const ColumnChoice& choice, bool is_time) {
+  constexpr std::string_view per_radian = "say what length one radian is, e.g. per_radian = \"100 mm\"";
+  if (choice.derivative > 0)
+    return std::string(rate_unit_size(unit, choice.derivative, everything_given) ? per_radian
+                       : choice.derivative == 1 ? "use m/s, mm/s, rad/s or deg/s"
+                                                : "use m/s^2, mm/s^2, rad/s^2 or deg/s^2");
+  if (!unit_size(unit, is_time, everything_given))
+    return is_time ? "use s, ms or frame" : "use m, mm, um, px, rad or deg";
+  return is_time                  ? "give camera.frame_rate"
+         : is_unit_of_angle(unit) ? std::string(per_radian)
+                                  : "give camera.pixel_size, the length that one pixel shows";
+}
+
 Source source_of(const Table& table, const ColumnChoice& choice, bool is_time, ClockAndScale scale,
                  std::vector<Violation>& violations) {
   scale.per_radian = choice.per_radian;
@@ -57,18 +76,15 @@ Source source_of(const Table& table, const ColumnChoice& choice, bool is_time, C
                           is_time ? "write unit = \"s\"" : "write unit = \"mm\""});
     return source;
   }
-  const std::optional<double> size = unit_size(unit, is_time, scale);
+  const std::optional<double> size = choice.derivative > 0 ? rate_unit_size(unit, choice.derivative, scale)
+                                                           : unit_size(unit, is_time, scale);
   if (size) {
     source.size = *size;
     return source;
   }
-  std::string remedy = is_time ? "use s, ms or frame" : "use m, mm, um, px, rad or deg";
-  if (unit_size(unit, is_time, everything_given))
-    remedy = is_time                  ? "give camera.frame_rate"
-             : is_unit_of_angle(unit) ? "say what length one radian is, e.g. per_radian = \"100 mm\""
-                                      : "give camera.pixel_size, the length that one pixel shows";
   violations.push_back({choice.place, "unit",
-                        quoted(unit) + " cannot be turned into " + (is_time ? "seconds" : "metres"), remedy});
+                        quoted(unit) + " cannot be turned into " + wanted(choice, is_time),
+                        remedy_for_unit(unit, choice, is_time)});
   return source;
 }
 
@@ -251,6 +267,14 @@ bool is_angle(const std::string& name) { return name == "rad" || name == "mrad" 
 
 bool is_unit_of_angle(const std::string& unit) { return is_angle(usual_spelling(unit)); }
 
+std::optional<double> rate_unit_size(const std::string& unit, int derivative, const ClockAndScale& scale) {
+  constexpr std::array<std::array<std::string_view, 3>, 2> ends{
+      {{"/s", "/sec", " s^-1"}, {"/s^2", "/s2", "/s\xC2\xB2"}}};
+  for (const std::string_view end : ends[static_cast<std::size_t>(derivative - 1)])
+    if (unit.ends_with(end)) return unit_size(unit.substr(0, unit.size() - end.size()), false, scale);
+  return {};
+}
+
 std::optional<double> unit_size(const std::string& unit, bool is_time, const ClockAndScale& scale) {
   const std::string name = usual_spelling(unit);
   if (name == "px") return !is_time && scale.pixel_size > 0 ? std::optional(scale.pixel_size) : std::nullopt;
@@ -287,6 +311,26 @@ void count_from_first_frame(const Table& table, const RunColumns& columns, const
 
 }  // namespace
 
+namespace {
+
+/// Positions from velocities or accelerations.
+Series integrated(const Series& rates, const Table& table, const ColumnChoice& choice, RunSeries& run) {
+  TimeSeries series;
+  for (const auto& [when, rate] : rates) series.time.push_back(when), series.value.push_back(rate);
+  for (int times = 0; times < choice.derivative && series.why_not.empty(); ++times)
+    series = integral_of_swing(series);
+  if (!series.why_not.empty())
+    run.violations.push_back({{table.file, 0, 0}, choice.from, series.why_not, "give a longer recording"});
+  Series places;
+  for (std::size_t i = 0; i < series.time.size(); ++i) places[series.time[i]] = series.value[i];
+  run.notes.push_back(table.file + ": positions are the " + (choice.derivative == 2 ? "double " : "") +
+                      "integral of " + quoted(choice.from) +
+                      " without what is slower than the swing; its noise walks, and their middle is unknown");
+  return places;
+}
+
+}  // namespace
+
 RunSeries read_columns(const Table& table, const RunColumns& columns, const ClockAndScale& scale) {
   RunSeries run;
   run.violations = table.violations;
@@ -294,7 +338,8 @@ RunSeries read_columns(const Table& table, const RunColumns& columns, const Cloc
   count_from_first_frame(table, columns, scale, time, run.notes);
   const std::string clock = columns.time ? columns.time->from : "";
   if (!run.violations.empty() && !any_number(time)) return run;
-  const Series box = series_of(table, columns.box, time, scale, clock, run.violations);
+  Series box = series_of(table, columns.box, time, scale, clock, run.violations);
+  if (columns.box.derivative > 0 && run.violations.empty()) box = integrated(box, table, columns.box, run);
   Series com;
   if (columns.com) {
     std::vector<Violation> of_com;

@@ -17,9 +17,10 @@ struct ColumnChoice {
   std::string unit;   ///< as written; empty: the table's header must say it
   SourcePlace place;  ///< where the experiment file says so
   double uncertainty = std::numeric_limits<double>::quiet_NaN();  ///< m, of one frame
-  std::optional<double> origin;     ///< m, subtracted after the conversion; nothing: not stated, 0
-  double per_radian = 0;            ///< m, what one radian is; 0: not said
-  bool reversed = false;            ///< the axis points away from the release
+  std::optional<double> origin;  ///< m, subtracted after the conversion; nothing: not stated, 0
+  double per_radian = 0;         ///< m, what one radian is; 0: not said
+  bool reversed = false;         ///< the axis points away from the release
+  int derivative = 0;  ///< 1: velocities (m/s, rad/s ...), 2: accelerations; positions are integrals
   std::vector<std::string> tracks;  ///< of tables with one row a track and frame; several: their mean
   std::string track_from;           ///< header of the track numbers; empty: TRACK_ID, particle or track
 };
@@ -55,6 +56,9 @@ RunSeries read_columns(const Table& table, const RunColumns& columns, const Cloc
 /// SI size of a unit of time, or of length or angle, as people and programs write it ("micron", "sec", "px",
 /// "frame", "deg"); nothing when it is none or cannot be converted.
 std::optional<double> unit_size(const std::string& unit, bool is_time, const ClockAndScale& scale);
+
+/// The same of a velocity (`derivative` 1: "mm/s", "deg/s") or acceleration (2: "m/s^2", "rad/s2").
+std::optional<double> rate_unit_size(const std::string& unit, int derivative, const ClockAndScale& scale);
 
 /// rad, deg and how else people write them.
 bool is_unit_of_angle(const std::string& unit);

@@ -88,7 +88,19 @@ ColumnChoice column_choice(const TomlValue& table, const std::string& path, Colu
   return choice;
 }
 
-const std::vector<std::string_view> known_columns{"time", "box_position", "grain_centre", "base_position"};
+/// Of the box's velocity or acceleration.
+ColumnChoice rate_choice(ColumnChoice choice, const TomlEntry& entry, const std::string& path,
+                         Violations& violations) {
+  choice.derivative = entry.key == "box_velocity" ? 1 : 2;
+  if (choice.origin)
+    violations.push_back({entry.place, path + "origin",
+                          "is of no use here: an integral does not know its middle",
+                          "leave it out; a sensor's own offset is taken out by itself"});
+  return choice;
+}
+
+const std::vector<std::string_view> known_columns{
+    "time", "box_position", "box_velocity", "box_acceleration", "grain_centre", "base_position"};
 
 }  // namespace
 
@@ -107,7 +119,9 @@ RunColumns read_column_tables(const TomlValue* table, const std::string& path, R
     else if (entry.key == "time")
       columns.time = choice(columns.time);
     else if (entry.key == "box_position")
-      columns.box = choice(columns.box);
+      columns.box = choice(columns.box), columns.box.derivative = 0;
+    else if (entry.key == "box_velocity" || entry.key == "box_acceleration")
+      columns.box = rate_choice(choice(columns.box), entry, below, violations);
     else if (entry.key == "grain_centre")
       columns.com = choice(columns.com);
     else if (entry.key == "base_position")

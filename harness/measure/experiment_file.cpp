@@ -211,7 +211,8 @@ void read_run(const TomlValue& table, const std::filesystem::path& folder, const
                                                 scale.pixel_size, violations);
   if (columns.box.from.empty())
     violations.push_back(
-        {table.place, "column.box_position.from", "is missing", "name the header of the box's position"});
+        {table.place, "column.box_position.from", "is missing",
+         "name the header of the box's position (or of its velocity, in column.box_velocity)"});
   if (file.empty() || columns.box.from.empty()) return;
   run.file = (folder / file).string();
   run.name = std::filesystem::path(file).stem().string();

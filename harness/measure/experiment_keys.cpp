@@ -25,7 +25,8 @@ const std::vector<ExperimentKey>& table() {
       {Table::file, "camera", Kind::table, "", -infinity, infinity, "[camera]",
        "What holds of the whole film."},
       {Table::file, "column", Kind::table, "", -infinity, infinity, "[column.box_position]",
-       "Which column is what: time, box_position, grain_centre, base_position."},
+       "Which column is what: time, box_position (or box_velocity, box_acceleration), grain_centre, "
+       "base_position."},
       {Table::file, "known", Kind::table, "", -infinity, infinity, "[known]",
        "What was weighed and measured, and how well."},
       {Table::file, "run", Kind::tables, "", -infinity, infinity, "[[run]]", "The recordings, one each."},

@@ -113,8 +113,12 @@ Json schema_of_known() {
 
 std::string experiment_schema() {
   const Json known = schema_of_known(), one = object_of(properties_of(Table::column, {}, {}));
-  const Json column =
-      object_of({{"time", one}, {"box_position", one}, {"grain_centre", one}, {"base_position", one}});
+  const Json column = object_of({{"time", one},
+                                 {"box_position", one},
+                                 {"box_velocity", one},
+                                 {"box_acceleration", one},
+                                 {"grain_centre", one},
+                                 {"base_position", one}});
   Json properties = properties_of(Table::file, column, known);
   properties["camera"] = object_of(properties_of(Table::camera, {}, {}));
   // Beside its own keys a run has tables: keys of the setup, effects among them.

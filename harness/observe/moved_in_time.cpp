@@ -2,6 +2,7 @@
 #include "moved_in_time.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -23,22 +24,28 @@ std::size_t half_width(std::span<const double> time, double longest_shift) {
                   static_cast<std::size_t>(std::ceil(width_of_shift * longest_shift / interval)));
 }
 
-/// Weights for the coefficients of a least-squares cubic in `time` but its constant. By the normal equations:
-/// the powers of a time within +-1 have a condition of some hundreds at worst, its square costs five digits
-/// of sixteen, and a recording has ten thousands of such cubics.
-Eigen::Matrix3Xd cubic_weights(const Eigen::ArrayXd& time) {
+enum class Solve { by_rotations, by_normal_equations };
+
+/// Weights for the coefficients of a least-squares cubic in `time` but its constant. The normal equations are
+/// ten times as fast; the powers of a time within +-1 have a condition of some hundreds at worst, and its
+/// square costs five digits of sixteen.
+Eigen::Matrix3Xd cubic_weights(const Eigen::ArrayXd& time, Solve way) {
   const Eigen::Index n = time.size(), terms = std::min<Eigen::Index>(4, n);
   const double reach = std::max(time.abs().maxCoeff(), 1e-300);
-  using Powers = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, 4>;
-  Powers powers = Powers::Ones(n, terms);
+  Eigen::MatrixXd powers = Eigen::MatrixXd::Ones(n, terms);
   for (Eigen::Index power = 1; power < terms; ++power)
     powers.col(power) = (powers.col(power - 1).array() * time / reach).matrix();
-  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
-  const Small inverse = Eigen::LDLT<Small>(powers.transpose() * powers).solve(Small::Identity(terms, terms));
+  Eigen::MatrixXd fit;
+  if (way == Solve::by_rotations) {
+    fit = powers.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(n, n));
+  } else {
+    using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
+    const Small squares = powers.transpose() * powers;
+    fit = squares.ldlt().solve(powers.transpose());
+  }
   Eigen::Matrix3Xd weights = Eigen::Matrix3Xd::Zero(3, n);
   for (Eigen::Index power = 1; power < terms; ++power)
-    weights.row(power - 1) =
-        inverse.row(power) * powers.transpose() / std::pow(reach, static_cast<double>(power));
+    weights.row(power - 1) = fit.row(power) / std::pow(reach, static_cast<double>(power));
   return weights;
 }
 
@@ -55,7 +62,8 @@ LocalCubics::LocalCubics(std::span<const double> time, std::span<const double> p
   constexpr double alike = 1e-3;
   const double interval =
       time.size() < 2 ? 1 : (time.back() - time.front()) / static_cast<double>(time.size() - 1);
-  constexpr std::size_t most_patterns = 256;  // of an uneven clock each is its own, and none is looked for
+  // Of an uneven clock each is its own: none is looked for, and ten thousands are solved for.
+  constexpr std::size_t most_patterns = 256;
   std::map<std::vector<std::int64_t>, std::size_t> patterns;
   std::vector<std::int64_t> pattern(count);
   for (std::size_t i = 0; i < used_.size(); ++i) {
@@ -67,8 +75,11 @@ LocalCubics::LocalCubics(std::span<const double> time, std::span<const double> p
       pattern[j] = std::llround(apart / (alike * interval));
     }
     std::size_t which = weights_.size();
-    if (patterns.size() < most_patterns) which = patterns.try_emplace(pattern, which).first->second;
-    if (which == weights_.size()) weights_.push_back(cubic_weights(around));
+    const bool looked_for = patterns.size() < most_patterns;
+    if (looked_for) which = patterns.try_emplace(pattern, which).first->second;
+    if (which == weights_.size())
+      weights_.push_back(
+          cubic_weights(around, looked_for ? Solve::by_rotations : Solve::by_normal_equations));
     pieces_.push_back({first, which});
   }
 }
