@@ -13,6 +13,7 @@
 #include "errors.hpp"
 #include "output_file.hpp"
 #include "ring_down_signal.hpp"
+#include "waveform_search.hpp"
 
 using namespace shakedown;
 
@@ -119,6 +120,50 @@ TEST(RingDowns, AreJudgedByTheirPhysics) {
   EXPECT_EQ(table.find("three laws"), std::string::npos) << "no line of nothing";
   const std::string csv = ring_down_csv({stopped});
   EXPECT_NE(csv.find("blade_viscous_damping clamp_dry_friction,20.0 30.0,white"), std::string::npos) << csv;
+}
+
+namespace {
+
+/// m, rms of what eight numbers leave: x" = -w^2 x (1 + k x^2) - c x' - d |x'| x' - f sgn x', from anywhere.
+double left_by_plain_fit(const Measurement& measurement) {
+  const std::vector<WaveformRun> runs = waveform_runs(measurement);
+  std::vector<WaveformLaw> laws;
+  for (const WaveformLaw& law : waveform_laws(runs.front().setup, all_effects()))
+    for (const char* plain :
+         {"blade_viscous_damping", "blade_quadratic_drag", "clamp_dry_friction", "spring_cubic"})
+      if (law.term.effect == plain) laws.push_back(law);
+  EXPECT_EQ(laws.size(), 4u);
+  WaveformOptions options;
+  options.known = all_effects();
+  const double frequency = runs.front().setup.spring.frequency;
+  const WaveformFit fit = fit_growing(runs, laws, starting_values(runs, laws, frequency), options);
+  // Over every frame, as a ladder is.
+  double squares = 0, frames = 0;
+  for (const Eigen::VectorXd& left : residuals_of(waveform_runs(measurement, true), fit, options))
+    squares += left.squaredNorm(), frames += static_cast<double>(left.size());
+  return std::sqrt(squares / frames);
+}
+
+}  // namespace
+
+TEST(SlowRingDowns, ADiagnosisThatHoldsNeverLeavesTwiceWhatAPlainFitLeaves) {
+  const auto engine = engine_named("hard");
+  const TrialTools tools{
+      .laboratory = engine.get(), .model = engine.get(), .known = all_effects(), .threads = 1};
+  constexpr double most_frames = 3000, cases = 8;
+  int asked = 0;
+  for (int number = 0; asked < cases; ++number) {
+    const RingDown drawn = draw_ring_down(90, number, *engine, all_effects());
+    if (drawn.trial.recording.frame_rate * drawn.trial.hidden.truth.run.duration > most_frames) continue;
+    ++asked;
+    const Diagnosis d = diagnose_trial(drawn.trial, tools);
+    const Measurement measurement =
+        measurement_of(drawn.trial.hidden.believed, measured_in(drawn.trial, tools), all_effects());
+    ASSERT_FALSE(d.ladder.empty());
+    EXPECT_TRUE(!d.judgement.holds() || d.ladder.back().error_box <= 2 * left_by_plain_fit(measurement))
+        << number << ": " << d.ladder.back().error_box << " m left, by a plain fit "
+        << left_by_plain_fit(measurement) << ": " << d.sentence;
+  }
 }
 
 TEST(RingDowns, AnAnswerIsKeptForTheProgramThatGaveIt) {
