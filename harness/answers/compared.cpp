@@ -58,13 +58,7 @@ std::string readable(const std::vector<DecayComparison>& decays) {
                         beside(run.frequency, 1, 4), beside(run.slope, 1e3, 2));
     for (const MeasuredNumber& peak : run.peaks) text += " " + beside(peak, 1e3, 1);
     text += "\n";
-    if (!run.forced) continue;
-    text += fmt::format("      forced: amplitude {} mm, lag {} rad, loss factor {}",
-                        beside(run.forced->amplitude, 1e3, 2), beside(run.forced->phase_lag, 1, 3),
-                        beside(run.forced->loss_factor, 1, 4));
-    if (std::isfinite(run.forced->effective_mass.measured))
-      text += fmt::format(", effective mass of grains {} g", beside(run.forced->effective_mass, 1e3, 1));
-    text += "\n";
+    if (run.forced) text += "      forced: " + told(*run.forced) + "\n";
   }
   return text;
 }
@@ -126,11 +120,9 @@ nlohmann::ordered_json json_of(const std::vector<DecayComparison>& decays) {
                     {"frequency_hz", json_of(run.frequency, 1)},
                     {"slope_mm_per_s", json_of(run.slope, 1e3)},
                     {"peaks_mm", peaks}});
-    if (run.forced)
-      list.back()["forced"] = {{"amplitude_mm", json_of(run.forced->amplitude, 1e3)},
-                               {"phase_lag_rad", json_of(run.forced->phase_lag, 1)},
-                               {"loss_factor", json_of(run.forced->loss_factor, 1)},
-                               {"effective_mass_g", json_of(run.forced->effective_mass, 1e3)}};
+    if (!run.forced) continue;
+    for (const ForcedRow& row : rows_of(*run.forced))
+      list.back()["forced"][row.key] = json_of(row.number, row.scale);
   }
   return list;
 }

@@ -16,6 +16,7 @@
 #include "rules.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
+#include "steady_forcing.hpp"
 #include "swing.hpp"
 #include "unlisted_force.hpp"
 #include "verdict.hpp"
@@ -58,8 +59,19 @@ Diagnosis Course::run() {
         {std::min(found.wander.deviation, most_wander_of_noise * found.white_noise), found.wander.time});
     judge();
   }
+  compare_forced_runs();
   result_.runs_simulated = tools_.runs();
   return result_;
+}
+
+void Course::compare_forced_runs() {
+  const bool shaken = std::any_of(recorded_.runs.begin(), recorded_.runs.end(),
+                                  [](const Measurement::Run& run) { return is_shaken(run.setup); });
+  if (!shaken) return;
+  constexpr int runs = 8, first_run = 900000;  // of no ensemble
+  const Measurement beside = with_setup(recorded_, result_.amended, tools_.known());
+  for (DecayComparison& one : compare_decay(beside, tools_.workshop(), runs, first_run))
+    if (one.forced) result_.forced.push_back(std::move(one));
 }
 
 void Course::judge_empty_box(const MomentumOptions& whole) {

@@ -24,6 +24,8 @@ class Course {
 
  private:
   /// Formulas are looked for where no law of the list explains the waveform.
+  /// Amplitude, lag, loss factor and effective mass beside the final model's.
+  void compare_forced_runs();
   void judge_empty_box(const MomentumOptions& whole);
   void judge();
   DiagnosisState with_packing();

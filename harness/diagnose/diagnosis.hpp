@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "candidates.hpp"
+#include "decay_comparison.hpp"
 #include "evidence.hpp"
 #include "momentum.hpp"
 #include "refit.hpp"
@@ -62,14 +63,15 @@ struct Diagnosis {
   std::string engine;  ///< that simulated
   Verdict verdict = Verdict::adequate;
   std::string sentence;
-  std::vector<std::string> missing;    ///< effect ids in the order added
-  std::vector<Hypothesis> hypotheses;  ///< most probable first, those that hold 99 % together
-  std::vector<Hypothesis> answers;     ///< the fewest of them that hold 95 %
-  ModelJudgement judgement;            ///< of the final model
-  std::vector<Difference> left;        ///< by the final model, all runs together first
-  std::vector<Validation> validation;  ///< of the final model, each run
-  double explained = 0;                ///< share of chi2 as given that the final model takes away
-  std::vector<NuisanceFound> camera;   ///< what the data say of camera and weights
+  std::vector<std::string> missing;     ///< effect ids in the order added
+  std::vector<Hypothesis> hypotheses;   ///< most probable first, those that hold 99 % together
+  std::vector<Hypothesis> answers;      ///< the fewest of them that hold 95 %
+  ModelJudgement judgement;             ///< of the final model
+  std::vector<Difference> left;         ///< by the final model, all runs together first
+  std::vector<Validation> validation;   ///< of the final model, each run
+  std::vector<DecayComparison> forced;  ///< of each forced run: measured, and the final model
+  double explained = 0;                 ///< share of chi2 as given that the final model takes away
+  std::vector<NuisanceFound> camera;    ///< what the data say of camera and weights
   std::vector<DiagnosedParameter> parameters;
   std::vector<RankedEffect> ranking;
   std::vector<LadderStep> ladder;

@@ -77,6 +77,19 @@ Json momentum_json(const MomentumAudit& audit) {
           {"terms", terms}};
 }
 
+/// Empty where no run is forced.
+Json forced_json(const std::vector<DecayComparison>& runs) {
+  Json list = Json::array();
+  for (const DecayComparison& run : runs) {
+    list.push_back({{"run", run.run}});
+    for (const ForcedRow& row : rows_of(*run.forced))
+      list.back()[row.key] = {{"measured", number(row.number.measured * row.scale)},
+                              {"model", number(row.number.model * row.scale)},
+                              {"spread", number(row.number.spread * row.scale)}};
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string diagnosis_json(const Diagnosis& d) {
@@ -123,6 +136,7 @@ std::string diagnosis_json(const Diagnosis& d) {
             {{"standing", std::string(name_of(d.judgement.standing))}, {"reason", d.judgement.reason}}},
            {"left", left_json(d.left)},
            {"validation", validation_json(d.validation)},
+           {"forced", forced_json(d.forced)},
            {"explained", number(d.explained)},
            {"camera", camera_json(d.camera)},
            {"parameters", parameters},

@@ -58,6 +58,9 @@ std::string diagnosis_text(const Diagnosis& d) {
                         in_mm(d.ladder.back().floor_box),
                         d.ladder.back().floor_centre > 0 ? in_mm(d.ladder.back().floor_centre) : "-");
   text += "  final model " + d.judgement.reason + "\n\n" + validation_text(d.validation);
+  if (!d.forced.empty()) text += "\n  forced: measured (final model +- spread from run to run)\n";
+  for (const DecayComparison& run : d.forced)
+    text += fmt::format("    {:<12} {}\n", run.run, told(*run.forced));
   if (!d.parameters.empty()) {
     text += "\n  values (95 % interval)\n";
     for (const DiagnosedParameter& p : d.parameters)

@@ -2,6 +2,7 @@
 #include "decay_comparison.hpp"
 
 #include <cmath>
+#include <cstdio>
 
 #include "experiment_file.hpp"
 #include "frame_motion.hpp"
@@ -111,6 +112,28 @@ MeasuredNumber number(const Numbers& measured, const std::vector<Numbers>& simul
 }
 
 }  // namespace
+
+std::vector<ForcedRow> rows_of(const ForcedComparison& forced) {
+  std::vector<ForcedRow> rows{
+      {"amplitude_mm", "amplitude", "mm", 1e3, 2, forced.amplitude},
+      {"phase_lag_rad", "lag", "rad", 1, 3, forced.phase_lag},
+      {"loss_factor", "loss factor", "", 1, 4, forced.loss_factor},
+      {"effective_mass_g", "effective mass of grains", "g", 1e3, 1, forced.effective_mass}};
+  std::erase_if(rows, [](const ForcedRow& row) { return !std::isfinite(row.number.measured); });
+  return rows;
+}
+
+std::string told(const ForcedComparison& forced) {
+  std::string text;
+  for (const ForcedRow& row : rows_of(forced)) {
+    char numbers[128];
+    std::snprintf(numbers, sizeof numbers, " %.*f (%.*f +- %.*f)", row.digits,
+                  row.number.measured * row.scale, row.digits, row.number.model * row.scale, row.digits,
+                  row.number.spread * row.scale);
+    text += (text.empty() ? "" : ", ") + std::string(row.label) + numbers + (*row.unit ? " " : "") + row.unit;
+  }
+  return text;
+}
 
 std::vector<DecayComparison> compare_decay(const Measurement& measurement, const Workshop& workshop, int runs,
                                            int first_run, int most_peaks) {

@@ -20,6 +20,18 @@ struct ForcedComparison {
   MeasuredNumber amplitude, phase_lag, loss_factor, effective_mass;  ///< m, rad, -, kg
 };
 
+/// One of its numbers, as it is told: `number` times `scale` is in `unit`.
+struct ForcedRow {
+  const char *key, *label, *unit;  ///< "amplitude_mm", "amplitude", "mm"
+  double scale;
+  int digits;  ///< behind the point
+  MeasuredNumber number;
+};
+/// Those that were measured.
+std::vector<ForcedRow> rows_of(const ForcedComparison& forced);
+/// "amplitude 27.6 (27.3 +- 0.9) mm, lag ...": measured (model +- spread from run to run).
+std::string told(const ForcedComparison& forced);
+
 struct DecayComparison {
   std::string run;
   MeasuredNumber frequency;           ///< Hz, of the first ten zero crossings

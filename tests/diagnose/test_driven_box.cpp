@@ -12,9 +12,11 @@
 #include "effects.hpp"
 #include "engines.hpp"
 #include "experiment_file.hpp"
+#include "measurements.hpp"
 #include "momentum.hpp"
 #include "random.hpp"
 #include "scratch_folder.hpp"
+#include "setup_file.hpp"
 #include "swing_judged.hpp"
 
 using namespace shakedown;
@@ -156,6 +158,28 @@ TEST(SlowDrivenBox, ADiagnosisNamesItsDampingAndNothingElse) {
   const Diagnosis d = diagnose(believed(), measurement, *engine_named("hard"), options);
   EXPECT_EQ(d.missing, std::vector<std::string>{"blade_viscous_damping"}) << d.sentence;
   EXPECT_TRUE(d.judgement.holds()) << d.judgement.reason;
+}
+
+TEST(DrivenBox, ADiagnosisSetsTheSteadyStateBesideItsModel) {
+  shakedown::Setup given = believed();
+  given.run.duration = 20;
+  set_number(given, "oscillating_acceleration.amplitude.x", 0.3, all_effects());
+  set_number(given, "oscillating_acceleration.frequency", 1.1, all_effects());
+  shakedown::Setup truth = given;
+  set_number(truth, "blade_viscous_damping.damping", damping, all_effects());
+  const auto engine = engine_named("hard");
+  const Experiment experiment = make_measurements(truth, {{"forced", {}}}, {.box_noise = 1e-4},
+                                                  {engine.get(), all_effects(), 3, 1, nullptr});
+  DiagnoseOptions options;
+  options.known = all_effects();
+  const Diagnosis d = diagnose(given, measurement_of(given, experiment, all_effects()), *engine, options);
+  EXPECT_EQ(d.missing, std::vector<std::string>{"blade_viscous_damping"}) << d.sentence;
+  ASSERT_EQ(d.forced.size(), 1u);
+  const ForcedComparison& seen = *d.forced[0].forced;
+  EXPECT_NEAR(seen.amplitude.model / seen.amplitude.measured, 1, 0.02);
+  EXPECT_NEAR(seen.phase_lag.model, seen.phase_lag.measured, 0.01);
+  EXPECT_NE(diagnosis_text(d).find("forced: measured (final model"), std::string::npos);
+  EXPECT_NE(diagnosis_json(d).find("phase_lag_rad"), std::string::npos);
 }
 
 }  // namespace
