@@ -162,7 +162,9 @@ LocalCubic local_cubic(int half) {
 }
 
 Recording before_the_camera(const Measurement::Run& measurement) {
-  const auto& [measured, audit, setup] = measurement;
+  const MeasuredRun& measured = measurement.recorded;
+  const RunAudit& audit = measurement.audit;
+  const Setup& setup = measurement.setup;
   const bool empty = setup.grains.count == 0;
   if (measured.time.size() < 8 || (!empty && !measured.has_com())) return {};
   return undone(physics_of(setup).camera, {measured.time, audit.x_box, empty ? audit.x_box : audit.x_com});
@@ -173,7 +175,9 @@ MomentumRun momentum_run(const Measurement::Run& measurement) {
 }
 
 MomentumRun momentum_run(const Measurement::Run& measurement, const Recording& motion) {
-  const auto& [measured, audit, setup] = measurement;
+  const MeasuredRun& measured = measurement.recorded;
+  const RunAudit& audit = measurement.audit;
+  const Setup& setup = measurement.setup;
   const Physics physics = physics_of(setup);
   MomentumRun run;
   run.name = measured.name;

@@ -54,7 +54,8 @@ std::vector<ReleasedCentre> released_centres(const Measurement& measurement) {
   constexpr double still = 0.03;  // s
   std::vector<ReleasedCentre> list;
   for (std::size_t r = 0; r < measurement.runs.size(); ++r) {
-    const auto& [run, audit, setup] = measurement.runs[r];
+    const MeasuredRun& run = measurement.runs[r].recorded;
+    const RunAudit& audit = measurement.runs[r].audit;
     if (!run.has_com()) continue;
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < run.time.size() && run.time[i] < still; ++i)

@@ -27,7 +27,9 @@ struct UsedFrames {
 };
 
 UsedFrames used_frames(const Measurement::Run& run, double end) {
-  const auto& [recorded, audit, setup] = run;
+  const MeasuredRun& recorded = run.recorded;
+  const RunAudit& audit = run.audit;
+  const Setup& setup = run.setup;
   const bool anywhere = starts_anywhere(recorded, setup);
   const double start = anywhere ? audit.release.start : std::max(0.0, audit.release.start);
   UsedFrames used;
@@ -41,8 +43,8 @@ UsedFrames used_frames(const Measurement::Run& run, double end) {
   return used;
 }
 
-/// What a simulation shows at these times; 500 Hz, so that a straight line between two samples is off by less
-/// than a micrometre for each centimetre of amplitude.
+/// Places at other times, along straight lines: between the samples of a simulation, 500 a second, they are
+/// off by less than a micrometre for each centimetre of amplitude.
 std::vector<double> at_times(const std::vector<double>& times, const std::vector<double>& time,
                              const std::vector<double>& place) {
   std::vector<double> x;
@@ -60,11 +62,10 @@ std::optional<SteadyState> steady_by_frames(const Setup& setup, const std::vecto
                                             const std::vector<double>& x, const std::vector<double>& centre) {
   const std::optional<SteadyForcing> forcing = steady_forcing_of(setup);
   if (!forcing || time.size() < 2) return {};
-  constexpr double steps_a_cycle = 200, fewest_frames = 20;
   const double cycles = (time.back() - time.front()) * forcing->frequency;
-  if (cycles < steady_cycles || static_cast<double>(time.size()) < fewest_frames * cycles) return {};
+  if (cycles < steady_cycles || static_cast<double>(time.size()) < fewest_samples_a_cycle * cycles) return {};
   Trajectory even;
-  const double step = 1 / (steps_a_cycle * forcing->frequency);
+  const double step = 1 / (samples_a_cycle * forcing->frequency);
   for (double t = 0; t <= time.back(); t += step) even.time.push_back(t);
   // What comes before the first frame is not looked at.
   const auto resampled = [&](const std::vector<double>& place) {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "steady_forcing.hpp"
-
 namespace shakedown {
 
 namespace {
@@ -72,9 +70,10 @@ void add_features(Observable observable, const std::vector<double>& time, const 
 }  // namespace
 
 FeaturePlan plan_features(const Measurement::Run& measurement, Observed observed, double rest, double bin) {
-  const auto& [run, audit, setup] = measurement;
+  const MeasuredRun& run = measurement.recorded;
+  const RunAudit& audit = measurement.audit;
   FeaturePlan plan;
-  plan.end = is_shaken(setup) ? run.time.back() : end_of_motion(run, audit.x_box, rest);
+  plan.end = measurement.shaken ? run.time.back() : end_of_motion(run, audit.x_box, rest);
   const double interval = audit.frame_interval > 0 ? audit.frame_interval : 1 / run.frame_rate;
   // Slow cameras get wider bins, so that a bin has frames enough for a parabola.
   const double width = std::max(bin, 8 * interval);

@@ -9,6 +9,7 @@
 #include "known_setup.hpp"
 #include "nothing.hpp"
 #include "setup_file.hpp"
+#include "steady_forcing.hpp"
 
 namespace shakedown {
 
@@ -28,10 +29,10 @@ PlateauSlope plateau_slope(const std::vector<Measurement::Run>& runs) {
   };
   std::map<std::string, Sums> means;
   const auto each = [&](const auto& visit) {
-    for (const auto& [recorded, audit, setup] : runs)
-      if (std::isfinite(audit.plateau) && std::isfinite(recorded.box_length))
-        visit(means[grains_of(recorded)], 1 / (audit.plateau_error * audit.plateau_error),
-              recorded.box_length, audit.plateau);
+    for (const Measurement::Run& run : runs)
+      if (std::isfinite(run.audit.plateau) && std::isfinite(run.recorded.box_length))
+        visit(means[grains_of(run.recorded)], 1 / (run.audit.plateau_error * run.audit.plateau_error),
+              run.recorded.box_length, run.audit.plateau);
   };
   each([](Sums& mean, double weight, double length, double plateau) {
     mean.weight += weight, mean.length += weight * length, mean.plateau += weight * plateau;
@@ -85,7 +86,8 @@ Measurement measurement_of(const std::vector<Setup>& setups, Experiment experime
   std::vector<RunAudit*> audits;
   for (std::size_t r = 0; r < setups.size(); ++r) {
     RunAudit audit = audit_run(experiment.runs[r]);
-    measurement.runs.push_back({std::move(experiment.runs[r]), std::move(audit), setups[r]});
+    measurement.runs.push_back(
+        {std::move(experiment.runs[r]), std::move(audit), setups[r], is_shaken(setups[r])});
   }
   for (Measurement::Run& run : measurement.runs)
     recorded.push_back(&run.recorded), audits.push_back(&run.audit);

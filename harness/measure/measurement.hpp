@@ -23,6 +23,8 @@ struct Measurement {
     MeasuredRun recorded;
     RunAudit audit;
     Setup setup;  ///< the user's, with the run's own keys
+    bool shaken =
+        false;  ///< until the film ends, by the setup it was read with: no model changes what is seen
   };
   std::string title, file;
   std::vector<std::string> notes;     ///< what was assumed in reading, in words

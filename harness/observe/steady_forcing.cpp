@@ -15,7 +15,6 @@ namespace shakedown {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
-constexpr double samples_a_cycle = 200;  // an extremum between two samples is off by 1e-4 of the amplitude
 
 /// Sampled values at a time between samples.
 double value_at(const std::vector<double>& values, double place) {
@@ -35,10 +34,6 @@ auto integral(F f, double from, double to) {
     sum += 0.5 * (f(static_cast<double>(k)) + f(static_cast<double>(k + 1)));
   return sum + 0.5 * (to - static_cast<double>(last)) * (f(static_cast<double>(last)) + f(to));
 }
-
-}  // namespace
-
-namespace {
 
 bool moves_base(const EffectChoice& choice) { return choice.record->name == "base_motion"; }
 
@@ -62,7 +57,7 @@ std::optional<SteadyForcing> forcing_by_base(const Setup& setup, const EffectCho
   for (int i = 0; i <= samples; ++i)
     low = std::min(low, base(i * step)), high = std::max(high, base(i * step));
   const double middle = (low + high) / 2, amplitude = (high - low) / 2;
-  // Upward passages, each to a thousandth of a step.
+  // Upward passages, along the chord of their step.
   std::vector<double> passed;
   for (int i = 0; i < samples; ++i) {
     const double before = base(i * step) - middle, after = base((i + 1) * step) - middle;
@@ -187,8 +182,7 @@ std::optional<SteadyState> steady_state_if_any(const Setup& setup, const Traject
   if (!forcing || trajectory.time.size() < 3 || trajectory.interrupted) return {};
   const double cycles = trajectory.time.back() * forcing->frequency,
                samples = static_cast<double>(trajectory.time.size() - 1) / cycles;
-  constexpr double fewest_samples = 20;
-  if (cycles < steady_cycles || samples < fewest_samples) return {};
+  if (cycles < steady_cycles || samples < fewest_samples_a_cycle) return {};
   return steady_state(setup, trajectory);
 }
 

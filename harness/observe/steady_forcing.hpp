@@ -11,6 +11,10 @@ namespace shakedown {
 
 constexpr int forcing_cycles = 40;  ///< simulated
 constexpr int steady_cycles = 10;   ///< the last of them, which are looked at
+/// An extremum between two of so many samples a cycle is off by (pi / 200)^2 / 2 = 1e-4 of the amplitude ...
+constexpr double samples_a_cycle = 200;
+/// ... and of so few by 1.2 %: with fewer nothing is said.
+constexpr double fewest_samples_a_cycle = 20;
 
 /// Both swing as sin(2 pi f t + phase) along the axis; one of them is zero.
 struct SteadyForcing {

@@ -5,7 +5,10 @@
 #include <cmath>
 
 #include "camera_features.hpp"
+#include "effects.hpp"
 #include "features.hpp"
+#include "setup_file.hpp"
+#include "steady_forcing.hpp"
 
 using namespace shakedown;
 
@@ -103,6 +106,37 @@ TEST(Features, ATrackThatWandersMakesThemVaryTogether) {
   std::vector<MeasuredFeatures> without(1);
   add_wander({}, without);
   EXPECT_EQ(without.front().own.size(), 0);
+}
+
+/// A box that rings down within 6 s, filmed for 20.
+Measurement a_ring_down(const shakedown::Setup& setup) {
+  Experiment experiment;
+  MeasuredRun run;
+  run.frame_rate = 250;
+  for (int k = 0; k < 20 * 250; ++k) {
+    const double t = k / 250.0;
+    run.time.push_back(t);
+    run.x_box.push_back(0.1 * std::exp(-t) * std::cos(7.7 * t));
+  }
+  run.x_com = run.x_box;
+  experiment.runs.push_back(run);
+  return measurement_of(setup, experiment, all_effects());
+}
+
+TEST(Features, AModelThatShakesTheDamperChangesNotWhatIsLookedAt) {
+  const shakedown::Setup shaken = parse_setup(
+      "[[effect]]\nname = \"oscillating_acceleration\"\namplitude = [\"10 mm/s^2\", \"0 m/s^2\", \"0 "
+      "m/s^2\"]\nfrequency = \"1.4 Hz\"\n",
+      "test", all_effects());
+  const Measurement as_given = a_ring_down({});
+  const FeaturePlan plan = plan_features(as_given.runs.front());
+  EXPECT_LT(plan.end, 6);
+  const Measurement beside = with_setup(as_given, shaken, all_effects());
+  ASSERT_TRUE(is_shaken(beside.runs.front().setup));
+  EXPECT_EQ(plan_features(beside.runs.front()).end, plan.end);
+  EXPECT_EQ(plan_features(beside.runs.front()).features.size(), plan.features.size());
+  // Who says that it was shaken wants the whole film looked at.
+  EXPECT_GT(plan_features(a_ring_down(shaken).runs.front()).end, 19.9);
 }
 
 }  // namespace
