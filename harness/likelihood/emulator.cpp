@@ -121,6 +121,12 @@ Trajectory run_surely(const Setup& setup, int run, const Workshop& workshop) {
     RunOptions options;
     options.run = run + attempt * far_away;
     options.stop = workshop.stop;
+    // A run whose grains stall takes minutes: the limits hold within it too.
+    constexpr int reports_between = 20;  // of some 200 a run: asking costs as much as a hundred impacts
+    int reports = 0;
+    options.progress = [&](double) {
+      if (workshop.ask_for && ++reports % reports_between == 0) workshop.ask_for(0);
+    };
     try {
       Trajectory trajectory = workshop.engine->run(setup, options);
       if (trajectory.interrupted) throw Interrupted("interrupted");

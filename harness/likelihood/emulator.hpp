@@ -75,7 +75,7 @@ struct Workshop {
       nullptr;  ///< where simulations that other experiments repeat are kept; may be null
   SimulationJournal* journal = nullptr;  ///< of this work, begun before or not; may be null
   /// Throws BudgetSpent where so many more simulations are too many: asked before each batch and, with 0, by
-  /// every simulation, from several threads; may be empty.
+  /// every simulation at its start and now and then on its way, from several threads; may be empty.
   std::function<void(std::int64_t more)> ask_for{};
 };
 
