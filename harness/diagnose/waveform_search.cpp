@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "waveform_search.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <numbers>
 #include <optional>
 
 #include "effect_strength.hpp"
 #include "known_effects.hpp"
 #include "rules.hpp"
+#include "waveform_sets.hpp"
 
 namespace shakedown {
 
 namespace {
-
-constexpr double no_odds = -std::numeric_limits<double>::infinity();
 
 /// A second swing nearer than this to the box's own, or to a multiple of it, is none: the one exchanges
 /// energy with the box (beats), the other is a harmonic.
@@ -65,7 +60,7 @@ class WaveformSearch {
         whole = fit_waveform(runs_, whole.laws, whole.value, options_);
       }
       put_look_alikes_in_place(whole);
-      answer.sets = sets_within(whole);
+      answer.sets = sets().within(whole);
       if (answer.sets.empty() || !(answer.sets.front().fit.rms() < much_better * whole.rms())) break;
       whole = answer.sets.front().fit;
     }
@@ -73,13 +68,15 @@ class WaveformSearch {
     fixed.free_frequency = false;
     answer.as_given =
         fit_growing(runs_, {}, starting_values(runs_, {}, runs_.front().setup.spring.frequency), fixed);
-    if (!answer.sets.empty()) answer.gain = gains_of(answer.sets.front().fit);
+    if (!answer.sets.empty()) answer.gain = sets().gains_of(answer.sets.front().fit);
     answer.table = in_words(answer.sets);
     answer.runs = runs_;
     return answer;
   }
 
  private:
+  WaveformSets sets() const { return {runs_, static_cast<double>(laws_.size()), few_, options_}; }
+
   /// What the plain fit has: every law of one strength that engines without a waveform look for too, without
   /// those that stand for another one (a friction that yields).
   WaveformFit plain_laws(double frequency) {
@@ -88,9 +85,7 @@ class WaveformSearch {
       if (is_plain(law)) plain.push_back(law);
     const WaveformFit start =
         fit_waveform(runs_, {}, starting_values(runs_, {}, frequency), until(3 / frequency));
-    const std::vector<bool> traced = leave_trace(start, plain);
-    std::size_t next = 0;
-    std::erase_if(plain, [&](const WaveformLaw&) { return !traced[next++]; });
+    plain = leaving_trace(start, plain);
     std::erase_if(laws_, [&](const WaveformLaw& law) {
       return is_plain(law) && std::find(plain.begin(), plain.end(), law) == plain.end();
     });
@@ -147,12 +142,16 @@ class WaveformSearch {
     }
     return start;
   }
-  /// What frequency, places and origins do not take up.
-  std::vector<bool> leave_trace(const WaveformFit& fit, const std::vector<WaveformLaw>& laws) const {
-    std::vector<bool> leave;
-    for (const LawScore& score : scores_of(runs_, fit, laws, until(3 / fit.frequency())))
-      leave.push_back(score.seen > 1e-6);
-    return leave;
+  /// Those laws that frequency, places and origins do not take up.
+  std::vector<WaveformLaw> leaving_trace(const WaveformFit& fit, const std::vector<WaveformLaw>& laws) const {
+    // Derivatives are differences over 1e-4 of what changes the motion by its amplitude: bent by as much, of
+    // which 1e-8 is left in squares where nothing is.
+    constexpr double left_by_differences = 1e-6;
+    const std::vector<LawScore> scores = scores_of(runs_, fit, laws, until(3 / fit.frequency()));
+    std::vector<WaveformLaw> leaving;
+    for (std::size_t i = 0; i < laws.size(); ++i)
+      if (scores[i].seen > left_by_differences) leaving.push_back(laws[i]);
+    return leaving;
   }
 
   void weigh_runs(const WaveformFit& fit) {
@@ -160,13 +159,6 @@ class WaveformSearch {
       const double band = noise_in_band(runs_[r], fit.residual[r], fit.frequency());
       runs_[r].noise = std::max({runs_[r].white, std::sqrt(band), 1e-6 * runs_[r].amplitude});
     }
-  }
-
-  double prior_of(const WaveformFit& fit) const {
-    return log_prior_odds(fit, static_cast<double>(laws_.size()), fit.frequency());
-  }
-  double log_odds_of(const WaveformFit& fit) const {
-    return fit.possible ? prior_of(fit) - fit.chi2 / 2 : no_odds;
   }
 
   /// The law that makes the whole most probable, if one does.
@@ -202,7 +194,7 @@ class WaveformSearch {
   }
   /// Signs are not asked for on the way: what is needless goes in the end.
   double cost(const WaveformFit& fit) const {
-    const double each = std::log(rules::expected_effects / static_cast<double>(laws_.size())) - 3;
+    const double each = log_odds_of_one_more(static_cast<double>(laws_.size()));
     double sum = 0;
     for (const WaveformLaw& law : fit.laws) sum += each * static_cast<double>(law.width() > 1 ? 3 : 1);
     return sum;
@@ -285,146 +277,6 @@ class WaveformSearch {
     const double there = fit.value[fit.value.size() - 2];
     if (!(there > 0) || is_own(there, fit.frequency(), 1 / length)) return {};
     return fit;
-  }
-
-  /// Every set of laws among those of the whole, by what dropping laws costs to second order; those in
-  /// question are fitted.
-  std::vector<WaveformSet> sets_within(const WaveformFit& whole) const {
-    const std::size_t n = whole.laws.size();
-    struct Guess {
-      unsigned set;
-      double chi2;
-    };
-    std::vector<Guess> guesses;
-    for (unsigned set = 0; set < 1u << n; ++set)
-      if (const double rise = dropped(whole, set); std::isfinite(rise))
-        guesses.push_back({set, whole.chi2 + rise});
-    const double each = std::log(rules::expected_effects / static_cast<double>(laws_.size())) - 3;
-    const auto merit = [&](const Guess& g) {
-      return -g.chi2 / 2 + each * static_cast<double>(std::popcount(g.set));
-    };
-    std::stable_sort(guesses.begin(), guesses.end(),
-                     [&](const Guess& a, const Guess& b) { return merit(a) > merit(b); });
-    constexpr std::size_t most_kept = 8, most_fitted = 24;
-    constexpr double in_question = 30;  // ln odds; the second order is wrong by as much
-    std::vector<WaveformSet> sets;
-    double first = 0;  // merit of the first set that is possible
-    for (std::size_t i = 0; i < std::min(guesses.size(), most_fitted) && sets.size() < most_kept; ++i) {
-      if (!sets.empty() && merit(guesses[i]) < first - in_question) break;
-      WaveformFit fit = part_of(whole, guesses[i].set);
-      const double odds = log_odds_of(fit);
-      if (!std::isfinite(odds)) continue;
-      if (sets.empty()) first = merit(guesses[i]);
-      sets.push_back({std::move(fit), odds});
-    }
-    for (const WaveformFit& few : few_) add_with_extras(few, whole, sets);
-    sort_by_odds(sets);
-    without_the_needless(sets);
-    return sets;
-  }
-  /// One or two dampings, fitted by themselves, with all of the whole that damps nothing.
-  void add_with_extras(const WaveformFit& few, const WaveformFit& whole,
-                       std::vector<WaveformSet>& sets) const {
-    WaveformFit both = few;
-    std::vector<double> value(few.value.begin(), few.value.end());
-    for (std::size_t i = 0; i < whole.laws.size(); ++i) {
-      const WaveformLaw& law = whole.laws[i];
-      if ((law.term.never_negative && !law.term.inverse && !law.is_mode) ||
-          std::find(both.laws.begin(), both.laws.end(), law) != both.laws.end())
-        continue;
-      both.laws.push_back(law);
-      if (says_it_twice(both, both.laws.size() - 1)) {
-        both.laws.pop_back();
-        continue;
-      }
-      for (Eigen::Index k = 0; k < law.width(); ++k) value.push_back(whole.value[whole.first_of(i) + k]);
-    }
-    WaveformFit fit = fit_waveform(runs_, both.laws,
-                                   Eigen::Map<Eigen::VectorXd>(value.data(), std::ssize(value)), options_);
-    keep(std::move(fit), sets);
-  }
-
-  void keep(WaveformFit fit, std::vector<WaveformSet>& sets) const {
-    const double odds = log_odds_of(fit);
-    if (!std::isfinite(odds)) return;
-    const auto same = std::find_if(sets.begin(), sets.end(), [&](const WaveformSet& set) {
-      return set.fit.laws.size() == fit.laws.size() &&
-             std::is_permutation(set.fit.laws.begin(), set.fit.laws.end(), fit.laws.begin());
-    });
-    if (same == sets.end())
-      sets.push_back({std::move(fit), odds});
-    else if (odds > same->log_odds)
-      *same = {std::move(fit), odds};
-  }
-
-  static void sort_by_odds(std::vector<WaveformSet>& sets) {
-    std::stable_sort(sets.begin(), sets.end(),
-                     [](const WaveformSet& a, const WaveformSet& b) { return a.log_odds > b.log_odds; });
-  }
-
-  /// The most probable set without each of its laws, until none of these is more probable: the guesses of
-  /// second order are taken about the whole, where a needless law may hold the others away from their
-  /// minimum.
-  void without_the_needless(std::vector<WaveformSet>& sets) const {
-    for (std::size_t laws = SIZE_MAX; !sets.empty() && sets.front().fit.laws.size() < laws;) {
-      const WaveformFit best = sets.front().fit;
-      laws = best.laws.size();
-      const unsigned all = (1u << laws) - 1;
-      for (std::size_t i = 0; i < laws; ++i) keep(part_of(best, all & ~(1u << i)), sets);
-      sort_by_odds(sets);
-    }
-  }
-
-  /// Rise of chi2 where the laws that are not in the set are zero (Wald); infinite where one that stays would
-  /// have a sign that it cannot have, or the set says something twice.
-  double dropped(const WaveformFit& whole, unsigned set) const {
-    std::vector<Eigen::Index> out;
-    WaveformFit kept;
-    for (std::size_t i = 0; i < whole.laws.size(); ++i) {
-      if ((set >> i & 1) != 0) {
-        kept.laws.push_back(whole.laws[i]);
-        if (says_it_twice(kept, kept.laws.size() - 1)) return INFINITY;
-        continue;
-      }
-      const Eigen::Index width = std::min<Eigen::Index>(2, whole.laws[i].width());
-      for (Eigen::Index k = 0; k < width; ++k) out.push_back(whole.first_of(i) + k);
-    }
-    Eigen::VectorXd value = whole.value;
-    double rise = 0;
-    if (!out.empty()) {
-      const Eigen::VectorXd gone = whole.value(out);
-      const Eigen::MatrixXd covariance = whole.covariance(out, out);
-      const Eigen::VectorXd pull = covariance.completeOrthogonalDecomposition().solve(gone);
-      rise = gone.dot(pull);
-      value -= whole.covariance(Eigen::all, out) * pull;
-    }
-    for (std::size_t i = 0; i < whole.laws.size(); ++i)
-      if ((set >> i & 1) != 0 && whole.laws[i].term.never_negative && !whole.laws[i].is_mode &&
-          value[whole.first_of(i)] <= -std::sqrt(whole.covariance(whole.first_of(i), whole.first_of(i))))
-        return INFINITY;
-    return rise;
-  }
-  WaveformFit part_of(const WaveformFit& whole, unsigned set, int evaluations = 40) const {
-    std::vector<WaveformLaw> laws;
-    std::vector<Eigen::Index> kept;
-    for (Eigen::Index k = 0; k <= 3 * std::ssize(runs_); ++k) kept.push_back(k);
-    for (std::size_t i = 0; i < whole.laws.size(); ++i)
-      if ((set >> i & 1) != 0) {
-        laws.push_back(whole.laws[i]);
-        for (Eigen::Index k = 0; k < laws.back().width(); ++k) kept.push_back(whole.first_of(i) + k);
-      }
-    WaveformOptions few = options_;
-    few.evaluations = evaluations;
-    WaveformFit fit = fit_waveform(runs_, laws, whole.value(kept), few);
-    return fit;
-  }
-
-  std::vector<double> gains_of(const WaveformFit& fit) const {
-    std::vector<double> gains;
-    const unsigned all = (1u << fit.laws.size()) - 1;
-    for (std::size_t i = 0; i < fit.laws.size(); ++i)
-      gains.push_back(part_of(fit, all & ~(1u << i), 10).chi2 - fit.chi2);
-    return gains;
   }
 
   std::vector<Hypothesis> in_words(const std::vector<WaveformSet>& sets) const {
