@@ -67,11 +67,15 @@ Diagnosis Course::run() {
 void Course::compare_forced_runs() {
   const bool shaken = std::any_of(recorded_.runs.begin(), recorded_.runs.end(),
                                   [](const Measurement::Run& run) { return is_shaken(run.setup); });
-  if (!shaken) return;
-  constexpr int runs = 8, first_run = 900000;  // of no ensemble
+  if (!shaken || tools_.time_is_up()) return;
+  constexpr int runs = 8;  // the spread is told to a quarter of itself
   const Measurement beside = with_setup(recorded_, result_.amended, tools_.known());
-  for (DecayComparison& one : compare_decay(beside, tools_.workshop(), runs, first_run))
-    if (one.forced) result_.forced.push_back(std::move(one));
+  try {
+    for (DecayComparison& one : compare_decay(beside, tools_.workshop(), runs, tools_.next_batch()))
+      if (one.forced) result_.forced.push_back(std::move(one));
+  } catch (const Interrupted&) {
+    // What was found by then is the answer.
+  }
 }
 
 void Course::judge_empty_box(const MomentumOptions& whole) {

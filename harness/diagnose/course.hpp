@@ -23,9 +23,9 @@ class Course {
   Diagnosis run();
 
  private:
-  /// Formulas are looked for where no law of the list explains the waveform.
-  /// Amplitude, lag, loss factor and effective mass beside the final model's.
+  /// Amplitude, lag, loss factor and effective mass beside the final model's; nothing once the time is up.
   void compare_forced_runs();
+  /// Formulas are looked for where no law of the list explains the waveform.
   void judge_empty_box(const MomentumOptions& whole);
   void judge();
   DiagnosisState with_packing();
