@@ -68,16 +68,6 @@ class Wander {
   double box_, centre_;
 };
 
-/// Hz, by the median interval of an uneven clock.
-double usual_rate(const std::vector<double>& time) {
-  std::vector<double> intervals;
-  for (std::size_t i = 1; i < time.size(); ++i) intervals.push_back(time[i] - time[i - 1]);
-  if (intervals.empty()) return 0;
-  const auto middle = intervals.begin() + std::ssize(intervals) / 2;
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  return 1 / *middle;
-}
-
 /// Frames before the release, which a clock that is behind would give a negative time, are not recorded.
 void record(const Recording& seen, const RecordingSettings& settings, bool has_grains, Tracker tracker,
             Wander wander, MeasuredRun& run) {
@@ -92,7 +82,7 @@ void record(const Recording& seen, const RecordingSettings& settings, bool has_g
     run.x_box.push_back(box);
     if (settings.centre && has_grains) run.x_com.push_back(centre);
   }
-  if (settings.edge > 0) run.frame_rate = usual_rate(run.time);
+  if (settings.edge > 0) run.frame_rate = typical_rate(run.time);
 }
 
 MeasuredRun planned(const PlannedRun& plan, const RecordingSettings& recording) {

@@ -124,16 +124,6 @@ Start start_of(const Reader& reader) {
   return word == "unknown" ? Start::anywhere : word == "at rest" ? Start::from_rest : Start::not_said;
 }
 
-double typical_rate(const std::vector<double>& time) {
-  std::vector<double> intervals;
-  for (std::size_t i = 1; i < time.size(); ++i)
-    if (std::isfinite(time[i] - time[i - 1])) intervals.push_back(time[i] - time[i - 1]);
-  if (intervals.empty()) return 0;
-  std::nth_element(intervals.begin(), intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2),
-                   intervals.end());
-  return 1 / intervals[intervals.size() / 2];
-}
-
 void append(Violations& violations, Violations more) {
   violations.insert(violations.end(), std::make_move_iterator(more.begin()),
                     std::make_move_iterator(more.end()));
@@ -336,6 +326,16 @@ std::string digest(const Experiment& experiment) {
     }
   }
   return hexadecimal(hash);
+}
+
+double typical_rate(const std::vector<double>& time) {
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < time.size(); ++i)
+    if (std::isfinite(time[i] - time[i - 1])) intervals.push_back(time[i] - time[i - 1]);
+  if (intervals.empty()) return 0;
+  std::nth_element(intervals.begin(), intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2),
+                   intervals.end());
+  return 1 / intervals[intervals.size() / 2];
 }
 
 bool starts_anywhere(const MeasuredRun& run, const Setup& setup) {

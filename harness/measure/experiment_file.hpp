@@ -37,6 +37,9 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
 /// A short digest of what was measured and in which setups: changes with any number.
 std::string digest(const Experiment& experiment);
 
+/// Frames a second by the median interval of these times (s); 0: fewer than two.
+double typical_rate(const std::vector<double>& time);
+
 /// True when the first position and speed of the run are its own: it says release = "unknown", or says
 /// nothing and its box is empty. `setup` is that of the run.
 bool starts_anywhere(const MeasuredRun& run, const Setup& setup);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "robust_statistics.hpp"
+#include "rough_motion.hpp"
 
 namespace shakedown {
 
@@ -46,30 +47,6 @@ TimeSeries moving_mean(const TimeSeries& series, double width) {
   return mean;
 }
 
-/// Median time between upward passages through the middle, s; 0 where there are fewer than six of them. A
-/// passage counts once the series has been a third of its deviation below.
-double period_of(const TimeSeries& series) {
-  double sum = 0, squares = 0;
-  for (const double value : series.value) sum += value;
-  const double middle = sum / static_cast<double>(series.value.size());
-  for (const double value : series.value) squares += (value - middle) * (value - middle);
-  const double below = std::sqrt(squares / static_cast<double>(series.value.size())) / 3;
-  std::vector<double> passages;
-  bool armed = false;
-  for (std::size_t i = 1; i < series.value.size(); ++i) {
-    const double before = series.value[i - 1] - middle, now = series.value[i] - middle;
-    armed = armed || now < -below;
-    if (!armed || !(before < 0 && now >= 0)) continue;
-    passages.push_back(series.time[i - 1] + (series.time[i] - series.time[i - 1]) * before / (before - now));
-    armed = false;
-  }
-  constexpr std::size_t fewest = 6;
-  if (passages.size() < fewest) return 0;
-  std::vector<double> apart;
-  for (std::size_t i = 1; i < passages.size(); ++i) apart.push_back(passages[i] - passages[i - 1]);
-  return median(apart);
-}
-
 }  // namespace
 
 TimeSeries integral_of_swing(const TimeSeries& rate) {
@@ -77,8 +54,9 @@ TimeSeries integral_of_swing(const TimeSeries& rate) {
   for (std::size_t i = 0; i < rate.time.size(); ++i)
     if (std::isfinite(rate.value[i]))
       whole.time.push_back(rate.time[i]), whole.value.push_back(rate.value[i]);
-  const double period = whole.time.size() < 3 ? 0 : period_of(whole);
-  if (!(period > 0))
+  constexpr double fewest_swings = 6;
+  const double frequency = rough_motion(whole.time, whole.value).frequency, period = 1 / frequency;
+  if (whole.time.size() < 3 || !(frequency * (whole.time.back() - whole.time.front()) >= fewest_swings))
     return {{}, {}, "swings fewer than six times: where it swings to cannot be told from the sensor's drift"};
   // A large offset of the sensor would cost digits.
   const double offset = median(whole.value);
