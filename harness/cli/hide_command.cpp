@@ -212,7 +212,8 @@ Command add_hide_command(CLI::App& program) {
   many("--camera", a->question.camera,
        "noise.box, noise.centre (0.2 mm, 0.5 mm), fps (500), missing, outliers (0), jump (20 mm), "
        "centre=false; a camera as it is: lens=0.5%, shutter=1ms, near=0.5%, wander=20um/0.3s, and by run "
-       "trigger=1ms, release=0.3mm; a table as it is: rounding=0.1mm, jitter=1ms, stamped=true, start=0.2s, "
+       "trigger=1ms, release=0.3mm; a table as it is: rounding=0.1mm, edge=1mm, jitter=1ms, stamped=true, "
+       "start=0.2s, "
        "origin=2mm, declared=false",
        "KEY=VALUE,...");
   many("--known", a->question.known,

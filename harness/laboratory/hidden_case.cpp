@@ -100,7 +100,7 @@ struct RecordingKey {
   double RecordingSettings::*field;
   double low, high;
 };
-constexpr std::array<RecordingKey, 16> recording_keys{
+constexpr std::array<RecordingKey, 17> recording_keys{
     {{"noise.box", "mm", &RecordingSettings::box_noise, 0, 1},
      {"noise.centre", "mm", &RecordingSettings::centre_noise, 0, 1},
      {"fps", "Hz", &RecordingSettings::frame_rate, 5, 1e5},
@@ -114,6 +114,7 @@ constexpr std::array<RecordingKey, 16> recording_keys{
      {"trigger", "ms", &RecordingSettings::trigger, 0, 1},
      {"release", "mm", &RecordingSettings::release, 0, 0.1},
      {"rounding", "mm", &RecordingSettings::rounding, 1e-9, 0.1},
+     {"edge", "mm", &RecordingSettings::edge, 0, 0.1},
      {"jitter", "ms", &RecordingSettings::jitter, 0, 1},
      {"start", "s", &RecordingSettings::start, 0, 1e4},
      {"origin", "mm", &RecordingSettings::origin, -10, 10}}};
