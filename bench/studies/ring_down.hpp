@@ -58,8 +58,8 @@ RingDownAnswer answer_of(const RingDown& case_, const TrialTools& tools);
 struct RingDownResult {
   RingDown drawn;
   RingDownAnswer answer;
-  /// The physics named is the physics hidden; the camera's errors count for nothing, and effects of one
-  /// family (a pendulum's sine and a cubic spring) for one another.
+  /// The physics named is the physics hidden; the camera's errors count for nothing, and look-alikes (a
+  /// pendulum's sine and a cubic spring, a tilted camera and a spring stiffer to one side) for one another.
   bool right = false;
   bool invented = false;  ///< physics is named that is not hidden, or a force of no list
 };

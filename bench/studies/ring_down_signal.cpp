@@ -5,18 +5,20 @@
 #include <cmath>
 
 #include "film.hpp"
+#include "physics.hpp"
 
 namespace shakedown {
 
 namespace {
 
-/// The box as a perfect camera would have it, from `start` (s) on.
+/// The box as the camera of the setup has it but for noise, from `start` (s) on.
 Eigen::VectorXd seen(const Setup& setup, const RecordingSettings& recording, double start,
                      const Engine& engine) {
   Setup finely = setup;
   finely.run.sample_rate = recording.frame_rate * std::max(1.0, std::ceil(1000 / recording.frame_rate));
   const Recording film =
-      filmed({}, even_frames(recording.frame_rate, start, setup.run.duration), engine.run(finely));
+      filmed(physics_of(setup).camera, even_frames(recording.frame_rate, start, setup.run.duration),
+             engine.run(finely));
   return Eigen::Map<const Eigen::VectorXd>(film.x_box.data(), static_cast<Eigen::Index>(film.x_box.size()));
 }
 

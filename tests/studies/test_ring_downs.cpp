@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <set>
 
 #include "effects.hpp"
 #include "engines.hpp"
@@ -49,6 +50,18 @@ TEST(RingDowns, TheSignalOfWeakDampingIsThatOfTheClosedForm) {
   EXPECT_NEAR(signal_of(swinging(damping), white(noise)) / closed, 1, 0.02);
 }
 
+// x + b x^2 / 0.2 m: a constant, which the free origin takes, and half of it twice as fast. Without the
+// camera in what is seen its signal was none, and no case with a tilt was ever drawn.
+TEST(RingDowns, TheSignalOfATiltIsThatOfTheClosedForm) {
+  shakedown::Setup truth = swinging(1e-9);
+  set_number(truth, "camera_tilt.tilt", 0.02, all_effects());
+  const auto engine = engine_named("hard");
+  const double noise = 1e-3, twice_as_fast = 0.02 * std::pow(0.1075, 2) / 2 / 0.2,
+               closed = twice_as_fast * std::sqrt(2001 / 2.0) / noise;
+  EXPECT_NEAR(signals_of(truth, {"camera_tilt.tilt"}, white(noise), *engine, all_effects()).at(0) / closed, 1,
+              0.02);
+}
+
 TEST(RingDowns, WanderAndJitterTakeTheirPartOfTheSignal) {
   const shakedown::Setup truth = swinging(0.01);
   RecordingSettings noise = white(1e-4);
@@ -68,12 +81,8 @@ TEST(RingDowns, WanderAndJitterTakeTheirPartOfTheSignal) {
 
 TEST(RingDowns, AreDrawnAsStatedAndTheSameAgain) {
   const auto engine = engine_named("hard");
-  bool any_rig = false, any_edges = false;
-  for (int number = 0; number < 20; ++number) {
+  for (int number = 0; number < 8; ++number) {
     const RingDown one = draw_ring_down(3, number, *engine, all_effects());
-    any_edges |= one.noise == RingDownNoise::edges;
-    for (const char* rig : {"second_mode", "spring_quadratic", "camera_tilt", "pendulum"})
-      any_rig |= std::find(one.hidden.begin(), one.hidden.end(), rig) != one.hidden.end();
     EXPECT_GE(one.frames_a_period, 7.9);
     EXPECT_GE(one.weakest(), 4);
     EXPECT_LE(one.hidden.size(), 4u);
@@ -81,11 +90,24 @@ TEST(RingDowns, AreDrawnAsStatedAndTheSameAgain) {
     EXPECT_TRUE(one.trial.hidden.believed.effects.empty());
     EXPECT_EQ(one.trial.hidden.truth.grains.count, 0);
   }
-  EXPECT_TRUE(any_rig && any_edges);
   const RingDown once = draw_ring_down(3, 7, *engine, all_effects()),
                  again = draw_ring_down(3, 7, *engine, all_effects());
   EXPECT_EQ(write_setup(once.trial.hidden.truth), write_setup(again.trial.hidden.truth));
   EXPECT_EQ(once.signals, again.signals);
+}
+
+TEST(SlowRingDowns, HideEveryThingThatRigsHave) {
+  const auto engine = engine_named("hard");
+  bool any_edges = false;
+  std::set<std::string> hidden;
+  for (int number = 0; number < 40; ++number) {
+    const RingDown one = draw_ring_down(3, number, *engine, all_effects());
+    any_edges |= one.noise == RingDownNoise::edges;
+    hidden.insert(one.hidden.begin(), one.hidden.end());
+  }
+  EXPECT_TRUE(any_edges);
+  for (const char* rig : {"second_mode", "spring_quadratic", "camera_tilt", "pendulum"})
+    EXPECT_TRUE(hidden.contains(rig)) << rig;
 }
 
 TEST(RingDowns, AreJudgedByTheirPhysics) {
