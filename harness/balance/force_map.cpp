@@ -144,10 +144,12 @@ ForceCurve ForceMap::curve(ShapeOf of) const {
 
 ForceSamples shape_samples(const ForceShape& shape, const ShapeValues& values, const MomentumRun& run) {
   const Arguments a = arguments_of(shape.of, run);
-  const double step = 1e-4 * std::max(1e-9, a.argument.maxCoeff() - a.argument.minCoeff());
+  const double small = 1e-4 * std::max(1e-9, a.argument.maxCoeff() - a.argument.minCoeff());
+  const Eigen::ArrayXd step =
+      shape.of == ShapeOf::velocity ? velocity_blur(run) : Eigen::ArrayXd::Constant(a.argument.size(), small);
   const Eigen::ArrayXd g = a.argument.unaryExpr([&](double at) { return shape.value(at, values); });
-  const Eigen::ArrayXd slope = a.argument.unaryExpr([&](double at) {
-    return (shape.value(at + step, values) - shape.value(at - step, values)) / (2 * step);
+  const Eigen::ArrayXd slope = a.argument.binaryExpr(step, [&](double at, double by) {
+    return (shape.value(at + by, values) - shape.value(at - by, values)) / (2 * by);
   });
   ForceSamples samples;
   switch (shape.of) {

@@ -96,6 +96,24 @@ Eigen::ArrayXd yielding_force(const MomentumRun& run, const std::vector<DahlFric
   return force;
 }
 
+/// Whether a force of no closed form turns with the motion faster than the velocity is known, as friction
+/// does: its slope at rest is then far above the one over the velocity's noise.
+bool turns_unseen(const std::vector<FreeForce>& forces, const MomentumRun& run) {
+  constexpr Eigen::Index looks = 16;
+  constexpr double small = 1e-5, steeper = 2;  // m/s, below any noise of v; a tanh of half the noise has 2.1
+  for (Eigen::Index look = 0; look < std::min(looks, run.time.size()); ++look) {
+    const Eigen::Index i = look * run.time.size() / looks;
+    const auto slope = [&](double dv) {
+      double jump = 0;
+      for (const FreeForce& force : forces)
+        jump += force.newton(run.x_box[i], dv, run.time[i]) - force.newton(run.x_box[i], -dv, run.time[i]);
+      return std::abs(jump / (2 * dv));
+    };
+    if (run.v_noise > small && slope(small) > steeper * slope(run.v_noise)) return true;
+  }
+  return false;
+}
+
 void add_model_forces(const Physics& physics, int grains, MomentumRun& run) {
   const Eigen::Index n = run.time.size();
   run.model_force = run.model_force_dx = run.model_force_dv = Eigen::ArrayXd::Zero(n);
@@ -111,33 +129,39 @@ void add_model_forces(const Physics& physics, int grains, MomentumRun& run) {
       force += grains * f.newton(x, v, t);  // each grain near the box: no better known
     return force;
   };
-  run.dry_friction = box.dry_friction.sum() > 0 || !box.dahl.empty();
+  run.dry_friction = box.dry_friction.sum() > 0 || !box.dahl.empty() || turns_unseen(box.free, run);
   run.viscous = box.viscous.sum();
-  const Eigen::ArrayXd sign = known_sign(run).sign;
-  constexpr double dx = 1e-5, dv = 1e-4;  // below the noise of x and v, far above rounding
+  const double dry = box.dry_friction.sum();
+  const KnownSign direction = known_sign(run);
+  const Eigen::ArrayXd blur = velocity_blur(run);
+  constexpr double dx = 1e-5;  // m, below the noise of x, far above rounding
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double x = run.x_box[i], v = run.v_smooth[i], t = run.time[i];
-    run.model_force[i] = smooth_force(x, v, t) - box.dry_friction.sum() * sign[i];
+    const double x = run.x_box[i], v = run.v_smooth[i], t = run.time[i], dv = blur[i];
+    run.model_force[i] = smooth_force(x, v, t) - dry * direction.sign[i];
     run.model_force_dx[i] = (smooth_force(x + dx, v, t) - smooth_force(x - dx, v, t)) / (2 * dx);
-    run.model_force_dv[i] = (smooth_force(x, v + dv, t) - smooth_force(x, v - dv, t)) / (2 * dv);
+    run.model_force_dv[i] =
+        (smooth_force(x, v + dv, t) - smooth_force(x, v - dv, t)) / (2 * dv) - dry * direction.slope[i];
   }
   if (!box.dahl.empty()) run.model_force += yielding_force(run, box.dahl);
 }
 
 }  // namespace
 
-KnownSign known_sign(const MomentumRun& run) {
+Eigen::ArrayXd velocity_blur(const MomentumRun& run) {
   const Eigen::Index n = run.time.size();
-  KnownSign known{Eigen::ArrayXd(n), Eigen::ArrayXd(n)};
+  Eigen::ArrayXd blur(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double next = run.v_smooth[std::min(i + 1, n - 1)],
                  last = run.v_smooth[std::max<Eigen::Index>(i - 1, 0)];
-    const double width = std::hypot(run.v_noise, (next - last) / (2 * std::sqrt(12.0))) + 1e-9;
-    const double u = run.v_smooth[i] / (std::numbers::sqrt2 * width);
-    known.sign[i] = std::erf(u);
-    known.slope[i] = std::sqrt(2 / std::numbers::pi) / width * std::exp(-u * u);
+    blur[i] = std::hypot(run.v_noise, (next - last) / (2 * std::sqrt(12.0))) + 1e-9;
   }
-  return known;
+  return blur;
+}
+
+KnownSign known_sign(const MomentumRun& run) {
+  const Eigen::ArrayXd blur = velocity_blur(run), u = run.v_smooth / (std::numbers::sqrt2 * blur);
+  return {u.unaryExpr([](double at) { return std::erf(at); }),
+          std::sqrt(2 / std::numbers::pi) / blur * (-u.square()).exp()};
 }
 
 int smoothing_half_width(double interval) {

@@ -32,10 +32,12 @@ struct MomentumRun {
   Eigen::ArrayXd model_force;
   double viscous = 0;         ///< N s/m
   bool dry_friction = false;  ///< model_force has one that turns with the motion: unknown while the box rests
-  Eigen::ArrayXd model_force_dx, model_force_dv;  ///< N/m, N s/m, by the box's position and velocity
-  std::vector<char> usable;                       ///< frame measured or well interpolated
-  std::vector<char> box_filled, com_filled;       ///< position interpolated
-  double com_gain = 1;  ///< true (x_com - x_box) over recorded, by the setup's camera
+  /// N/m, N s/m, by the box's position and velocity; the latter over the velocity's blur, so that a force
+  /// that jumps at a turning point lets in what is not known of the moment.
+  Eigen::ArrayXd model_force_dx, model_force_dv;
+  std::vector<char> usable;                  ///< frame measured or well interpolated
+  std::vector<char> box_filled, com_filled;  ///< position interpolated
+  double com_gain = 1;                       ///< true (x_com - x_box) over recorded, by the setup's camera
   double plateau_gain =
       1;  ///< recorded (x_com - x_box) of a packed layer over true, in the middle of the track
   NoiseFound box_noise, com_noise;  ///< of the recorded series
@@ -51,8 +53,12 @@ Recording before_the_camera(const Measurement::Run& measurement);
 /// differ.
 MomentumRun momentum_run(const Measurement::Run& measurement, const Recording& motion);
 
-/// The sign of the box's velocity, frame by frame, as far as it is known: its mean over the noise of v and
-/// over the frame's length, erf(v / (sqrt(2) width)); and the derivative by v.
+/// m/s, standard deviation of the velocity in each frame about v_smooth: its noise, and what it changes by in
+/// the frame's length. A force that turns within it lets the noise in by its slope over as much.
+Eigen::ArrayXd velocity_blur(const MomentumRun& run);
+
+/// The sign of the box's velocity, frame by frame, as far as it is known: its mean over the blur,
+/// erf(v / (sqrt(2) blur)); and the derivative by v.
 struct KnownSign {
   Eigen::ArrayXd sign, slope;
 };

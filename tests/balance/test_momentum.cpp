@@ -88,6 +88,43 @@ TEST(Momentum, DryFrictionIsJudgedWhereTheBoxMoves) {
   EXPECT_TRUE(audit.only_moving);
 }
 
+/// chi2 per degree of freedom of the right model, at the mean of some films, the track taken for steady.
+double misfit_of_the_truth(const PushedBox& what, const std::string& effect) {
+  constexpr int films = 4;
+  const shakedown::Setup truth = parse_setup(effect, "test", all_effects());
+  MomentumOptions options;
+  options.formulas = false;
+  options.effects = {"clamp_dry_friction"};
+  options.wander = Wander{0, 0.3};
+  double sum = 0;
+  for (std::uint64_t seed = 1; seed <= films; ++seed) {
+    const Experiment experiment = pushed_box(what, seed);
+    const MomentumAudit audit =
+        audit_momentum(measurement_of(truth, experiment, all_effects()), all_effects(), options);
+    EXPECT_TRUE(audit.only_moving);
+    sum += audit.as_given.chi2_per_degree() / films;
+  }
+  return sum;
+}
+
+// A friction turns when the velocity does: what the frames do not tell of that moment is noise of the
+// balance.
+TEST(Momentum, WhatIsNotKnownOfATurningPointIsNoise) {
+  PushedBox what;
+  what.dry_friction = 0.02;
+  what.com_noise = 5e-5;  // so that little else is noise
+  const double sticking =
+      misfit_of_the_truth(what, "[[effect]]\nname = \"clamp_dry_friction\"\nforce = \"20 mN\"\n");
+  what.dry_friction = 0;
+  what.force = [](double, double v, double) { return -0.02 * std::tanh(v / 2e-3); };
+  const double creeping = misfit_of_the_truth(
+      what,
+      "[[effect]]\nname = \"user_force\"\non = \"box\"\nforce = \"-F*tanh(v/v0)\"\nconstants = {F = "
+      "\"20 mN\", v0 = \"2 mm/s\"}\n");
+  EXPECT_NEAR(sticking, 1, 0.1) << "seen: 0.96 (six films)";
+  EXPECT_NEAR(creeping, 1, 0.1) << "seen: 0.99 (six films)";
+}
+
 TEST(Momentum, ForcingIsFoundAtItsFrequency) {
   PushedBox what;
   const double mass = 0.434 + 37 * 4.04e-3;
