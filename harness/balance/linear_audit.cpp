@@ -329,7 +329,10 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
                   [](const MomentumRun& run) { return run.dry_friction; }))
     only_moving();
   const auto take_wander = [&] {
-    if (!options.wander) return choose_wander(p, balance.noise());
+    if (!options.wander)
+      return choose_wander(
+          p, balance.noise(),
+          {options.lowest_frequency, std::min(options.highest_frequency, p.highest_frequency)});
     p.problem.set_wander(*options.wander);
     p.problem.set_covariance({});
   };

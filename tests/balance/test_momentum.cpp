@@ -138,6 +138,18 @@ TEST(Momentum, ForcingIsFoundAtItsFrequency) {
   EXPECT_NEAR(audit.terms[0].phase, 0.7, (audit.terms[0].high - audit.terms[0].low) / audit.terms[0].value);
 }
 
+/// A sine that no known strength stands for is no wander of the track, though it varies like one.
+TEST(Momentum, ASlowForcingIsNoWander) {
+  PushedBox what;
+  const double mass = 0.434 + 37 * 4.04e-3;
+  what.force = [=](double, double, double t) {
+    return mass * 0.04 * std::sin(2 * std::numbers::pi * 1.43 * t + 1);
+  };
+  const MomentumAudit audit = audited(what);
+  expect_found(audit, "oscillating_acceleration", 0.04, 3e-4);  // seen: 1e-4
+  EXPECT_LE(audit.wander.deviation, 2.1e-5) << "a tenth of the white noise is usual; seen: 0";
+}
+
 /// The longer windows cannot see so fast and strong a sine and choose slow ones in its place; none of them
 /// may stay.
 TEST(Momentum, AStrongFastSineStandsAlone) {
