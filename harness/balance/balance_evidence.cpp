@@ -267,8 +267,9 @@ std::vector<BalanceHypothesis> with_own_noise(const SelectionProblem& p,
 
 std::vector<int> terms_seen(const SelectionProblem& p) { return projected(p, {{0, 0}}).term; }
 
-double log_evidence_of_noise(const SelectionProblem& p, const std::vector<ChosenTerm>& base) {
+double log_evidence_of_noise(const SelectionProblem& p) {
   constexpr std::size_t most = 2;  // what acts is hardly ever more, and the noise is weighed fifty times
+  const std::vector<ChosenTerm> base{{0, 0}};
   const Projected q = projected(p, base);
   std::vector<double> odds;
   for (const BalanceHypothesis& hypothesis : sets_of(p, q, base, most)) odds.push_back(hypothesis.log_odds);

@@ -68,8 +68,8 @@ std::vector<BalanceHypothesis> with_own_noise(const SelectionProblem& p,
 /// The known strengths that leave a trace in the balance beside frequency and nuisances.
 std::vector<int> terms_seen(const SelectionProblem& p);
 
-/// ln evidence of the wander of the track that the problem has, whatever known strengths act beside `base`.
-double log_evidence_of_noise(const SelectionProblem& p, const std::vector<ChosenTerm>& base);
+/// ln evidence of the wander of the track that the problem has, whatever acts on the box.
+double log_evidence_of_noise(const SelectionProblem& p);
 
 /// The sine that gains most beside `chosen`, with the ln odds that it brings over none, all frequencies
 /// between the two allowed for.

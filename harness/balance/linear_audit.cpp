@@ -10,7 +10,7 @@
 #include "force_formula.hpp"
 #include "foretold.hpp"
 #include "robust_statistics.hpp"
-#include "shape_found.hpp"
+#include "sets_weighed.hpp"
 #include "wander_choice.hpp"
 
 namespace shakedown {
@@ -20,6 +20,8 @@ namespace {
 /// chi2 by which a force that no list has must beat every set of known ones, beyond the prices of its
 /// parameters: it is e^5 times less likely beforehand.
 constexpr double price_of_the_unlisted = 10;
+/// ... and ln odds of nine to one, with which known effects are added too.
+constexpr double adds_the_unlisted = 2.2;
 
 constexpr double of_95_percent = 1.96;
 
@@ -128,28 +130,6 @@ std::vector<SingleTerm> ranking_of(const SelectionProblem& p, const Selection& r
                                  [&](const SingleTerm& other) { return other.effect == one->effect; }),
                   ranking.end());
   return ranking;
-}
-
-/// Sets of known strengths, with up to so many sines.
-std::vector<BalanceHypothesis> weighed(SelectionProblem& p, const MomentumOptions& options,
-                                       std::vector<ChosenTerm> base = {{0, 0}}) {
-  std::vector<BalanceHypothesis> list = compare_sets(p, base);
-  for (int sines = static_cast<int>(base.size()) - 1; sines < options.most_sines && p.typical_sine > 0;
-       ++sines) {
-    Selection beside{list.front().chosen, {}, 0};
-    const SineFound sine = best_sine(p, beside, options.lowest_frequency,
-                                     std::min(options.highest_frequency, p.highest_frequency));
-    if (sine.log_odds <= 0) break;
-    base.push_back({-1, sine.frequency});
-    list = compare_sets(p, base);
-  }
-  return list;
-}
-
-bool acts_dry(const SelectionProblem& p, const std::vector<ChosenTerm>& chosen) {
-  return std::any_of(chosen.begin(), chosen.end(), [&](const ChosenTerm& c) {
-    return p.is_known(c.term) && c.term > 0 && p.known[static_cast<std::size_t>(c.term)].dry;
-  });
 }
 
 std::vector<WeighedSet> sets_in_words(const SelectionProblem& p, const std::vector<BalanceHypothesis>& list,
@@ -306,69 +286,21 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
                            const MomentumOptions& options, const NuisanceValues& already) {
   MomentumAudit audit;
   const BalanceProblem balance(measurement, known, already, options.effects);
-  const double window = options.window_periods / balance.frequency();
-  SelectionProblem p = balance.windows_of(window, window * options.hop);
-  constexpr Eigen::Index least_windows = 20;
-  audit.possible = p.problem.windows() > least_windows;
+  std::optional<SetsWeighed> weighed = weigh_sets(balance, options);
+  audit.possible = weighed.has_value();
   if (!audit.possible) {
     audit.why_not =
         "no run has the positions of the box, and of its grains if there are any, in frames close together "
         "over more than a few periods";
     return audit;
   }
-  // A box that sticks obeys no sgn v: it is judged only where it moves by 30 standard deviations of the
-  // camera's noise.
-  const auto only_moving = [&] {
-    SelectionProblem moving = p;
-    moving.problem.keep_moving(30 * balance.noise());
-    if (moving.problem.windows() <= least_windows) return;
-    p = std::move(moving);
-    audit.only_moving = true;
-  };
-  if (std::any_of(balance.runs().begin(), balance.runs().end(),
-                  [](const MomentumRun& run) { return run.dry_friction; }))
-    only_moving();
-  const auto take_wander = [&] {
-    if (!options.wander)
-      return choose_wander(
-          p, balance.noise(),
-          {options.lowest_frequency, std::min(options.highest_frequency, p.highest_frequency)});
-    p.problem.set_wander(*options.wander);
-    p.problem.set_covariance({});
-  };
-  take_wander();
-  std::vector<BalanceHypothesis> sets = weighed(p, options);
-  if (!audit.only_moving && acts_dry(p, sets.front().chosen)) {
-    only_moving();
-    if (audit.only_moving) {
-      take_wander();
-      sets = weighed(p, options);
-    }
-  }
-  if (find_shapes(p, sets.front().chosen)) sets = weighed(p, options);
-  // Faster sines than these windows see need shorter ones, which must still hold ten frames.
-  const bool enough_frames = std::all_of(
-      balance.runs().begin(), balance.runs().end(),
-      [&](const MomentumRun& run) { return run.time.size() == 0 || window / 3 > 10 * run.interval; });
-  if (p.typical_sine > 0 && options.highest_frequency > p.highest_frequency && enough_frames) {
-    SelectionProblem fast = balance.windows_of(window / 3, window / 3 * options.hop);
-    if (audit.only_moving) fast.problem.keep_moving(30 * balance.noise());
-    if (fast.problem.windows() > least_windows) {
-      fast.problem.set_wander(p.problem.wander());
-      fast.problem.set_covariance({});
-      const SineFound sine = best_sine(fast, {sets.front().chosen, {}, 0}, p.highest_frequency,
-                                       std::min(options.highest_frequency, fast.highest_frequency));
-      if (sine.log_odds > 0) {
-        p = std::move(fast);
-        sets = weighed(p, options, {{0, 0}, {-1, sine.frequency}});
-      }
-    }
-  }
+  audit.only_moving = weighed->only_moving;
+  SelectionProblem p = std::move(weighed->problem);
   for (std::size_t run = 0; run < p.problem.runs(); ++run) audit.runs.push_back(run_as_given(p.problem, run));
   audit.as_given = without_effects(p, false);
   audit.refitted = without_effects(p, true);
   audit.ranking = ranking_of(p, fit_terms(p, {{0, 0}}));
-  sets = with_own_noise(p, sets);
+  const std::vector<BalanceHypothesis> sets = with_own_noise(p, weighed->sets);
   Selection selection = fit_terms(p, sets.front().chosen);
   audit.sets = sets_in_words(p, sets, known);
   audit.alternatives = alternatives_of(p, sets, balance.frequency(), known);
@@ -386,7 +318,8 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
     const double cost_of_known = cost_of(q, fit_terms(q, sets.front().chosen));
     FormulaFit formulas = fit_formulas(q);
     // A formula that leaves the balance rejected or foretells nothing is no better than known forces that do.
-    audit.unlisted = !formulas.formulas.empty() && formulas.cost < cost_of_known - price_of_the_unlisted &&
+    audit.unlisted = !formulas.formulas.empty() &&
+                     formulas.cost < cost_of_known - price_of_the_unlisted - 2 * adds_the_unlisted &&
                      balance_of(formulas.selection.fit).p_value > balance_rejected &&
                      !imitates_known(formulas.problem, formulas.selection.chosen) &&
                      chi2_foretold(formulas.problem, formulas.selection.chosen) <

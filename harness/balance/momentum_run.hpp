@@ -58,7 +58,8 @@ MomentumRun momentum_run(const Measurement::Run& measurement, const Recording& m
 Eigen::ArrayXd velocity_blur(const MomentumRun& run);
 
 /// The sign of the box's velocity, frame by frame, as far as it is known: its mean over the blur,
-/// erf(v / (sqrt(2) blur)); and the derivative by v.
+/// erf(v / (sqrt(2) blur)); and the derivative by v. Summed over a turning point the derivative lets in the
+/// impulse 2 dt that a moment unknown by dt makes.
 struct KnownSign {
   Eigen::ArrayXd sign, slope;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "wander_choice.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,11 +33,13 @@ double log_prior_of(const Wander& wander, double usual) {
   return std::log(2 * std::numbers::ln2 / std::numbers::pi * ratio / (1 + ratio * ratio)) - std::log(3.0);
 }
 
-/// The most probable wander beside these terms; p is left with the last that was tried.
-Wander best_wander(SelectionProblem& p, double usual, const std::vector<ChosenTerm>& beside) {
+}  // namespace
+
+void choose_wander(SelectionProblem& p, double white) {
+  const double usual = usual_wander * white;
   const auto probability = [&](const Wander& wander) {
     take(p, wander);
-    return log_evidence_of_noise(p, beside) + log_prior_of(wander, usual);
+    return log_evidence_of_noise(p) + log_prior_of(wander, usual);
   };
   Wander best;
   double most = probability(best);
@@ -51,27 +54,27 @@ Wander best_wander(SelectionProblem& p, double usual, const std::vector<ChosenTe
       if (here > most) most = here, best = wander;
     }
   }
-  return best;
+  take(p, best);
 }
 
-}  // namespace
-
-void choose_wander(SelectionProblem& p, double white, const SineRange& sines) {
-  const std::vector<ChosenTerm> spring{{0, 0}};
-  const double usual = usual_wander * white;
-  const Wander plain = best_wander(p, usual, spring);
-  const auto sine = [&] { return best_sine(p, {spring, {}, 0}, sines.lowest, sines.highest); };
-  take(p, plain);
-  if (plain.deviation <= usual || !(p.typical_sine > 0)) return;
-  const auto log_probability = [&](const Wander& wander) {
-    take(p, wander);
-    return log_evidence_of_noise(p, spring) + log_prior_of(wander, usual) + std::max(0.0, sine().log_odds);
+bool lessen_wander(SelectionProblem& p, double white, const std::vector<ChosenTerm>& acting) {
+  const double usual = usual_wander * white, least = 0.25 * usual;
+  const Wander before = p.problem.wander();
+  SelectionProblem tried = p;
+  const auto probability = [&](const Wander& wander) {
+    take(tried, wander);
+    const Selection fit = fit_terms(tried, acting);
+    const double occam = fit.fit.covariance.ldlt().vectorD().array().log().sum();
+    return (occam - fit.objective) / 2 + log_prior_of(wander, usual);
   };
-  take(p, {usual, plain.time});
-  const SineFound seen = sine();
-  const Wander beside = seen.log_odds > 0 ? best_wander(p, usual, {{0, 0}, {-1, seen.frequency}}) : plain;
-  const bool less = beside.deviation < plain.deviation && log_probability(beside) > log_probability(plain);
-  take(p, less ? beside : plain);
+  Wander best = before;
+  double most = probability(before);
+  for (Wander less = before; less.deviation > 0;) {
+    less.deviation = less.deviation > 1.5 * least ? less.deviation / 2 : 0;
+    if (const double here = probability(less); here > most) most = here, best = less;
+  }
+  take(p, best);
+  return best.deviation < before.deviation;
 }
 
 }  // namespace shakedown

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "sets_weighed.hpp"
+
+#include <algorithm>
+
+#include "shape_found.hpp"
+#include "wander_choice.hpp"
+
+namespace shakedown {
+
+namespace {
+
+constexpr Eigen::Index least_windows = 20;
+/// Standard deviations of the camera's noise. A box that sticks obeys no sgn v: where a dry friction acts, it
+/// is judged only where it moves by more.
+constexpr double moves = 30;
+
+class SetSearch {
+ public:
+  SetSearch(const BalanceProblem& balance, const MomentumOptions& options)
+      : balance_(balance),
+        options_(options),
+        window_(options.window_periods / balance.frequency()),
+        found_{balance.windows_of(window_, window_ * options.hop), {}, false} {}
+
+  std::optional<SetsWeighed> run() {
+    if (found_.problem.problem.windows() <= least_windows) return {};
+    if (std::any_of(balance_.runs().begin(), balance_.runs().end(),
+                    [](const MomentumRun& run) { return run.dry_friction; }))
+      keep_moving();
+    take_wander();
+    weigh();
+    if (!found_.only_moving && acts_dry() && keep_moving()) {
+      take_wander();
+      weigh();
+    }
+    take_wander_beside_what_acts();
+    if (find_shapes(found_.problem, acting())) weigh();
+    look_for_fast_sines();
+    return std::move(found_);
+  }
+
+ private:
+  const std::vector<ChosenTerm>& acting() const { return found_.sets.front().chosen; }
+
+  bool acts_dry() const {
+    const SelectionProblem& p = found_.problem;
+    return std::any_of(acting().begin(), acting().end(), [&](const ChosenTerm& c) {
+      return p.is_known(c.term) && c.term > 0 && p.known[static_cast<std::size_t>(c.term)].dry;
+    });
+  }
+
+  bool keep_moving() {
+    SelectionProblem moving = found_.problem;
+    moving.problem.keep_moving(moves * balance_.noise());
+    if (moving.problem.windows() <= least_windows) return false;
+    found_.problem = std::move(moving);
+    return found_.only_moving = true;
+  }
+
+  void take_wander() {
+    if (!options_.wander) return choose_wander(found_.problem, balance_.noise());
+    found_.problem.problem.set_wander(*options_.wander);
+    found_.problem.problem.set_covariance({});
+  }
+
+  /// Sets of known strengths, with up to so many sines.
+  void weigh(std::vector<ChosenTerm> base = {{0, 0}}) {
+    const SelectionProblem& p = found_.problem;
+    found_.sets = compare_sets(p, base);
+    for (int sines = static_cast<int>(base.size()) - 1; sines < options_.most_sines && p.typical_sine > 0;
+         ++sines) {
+      const SineFound sine = best_sine(p, {acting(), {}, 0}, options_.lowest_frequency,
+                                       std::min(options_.highest_frequency, p.highest_frequency));
+      if (sine.log_odds <= 0) break;
+      base.push_back({-1, sine.frequency});
+      found_.sets = compare_sets(p, base);
+    }
+  }
+
+  /// A wander takes up what it is not weighed beside: sines, more than two strengths, the noise that a force
+  /// lets in. Each step makes wander and set together more probable.
+  void take_wander_beside_what_acts() {
+    constexpr int most_rounds = 3;
+    for (int round = 0; round < most_rounds && !options_.wander && acting().size() > 1; ++round) {
+      if (!lessen_wander(found_.problem, balance_.noise(), acting())) return;
+      weigh();
+    }
+  }
+
+  /// Faster sines than these windows see need shorter ones, which must still hold ten frames.
+  void look_for_fast_sines() {
+    const SelectionProblem& p = found_.problem;
+    const bool enough_frames = std::all_of(
+        balance_.runs().begin(), balance_.runs().end(),
+        [&](const MomentumRun& run) { return run.time.size() == 0 || window_ / 3 > 10 * run.interval; });
+    if (!(p.typical_sine > 0) || options_.highest_frequency <= p.highest_frequency || !enough_frames) return;
+    SelectionProblem fast = balance_.windows_of(window_ / 3, window_ / 3 * options_.hop);
+    if (found_.only_moving) fast.problem.keep_moving(moves * balance_.noise());
+    if (fast.problem.windows() <= least_windows) return;
+    fast.problem.set_wander(p.problem.wander());
+    fast.problem.set_covariance({});
+    const SineFound sine = best_sine(fast, {acting(), {}, 0}, p.highest_frequency,
+                                     std::min(options_.highest_frequency, fast.highest_frequency));
+    if (sine.log_odds <= 0) return;
+    found_.problem = std::move(fast);
+    weigh({{0, 0}, {-1, sine.frequency}});
+    take_wander_beside_what_acts();
+  }
+
+  const BalanceProblem& balance_;
+  const MomentumOptions& options_;
+  const double window_;  // s
+  SetsWeighed found_;
+};
+
+}  // namespace
+
+std::optional<SetsWeighed> weigh_sets(const BalanceProblem& balance, const MomentumOptions& options) {
+  return SetSearch(balance, options).run();
+}
+
+}  // namespace shakedown
