@@ -16,6 +16,26 @@ namespace {
 
 constexpr double box_in_radii = 40;
 
+/// Hertz's force as somebody would write it who adds a law of contact of his own.
+const EffectRecord& hertz_law() {
+  static const EffectRecord record = [] {
+    EffectRecord law;
+    law.name = "hertz";
+    law.engines = {{"soft", {Fidelity::exact}}};
+    law.apply = [](const EffectChoice& choice, int, Physics& physics) {
+      const double k = choice.number("stiffness");
+      physics.contact.push = [k](ContactClass, double overlap, double, double, double) {
+        return k * std::pow(overlap, 1.5);
+      };
+      physics.contact.stored_energy = [k](ContactClass, double overlap, double, double) {
+        return 0.4 * k * std::pow(overlap, 2.5);
+      };
+    };
+    return law;
+  }();
+  return record;
+}
+
 bool is_free(Partner partner) { return partner == Partner::end_wall || partner == Partner::side_wall; }
 
 double largest_radius(const Encounter& it) {
@@ -188,7 +208,7 @@ Motion by_rigid_bodies(const Encounter& it) {
   return pushed(it, needed.norm() <= allowed ? needed : Vec3(needed * (allowed / needed.norm())));
 }
 
-double by_tangential_spring(const Encounter& it) {
+double by_tangential_spring(const Encounter& it, double tangential_stiffness) {
   const Vec3 slipping = it.slip();
   const double before = slipping.norm(), duration = it.contact_time, mass = it.reduced_mass();
   if (before == 0 || it.friction == 0) return 1;
@@ -196,7 +216,8 @@ double by_tangential_spring(const Encounter& it) {
   const double decay = -std::log(it.restitution) / duration, rate = std::numbers::pi / duration;
   const double stiffness = mass * (rate * rate + decay * decay);
   const double across = -std::log(std::max(it.tangential_restitution, 1e-4)) / duration;
-  const double dashpot = 4.0 / 7 * mass * across, spring = 2.0 / 7 * (stiffness + mass * across * across);
+  const double dashpot = 4.0 / 7 * mass * across,
+               spring = tangential_stiffness * (stiffness + mass * across * across);
   constexpr int steps = 10000;
   const double step = duration / steps;
   double slip = before, stretch = 0;
@@ -238,6 +259,11 @@ Setup setup_of(const Encounter& it) {
     friction.values.insert_or_assign("grain_wall", it.friction);
     friction.values.insert_or_assign("tangential_restitution", it.tangential_restitution);
     setup.effects.push_back(friction);
+  }
+  if (it.hertz_stiffness > 0) {
+    EffectChoice hertz{&hertz_law(), {}, {}};
+    hertz.values.insert_or_assign("stiffness", it.hertz_stiffness);
+    setup.effects.push_back(hertz);
   }
   return setup;
 }

@@ -31,7 +31,8 @@ struct Encounter {
   double friction = 0, tangential_restitution = 1;
   double contact_time = 3e-4;  ///< of the soft engine
   double steps_per_contact = 50;
-  double phase = 0.37;  ///< share of a step that is over at first touch
+  double phase = 0.37;         ///< share of a step that is over at first touch
+  double hertz_stiffness = 0;  ///< N/m^1.5; the soft engine's normal force is then Hertz's, without loss
 
   double closing() const { return velocity.dot(place_of(partner).normal); }
   /// Velocity of the sphere's touching point relative to the other's, across the normal, m/s.
@@ -60,8 +61,9 @@ Motion pushed(const Encounter& encounter, const Vec3& across);
 /// the normal impulse where that is less (O. R. Walton and R. L. Braun, J. Rheol. 30, 949 (1986)).
 Motion by_rigid_bodies(const Encounter& encounter);
 /// Slip after the impact over slip before, by the soft engine's law as documented (softsphere/friction.hpp)
-/// for a contact too short to turn: integrated here in many small steps, with no code of the engine.
-double by_tangential_spring(const Encounter& encounter);
+/// for a contact too short to turn: integrated here in many small steps, with no code of the engine. The
+/// engine has a tangential spring of 2/7 of the normal one, elastic bodies one of 2 (1 - nu) / (2 - nu).
+double by_tangential_spring(const Encounter& encounter, double tangential_stiffness = 2.0 / 7);
 /// The motion with this much of the slip left.
 Motion with_slip_left(const Encounter& encounter, double share);
 
