@@ -130,7 +130,12 @@ Observation LoopAccounts<Scene>::observe(const Held& held) {
   }
   energy = spin_energy_added_to(energy, held.spin) + grains.kinetic;
   if (scene_.has_spring) energy += scene_.box.spring_energy(box.x) + scene_.box.mass() * box.v * box.v / 2;
-  energy_book_.see(energy + total_loss() - initial_energy_, energy);
+  if constexpr (Scene::driven) {
+    const Ledger lines = ledger();
+    energy_book_.see(energy + lines.total_loss() - initial_energy_, energy, lines);
+  } else {
+    energy_book_.see(energy + total_loss() - initial_energy_, energy);
+  }
   if (scene_.has_spring) {
     const double momentum = grains.momentum[0] + scene_.box.mass() * box.v;
     momentum_book_.see(momentum - initial_momentum_ - outer_impulse, momentum);

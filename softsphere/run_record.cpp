@@ -71,9 +71,10 @@ void RunRecord::begin(const Setup& setup, const Bodies& bodies, const StoredEner
 
 bool RunRecord::check(const Bodies& bodies, const Accounts& accounts, const StoredEnergy& stored) {
   const double start = trajectory.initial_energy, held = energy(bodies, stored), moved = momentum(bodies);
-  const double open = held + ledger(accounts, stored).total_loss() - start;
+  const Ledger lines = ledger(accounts, stored);
+  const double open = held + lines.total_loss() - start;
   const double drift = moved - momentum_at_start_ - accounts.outer_impulse.value();
-  energy_book_.see(open, held);
+  energy_book_.see(open, held, lines);
   momentum_book_.see(drift, moved);
   Health& health = trajectory.health;
   health.ledger_error = energy_book_.error(start);

@@ -42,17 +42,17 @@ void check(const Setup& setup) {
   if (!found.empty()) throw InputError(std::move(found));
 }
 
-/// One run from release to the end.
+/// One run from a state to the end.
 class SoftRun {
  public:
-  SoftRun(const Setup& setup, const RunOptions& options, PairSearch search)
+  SoftRun(const State& state, const Setup& setup, const RunOptions& options, PairSearch search)
       : setup_(setup),
         options_(options),
         physics_(physics_of(setup)),
         held_(setup.domain != Domain::damper),
         model_{physics_.contact, setup.soft.contact_time, held_ ? 0.0 : physics_.box_mass, setup.box.length,
                setup.box.width},
-        bodies_(bodies_of(initial_state(setup, options.run), model_.box_mass)),
+        bodies_(bodies_of(state, model_.box_mass)),
         box_(physics_),
         neighbours_(bodies_, model_.law.reach(ContactClass::grain_grain),
                     search == PairSearch::every_step ? 0.0 : skin_in_diameters * setup.grains.diameter),
@@ -221,7 +221,7 @@ class SoftEngine final : public Engine {
   Trajectory run(const Setup& setup, const RunOptions& options) const override {
     refuse_what_is_not_modelled(*this, setup);
     check(setup);
-    return SoftRun(setup, options, search_).run();
+    return SoftRun(initial_state(setup, options.run), setup, options, search_).run();
   }
 
  private:
@@ -231,5 +231,10 @@ class SoftEngine final : public Engine {
 }  // namespace
 
 std::unique_ptr<Engine> make_soft_engine(PairSearch search) { return std::make_unique<SoftEngine>(search); }
+
+Trajectory run_soft_from(const State& state, const Setup& setup, const RunOptions& options) {
+  check(setup);
+  return SoftRun(state, setup, options, PairSearch::neighbour_list).run();
+}
 
 }  // namespace shakedown

@@ -19,4 +19,8 @@ enum class PairSearch {
 /// Domains: damper and closed.
 std::unique_ptr<Engine> make_soft_engine(PairSearch search = PairSearch::neighbour_list);
 
+/// The same from any state in the setup's domain: grains that spin or are unequal, for checks against known
+/// physics. Effects are not asked whether the engine models them.
+Trajectory run_soft_from(const State& state, const Setup& setup, const RunOptions& options = {});
+
 }  // namespace shakedown

@@ -22,7 +22,9 @@ struct Ledger {
 /// How well an engine kept its promises; every result carries it and every report shows it.
 struct Health {
   double deepest_overlap = 0;  ///< m, positive when surfaces interpenetrate (soft engines: by design)
-  double ledger_error = 0;     ///< max |energy + losses - E0| / E0; where more was held: over the most
+  /// max |energy + losses - E0| / E0; where more was held, or lost or put in between two samples: over the
+  /// most
+  double ledger_error = 0;
   /// max |momentum - outer impulse| / (M Omega Delta0); Delta0 = 0: over the sum of m |v| at release; where
   /// more was held: over the most
   double momentum_error = 0;

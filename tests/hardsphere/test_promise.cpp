@@ -49,6 +49,18 @@ TEST(Promise, IsHeldToItsBounds) {
     EXPECT_NE(said.find("--engine soft"), std::string::npos) << said;
 }
 
+TEST(Promise, CountsWhatWentThroughBetweenTwoLooks) {
+  OpenBook energy;
+  Ledger lines;
+  lines.contact_loss[2] = 20;
+  lines.effect_loss = {-20};
+  energy.see(1e-12, 0, lines);
+  EXPECT_DOUBLE_EQ(energy.error(0), 5e-14);
+  lines.contact_loss[2] = 30;  // 10 more: what long runs lose in all counts for nothing
+  energy.see(0, 0, lines);
+  EXPECT_DOUBLE_EQ(energy.error(0), 5e-14);
+}
+
 TEST(Promise, CountsWhatForcesPutIn) {
   OpenBook energy;
   energy.see(1e-6, 1);
