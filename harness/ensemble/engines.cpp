@@ -5,6 +5,7 @@
 
 #include "bullet_engine.hpp"
 #include "hard_engine.hpp"
+#include "lammps_engine.hpp"
 #include "soft_engine.hpp"
 
 namespace shakedown {
@@ -21,6 +22,7 @@ std::span<const NamedEngine> engines() {
       {"hard", make_hard_engine},
       {"soft", [] { return make_soft_engine(); }},
       {"bullet", make_bullet_engine},
+      {"lammps", make_lammps_engine},
   };
   return list;
 }
