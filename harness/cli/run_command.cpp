@@ -28,7 +28,7 @@ struct RunArguments {
   SetupArguments setup;
   JsonOutput json;
   ReportOutput report;
-  std::string engine = "hard", folder, keep;
+  std::string engine = "hard", folder;
   int runs = 1, threads = 0;
   bool every_series = false, log = false;
 };
@@ -53,7 +53,6 @@ Ensemble ensemble_of(const RunArguments& arguments, const Engine& engine, const 
   options.threads = arguments.threads;
   options.progress = [&](double fraction) { display.show(fraction); };
   options.stop = stop;
-  options.keep_files = arguments.keep;
   const bool shown = arguments.report.wanted(arguments.folder);
   options.log_collisions = arguments.log || (!arguments.report.file.empty() && arguments.runs == 1);
   options.each = [&, shown](int run, const Trajectory& trajectory, const Observables& observables) {
@@ -117,7 +116,7 @@ Command add_run_command(CLI::App& program) {
   add_setup_arguments(command, arguments->setup);
   std::string names;
   for (const std::string& name : engine_names()) names += (names.empty() ? "" : ", ") + name;
-  command.add_option("--engine", arguments->engine, "one of " + names)
+  command.add_option("--engine", arguments->engine, "one of " + names + ", or command:PROGRAM")
       ->type_name("NAME")
       ->capture_default_str();
   command
@@ -131,11 +130,6 @@ Command add_run_command(CLI::App& program) {
       ->type_name("N")
       ->capture_default_str();
   add_threads_option(command, arguments->threads);
-  command
-      .add_option("--keep", arguments->keep,
-                  "engines that are programs of their own (lammps): leave in this folder what each run was "
-                  "given and what it answered")
-      ->type_name("DIR");
   command.add_flag("--every-series", arguments->every_series,
                    "with --out: the series of every run, not only of the first");
   add_report_option(command, arguments->report);

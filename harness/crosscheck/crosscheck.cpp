@@ -18,19 +18,19 @@ double share(const RunResult& run) {
   return run.observables.energy_loss[contact_class];
 }
 
+/// Other people's programs do not tell collisions: they are below zero.
 constexpr double not_told = std::numeric_limits<double>::quiet_NaN();
 
 template <std::size_t contact_class>
 double collisions(const RunResult& run) {
-  if (!run.trajectory.counts_collisions) return not_told;
+  if (run.trajectory.collisions[contact_class] < 0) return not_told;
   return static_cast<double>(run.trajectory.collisions[contact_class]);
 }
 
 double all_collisions(const RunResult& run) {
-  if (!run.trajectory.counts_collisions) return not_told;
   double sum = 0;
   for (const std::int64_t count : run.trajectory.collisions) sum += static_cast<double>(count);
-  return sum;
+  return sum < 0 ? not_told : sum;
 }
 
 constexpr CrosscheckNumber numbers[] = {

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "bullet_engine.hpp"
+#include "command_engine.hpp"
 #include "hard_engine.hpp"
 #include "lammps_engine.hpp"
 #include "soft_engine.hpp"
@@ -36,13 +37,16 @@ std::vector<std::string> engine_names() {
 }
 
 std::unique_ptr<Engine> engine_named(std::string_view name) {
+  if (name.starts_with(command_prefix)) return make_command_engine(name);
   std::string known;
   for (const NamedEngine& engine : engines()) {
     if (name == engine.name) return engine.make();
     known += (known.empty() ? "" : ", ") + std::string(engine.name);
   }
-  throw InputError(
-      {{{}, "engine", "there is no engine '" + std::string(name) + "'", "choose one of: " + known}});
+  throw InputError({{{},
+                     "engine",
+                     "there is no engine '" + std::string(name) + "'",
+                     "choose one of: " + known + ", or command:PROGRAM"}});
 }
 
 }  // namespace shakedown

@@ -37,10 +37,6 @@ class Progress {
   std::mutex mutex_;
 };
 
-std::string folder_of(const EnsembleOptions& options, int run) {
-  return options.keep_files.empty() ? std::string() : options.keep_files + "/run_" + std::to_string(run);
-}
-
 void drop_samples(Trajectory& trajectory) {
   for (auto* samples :
        {&trajectory.time, &trajectory.x_box, &trajectory.v_box, &trajectory.x_com, &trajectory.total_energy,
@@ -71,8 +67,8 @@ Ensemble run_ensemble(const Engine& engine, const Setup& setup, const EnsembleOp
     auto result = std::make_shared<RunResult>();
     result->run = options.first_run + index;
     try {
-      result->trajectory = engine.run(setup, {result->run, progress.of_run(index), options.stop,
-                                              options.log_collisions, folder_of(options, result->run)});
+      result->trajectory =
+          engine.run(setup, {result->run, progress.of_run(index), options.stop, options.log_collisions});
     } catch (const Interrupted&) {
       return {};
     }

@@ -18,7 +18,6 @@ struct EnsembleOptions {
   int threads = 1;              ///< 0: one for each core; the results do not depend on it
   bool keep_samples = false;    ///< keep the sampled motion of every run in memory, not only its totals
   bool log_collisions = false;  ///< each run's Trajectory::collision_log; kept in memory as its samples are
-  std::string keep_files = {};  ///< folder for each run's RunOptions::keep_files, "run_0" ...; empty: none
   /// Called with the fraction of the whole that is done, one call at a time, from any thread; may be empty.
   std::function<void(double fraction)> progress;
   /// Set to true (by a signal handler, say) to stop early.

@@ -99,10 +99,9 @@ std::string energy_lines(const Ensemble& ensemble, const Setup& setup) {
 }
 
 double collisions_of(const RunResult& run) {
-  if (!run.trajectory.counts_collisions) return std::numeric_limits<double>::quiet_NaN();
   double total = 0;
   for (const std::int64_t count : run.trajectory.collisions) total += static_cast<double>(count);
-  return total;
+  return total < 0 ? std::numeric_limits<double>::quiet_NaN() : total;
 }
 
 /// Other people's programs do not tell everything.

@@ -22,7 +22,7 @@ constexpr std::size_t columns_before_accounts = 5;
 [[noreturn]] void fail(const WorkFolder& folder, const char* file, const std::string& problem) {
   throw PhysicsError(
       fmt::format("engine 'lammps': {}: {}. Use a shorter soft.contact_time or more soft.steps_per_contact; "
-                  "`run --keep DIR` "
+                  "SHAKEDOWN_KEEP=DIR in the environment "
                   "keeps the files.",
                   (folder / file).filename().string(), problem));
 }
@@ -106,9 +106,18 @@ void expect_inside(const WorkFolder& folder, const Setup& setup, const State& st
   }
 }
 
-void put_notes(const Setup& setup, const LammpsSteps& steps, Trajectory& trajectory) {
+/// The first line that LAMMPS writes: "LAMMPS (29 Sep 2021 - Update 2)".
+std::string version(const WorkFolder& folder) {
+  const std::string text = contents_of(folder / "output.txt");
+  const std::string line = text.substr(0, text.find('\n'));
+  return line.starts_with("LAMMPS (") ? line : "LAMMPS (of no known version)";
+}
+
+void put_notes(const WorkFolder& folder, const Setup& setup, const LammpsSteps& steps,
+               Trajectory& trajectory) {
   const double in_a_contact = setup.soft.contact_time / steps.step;
   trajectory.health.notes = {
+      version(folder),
       fmt::format("LAMMPS is of first order at touch and separation: with {:.3g} steps in a contact the "
                   "restitution of an impact scatters by up to {:.2g}, its mean is right to {:.1g}",
                   in_a_contact, 0.45 / in_a_contact, 0.025 / in_a_contact),
@@ -146,7 +155,7 @@ Trajectory lammps_answer(const WorkFolder& folder, const Setup& setup, const Phy
          fmt::format("{} rows where {} were asked for", rows.size(), steps.samples + 1));
   Trajectory trajectory;
   trajectory.engine = "lammps";
-  trajectory.counts_collisions = false;
+  trajectory.collisions.fill(-1);
   trajectory.ledger.effect_loss.assign(setup.effects.size(), 0);
   const bool held = setup.domain != Domain::damper;
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -166,7 +175,7 @@ Trajectory lammps_answer(const WorkFolder& folder, const Setup& setup, const Phy
   trajectory.end_time = trajectory.time.back();
   trajectory.health.momentum_error = std::numeric_limits<double>::quiet_NaN();
   trajectory.health.deepest_overlap = std::numeric_limits<double>::quiet_NaN();
-  put_notes(setup, steps, trajectory);
+  put_notes(folder, setup, steps, trajectory);
   return trajectory;
 }
 

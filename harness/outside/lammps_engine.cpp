@@ -72,7 +72,7 @@ class LammpsEngine final : public Engine {
     const Physics physics = physics_of(setup);
     const State initial = initial_state(setup, options.run);
     const LammpsScript script = lammps_script(setup, physics, initial);
-    const WorkFolder folder(options.keep_files);
+    const WorkFolder folder(kept_folder(options.run));
     folder.write(lammps_script_file, script.text);
     folder.write(lammps_bodies_file, script.bodies);
     execute(program, folder, lammps_steps(setup), options);
@@ -99,7 +99,7 @@ class LammpsEngine final : public Engine {
       throw PhysicsError(
           fmt::format("engine 'lammps': {} {} at t = {:.6g} s; {}\nUse a shorter soft.contact_time where "
                       "bodies are lost; "
-                      "`run --keep DIR` keeps the script.",
+                      "SHAKEDOWN_KEEP=DIR in the environment keeps the script.",
                       program, in_words(end), lammps_time_so_far(folder, steps), complaint(folder)));
   }
 };

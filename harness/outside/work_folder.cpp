@@ -4,6 +4,7 @@
 #include <stdlib.h>  // mkdtemp
 
 #include <cerrno>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -40,6 +41,12 @@ void WorkFolder::write(const std::string& name, std::string_view contents) const
     throw FileError((path_ / name).string() + ": cannot be written (" +
                     std::error_code(errno, std::generic_category()).message() +
                     "). Free space, or set TMPDIR to another folder.");
+}
+
+std::filesystem::path kept_folder(int run) {
+  const char* folder = std::getenv("SHAKEDOWN_KEEP");
+  if (folder == nullptr || *folder == '\0') return {};
+  return std::filesystem::path(folder) / ("run_" + std::to_string(run));
 }
 
 std::string contents_of(const std::filesystem::path& file) {

@@ -27,6 +27,9 @@ class WorkFolder {
   bool temporary_ = false;
 };
 
+/// The folder that the environment variable SHAKEDOWN_KEEP asks for, for this run: "DIR/run_0"; empty: none.
+std::filesystem::path kept_folder(int run);
+
 /// The whole file; empty when there is none.
 std::string contents_of(const std::filesystem::path& file);
 

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <string>
 #include <string_view>
 
 #include "initial_state.hpp"
@@ -18,9 +17,6 @@ struct RunOptions {
   /// Set to true (by a signal handler, say) to stop early; the trajectory then holds what was done.
   const std::atomic<bool>* stop = nullptr;
   bool log_collisions = false;  ///< keep Trajectory::collision_log (event-driven engines; others ignore it)
-  /// Folder in which an engine that is a program of its own leaves what it was given and what it answered;
-  /// empty: nothing is left. Others ignore it.
-  std::string keep_files = {};
 };
 
 /// The one interface behind which models of the damper compete.

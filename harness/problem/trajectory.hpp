@@ -45,10 +45,9 @@ struct Trajectory {
   double initial_energy = 0;  ///< J, E0
   Ledger ledger;              ///< at the end
   std::array<std::int64_t, contact_classes> collisions{};
-  bool counts_collisions = true;  ///< false where the engine does not tell them: they stay 0
-  std::int64_t events = 0;        ///< everything taken from the queue (hard), steps (soft)
-  double wall_seconds = 0;        ///< time spent in the engine
-  double end_time = 0;            ///< s; less than the duration when interrupted
+  std::int64_t events = 0;  ///< everything taken from the queue (hard), steps (soft)
+  double wall_seconds = 0;  ///< time spent in the engine
+  double end_time = 0;      ///< s; less than the duration when interrupted
   bool interrupted = false;
   State end_state;  ///< of box and grains where the engine stopped
   Health health;

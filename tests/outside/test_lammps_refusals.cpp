@@ -3,52 +3,12 @@
 #include <cstdlib>
 
 #include "lammps.hpp"
+#include "outside_errors.hpp"
 #include "work_folder.hpp"
 
 using namespace shakedown;
 
 namespace {
-
-/// The message of the error that a call throws.
-template <class Error, class Call>
-std::string message_of(Call call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return {};
-}
-
-/// SHAKEDOWN_LAMMPS, put back at the end.
-class Named {
- public:
-  explicit Named(const std::string& program) {
-    if (const char* before = std::getenv(name)) before_ = before;
-    ::setenv(name, program.c_str(), 1);
-  }
-  ~Named() {
-    if (before_.empty())
-      ::unsetenv(name);
-    else
-      ::setenv(name, before_.c_str(), 1);
-  }
-  Named(const Named&) = delete;
-  Named& operator=(const Named&) = delete;
-
- private:
-  static constexpr const char* name = "SHAKEDOWN_LAMMPS";
-  std::string before_;
-};
-
-/// A shell script that stands for LAMMPS.
-std::string stand_in(const ScratchFolder& folder, const std::string& lines) {
-  const std::filesystem::path file = folder / "lmp";
-  std::ofstream(file) << "#!/bin/sh\n" << lines << "\n";
-  std::filesystem::permissions(file, std::filesystem::perms::owner_all);
-  return file.string();
-}
 
 TEST(LammpsRefuses, EffectsThatItHasNoWordsFor) {
   shakedown::Setup setup;
@@ -71,7 +31,7 @@ TEST(LammpsRefuses, APeriodicCell) {
 }
 
 TEST(LammpsRefuses, ToRunWhereItIsNotInstalled) {
-  const Named named("no_such_lmp");
+  const Named named("SHAKEDOWN_LAMMPS", "no_such_lmp");
   EXPECT_FALSE(has_lammps());
   const std::string text = message_of<InputError>([&] { make_lammps_engine()->run(empty_box(1)); });
   EXPECT_NE(text.find("there is no program 'no_such_lmp'"), std::string::npos) << text;
@@ -80,7 +40,8 @@ TEST(LammpsRefuses, ToRunWhereItIsNotInstalled) {
 
 TEST(LammpsRefuses, AnAnswerThatIsAnError) {
   const ScratchFolder folder;
-  const Named named(stand_in(folder, "echo 'ERROR: Lost atoms: original 38 current 37'\nexit 1"));
+  const Named named("SHAKEDOWN_LAMMPS",
+                    stand_in(folder, "echo 'ERROR: Lost atoms: original 38 current 37'\nexit 1"));
   const std::string text = message_of<PhysicsError>([&] { make_lammps_engine()->run(empty_box(1)); });
   EXPECT_NE(text.find("ended with exit code 1"), std::string::npos) << text;
   EXPECT_NE(text.find("ERROR: Lost atoms"), std::string::npos) << text;
@@ -88,7 +49,8 @@ TEST(LammpsRefuses, AnAnswerThatIsAnError) {
 
 TEST(LammpsRefuses, AnAnswerThatIsIncomplete) {
   const ScratchFolder folder;
-  const Named named(stand_in(folder, "echo title > motion.csv; echo 0,0.1,0,0,0 >> motion.csv"));
+  const Named named("SHAKEDOWN_LAMMPS",
+                    stand_in(folder, "echo title > motion.csv; echo 0,0.1,0,0,0 >> motion.csv"));
   EXPECT_NE(message_of<PhysicsError>([&] {
               make_lammps_engine()->run(empty_box(1));
             }).find("1 rows where 101 were asked for"),
@@ -97,7 +59,7 @@ TEST(LammpsRefuses, AnAnswerThatIsIncomplete) {
 
 TEST(LammpsRefuses, ToGoOnWhenStopped) {
   const ScratchFolder folder;
-  const Named named(stand_in(folder, "sleep 100"));
+  const Named named("SHAKEDOWN_LAMMPS", stand_in(folder, "sleep 100"));
   const std::atomic<bool> stop = true;
   EXPECT_THROW(make_lammps_engine()->run(empty_box(1), {0, {}, &stop}), Interrupted);
 }
@@ -105,11 +67,13 @@ TEST(LammpsRefuses, ToGoOnWhenStopped) {
 TEST_F(WithLammps, FilesAreKeptOnRequestAndRunAgain) {
   const ScratchFolder folder;
   const std::string kept = (folder / "kept").string();
-  lammps->run(empty_box(0.1), {0, {}, nullptr, false, kept});
+  const Named named("SHAKEDOWN_KEEP", kept);
+  lammps->run(empty_box(0.1), {4, {}});
   for (const char* name : {"in.lammps", "bodies.data", "motion.csv", "end.csv", "output.txt", "error.txt"})
-    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(kept) / name)) << name;
-  EXPECT_NE(contents_of(std::filesystem::path(kept) / "in.lammps").find("# A granular damper for LAMMPS"),
-            std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(kept) / "run_4" / name)) << name;
+  EXPECT_NE(
+      contents_of(std::filesystem::path(kept) / "run_4" / "in.lammps").find("# A granular damper for LAMMPS"),
+      std::string::npos);
 }
 
 }  // namespace
