@@ -120,7 +120,7 @@ void put_notes(const WorkFolder& folder, const Setup& setup, const LammpsSteps& 
       version(folder),
       fmt::format("LAMMPS is of first order at touch and separation: with {:.3g} steps in a contact the "
                   "restitution of an impact scatters by up to {:.2g}, its mean is right to {:.1g}",
-                  in_a_contact, 0.45 / in_a_contact, 0.025 / in_a_contact),
+                  in_a_contact, 0.45 / in_a_contact, 0.04 / in_a_contact),
       "LAMMPS tells no collisions, no overlaps and no energy of springs in contacts (it counts as lost until "
       "it "
       "is given back)"};

@@ -139,7 +139,7 @@ TEST_F(ExampleCommand, SwingsAnEmptyBox) {
   const Trajectory run = example->run(setup);
   for (std::size_t k = 0; k < run.time.size(); ++k)
     EXPECT_NEAR(run.x_box[k], 0.1075 * std::cos(2 * std::numbers::pi * setup.spring.frequency * run.time[k]),
-                1e-5);
+                1e-5);  // seen: 5.1e-7
 }
 
 TEST_F(ExampleCommand, MeetsAsTheSoftEngineDoes) {
@@ -150,7 +150,7 @@ TEST_F(ExampleCommand, MeetsAsTheSoftEngineDoes) {
                                         {Vec3(0.115, 1e-3, 0), Vec3(-0.3, 0, 0.1)}};
   const Trajectory run = run_with(*example, setup, grains),
                    other = run_with(*make_soft_engine(), setup, grains);
-  EXPECT_LT(largest_difference(run, other), 1e-5);
+  EXPECT_LT(largest_difference(run, other), 9e-6);  // seen: 4.6e-7
 }
 
 TEST_F(ExampleCommand, RefusesWhatItDoesNotKnow) {

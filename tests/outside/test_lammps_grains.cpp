@@ -43,6 +43,29 @@ TEST_F(LammpsGrains, ReboundFromASideWallLeavesTheBoxAlone) {
   EXPECT_EQ(run.ledger.contact_loss[1], 0);
 }
 
+/// The notes of a run say how far the restitution scatters with the phase of touch.
+TEST_F(LammpsGrains, ScatterWithThePhaseOfTouch) {
+  shakedown::Setup setup = impact_of(0.01);
+  setup.domain = Domain::closed;
+  setup.box.length = setup.box.width[0] = setup.box.width[1] = 0.2;
+  setup.soft.steps_per_contact = 20.5;
+  const double speed = 0.3, step = setup.soft.contact_time / setup.soft.steps_per_contact;
+  std::vector<PlacedGrain> grains;
+  for (int i = 0; i < 64; ++i)
+    grains.push_back(
+        {Vec3(0.1 - radius - 1e-3 - speed * step * i / 64, 0.02 * (i % 8) - 0.07, 0.02 * (i / 8) - 0.07),
+         Vec3(speed, 0, 0)});
+  const Trajectory run = run_with(*lammps, setup, grains);
+  double sum = 0, most = 0;
+  for (const Vec3& velocity : run.end_state.velocity) {
+    const double error = -velocity.x() / speed - 0.76;
+    sum += error;
+    most = std::max(most, std::abs(error));
+  }
+  EXPECT_LT(most, 0.45 / 20.5);                // seen: 0.0163
+  EXPECT_LT(std::abs(sum / 64), 0.04 / 20.5);  // seen: 0.0014
+}
+
 TEST_F(LammpsGrains, MeetAsInTheSoftEngine) {
   shakedown::Setup setup = impact_of(0.01);
   const Vec3 along = Vec3(1, 2, 2) / 3;
