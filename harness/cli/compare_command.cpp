@@ -78,7 +78,7 @@ Command add_compare_command(CLI::App& program) {
                   "write compare.json and what `shakedown report` needs into this folder")
       ->type_name("DIR");
   add_report_option(command, arguments->report);
-  command.add_option("--engine", arguments->engine, "hard, soft or bullet")
+  command.add_option("--engine", arguments->engine, "hard, soft, bullet, lammps or command:PROGRAM")
       ->type_name("NAME")
       ->capture_default_str();
   add_json_option(command, arguments->json);

@@ -206,7 +206,9 @@ Command add_hide_command(CLI::App& program) {
   many("--run", a->question.runs,
        "one more run with keys of its own, e.g. box.length=40mm,grains.count=0; may be repeated",
        "KEY=VALUE,...");
-  command.add_option("--engine", a->question.engine, "the laboratory's")
+  command
+      .add_option("--engine", a->question.engine,
+                  "the laboratory's; lammps or command:PROGRAM: other people's codes")
       ->type_name("NAME")
       ->capture_default_str();
   many("--camera", a->question.camera,

@@ -116,7 +116,7 @@ Command add_run_command(CLI::App& program) {
   add_setup_arguments(command, arguments->setup);
   std::string names;
   for (const std::string& name : engine_names()) names += (names.empty() ? "" : ", ") + name;
-  command.add_option("--engine", arguments->engine, "one of " + names)
+  command.add_option("--engine", arguments->engine, "one of " + names + ", or command:PROGRAM")
       ->type_name("NAME")
       ->capture_default_str();
   command

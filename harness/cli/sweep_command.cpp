@@ -232,7 +232,7 @@ Command add_sweep_command(CLI::App& program) {
       ->check(CLI::Range(1, 1000000))
       ->type_name("N")
       ->capture_default_str();
-  command.add_option("--engine", arguments->engine, "hard, soft, bullet")
+  command.add_option("--engine", arguments->engine, "hard, soft, bullet, lammps or command:PROGRAM")
       ->type_name("NAME")
       ->capture_default_str();
   command

@@ -37,7 +37,11 @@ extern const EffectRecord blade_quadratic_drag{
                  {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"}},
                 {"soft",
                  {Fidelity::to_stated_error,
-                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}}},
+                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}},
+                {"lammps",
+                 {Fidelity::to_stated_error,
+                  "a variable of the velocity half a time step earlier: 6e-5 of the force at the default "
+                  "step, out of phase with it"}}},
     .search = {.strengths = {{.parameters = "drag", .strongest = 0.6}}},
     .apply = &apply};
 

@@ -33,7 +33,11 @@ extern const EffectRecord blade_viscous_damping{
     .engines = {{"hard", {Fidelity::exact}},
                 {"soft",
                  {Fidelity::to_stated_error,
-                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}}},
+                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}},
+                {"lammps",
+                 {Fidelity::to_stated_error,
+                  "a variable of the velocity half a time step earlier: 6e-5 of the force at the default "
+                  "step, out of phase with it"}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

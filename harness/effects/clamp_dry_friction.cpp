@@ -33,7 +33,10 @@ extern const EffectRecord clamp_dry_friction{
     .engines = {{"hard", {Fidelity::exact}},
                 {"soft",
                  {Fidelity::to_stated_error,
-                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}}},
+                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}},
+                {"lammps",
+                 {Fidelity::to_stated_error,
+                  "smooth below 10 um/s or 10 F h/M (h the step): the box creeps instead of sticking"}}},
     .apply = &apply};
 
 }  // namespace shakedown::effect

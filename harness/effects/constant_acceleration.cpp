@@ -36,7 +36,10 @@ extern const EffectRecord constant_acceleration{
     .engines = {{"hard", {Fidelity::exact}},
                 {"soft",
                  {Fidelity::to_stated_error,
-                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}}},
+                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}},
+                {"lammps",
+                 {Fidelity::to_stated_error,
+                  "fix addforce, exact for what flies freely; Verlet's error for the box"}}},
     // Across the axis both signs do the same to the box: nothing is linear about zero, and layers that lie on
     // a side wall cost three times the events.
     .search = {.strengths = {{.parameters = "acceleration.x", .strongest = 0.5},

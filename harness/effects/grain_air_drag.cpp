@@ -42,7 +42,10 @@ extern const EffectRecord grain_air_drag{
                  {Fidelity::to_stated_error,
                   "drag applied in small impulses, second order in hard.kick_interval (2 ms)"}},
                 {"soft",
-                 {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
+                 {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}},
+                {"lammps",
+                 {Fidelity::to_stated_error,
+                  "variables of the velocities half a step earlier, first order in the step"}}},
     // Air of 1 bar drags a grain some hundred times less (see limits) than such data can show: exp(-5).
     .search = {.strengths = {{.parameters = "linear", .levels = {1e-3, 2e-3, 4e-3}, .strongest = 0.02}},
                .cost = Search::Cost::slow,

@@ -13,6 +13,10 @@ void apply(const EffectChoice& choice, int, Physics& physics) {
 
 /// A spring with a dashpot turns the slip round; it cannot leave part of it in its old direction.
 Capability capability_of(const EffectChoice& choice, std::string_view engine, Capability general) {
+  if (engine == "lammps" && choice.number("tangential_restitution") != 1)
+    return {
+        Fidelity::not_modelled,
+        "LAMMPS is given the tangential spring alone, tangential_restitution 1; use --engine soft or hard"};
   if (engine != "soft" || choice.number("tangential_restitution") >= 0) return general;
   return {Fidelity::not_modelled,
           "the soft engine takes a tangential_restitution from 0 to 1; use --engine hard"};
@@ -64,7 +68,11 @@ extern const EffectRecord grain_friction{
          {"soft",
           {Fidelity::to_stated_error,
            "tangential spring of 2/7 of the normal stiffness, stretched up to sliding at mu times the normal "
-           "spring's force, with a dashpot for tangential_restitution from 0 to 1"}}},
+           "spring's force, with a dashpot for tangential_restitution from 0 to 1"}},
+         {"lammps",
+          {Fidelity::to_stated_error,
+           "tangential spring of 2/7 of the normal stiffness, stretched up to sliding at mu times the whole "
+           "normal force, dashpot included"}}},
     // The first tenth does as much as the next two, and more than 0.25 dissipates less again (restitutions
     // fitted to frictional runs): no parabola. Found as one number, for grains and walls alike.
     .search = {.strengths = {{.parameters = "grain_grain&grain_wall",

@@ -30,7 +30,11 @@ extern const EffectRecord grain_polydispersity{
                     .typical = 0.05,
                     .sentence = "Standard deviation of the diameter divided by its mean."}},
     .claims = "diameters of the grains",
-    .engines = {{every_engine, {Fidelity::exact}}},
+    .engines =
+        {{"lammps",
+          {Fidelity::not_modelled,
+           "its contacts have one set of constants, for grains of one size; use --engine hard or soft"}},
+         {every_engine, {Fidelity::exact}}},
     .search = {.strengths = {{.parameters = "relative_deviation", .strongest = 0.1}}},
     .apply = &apply};
 

@@ -30,11 +30,13 @@ extern const EffectRecord side_wall_restitution{
                     .typical = 0.6,
                     .sentence = "Coefficient of normal restitution of a grain and a side wall."}},
     .claims = "restitution of the side walls",
-    .engines = {{"hard", {Fidelity::exact}},
-                {"soft",
-                 {Fidelity::to_stated_error,
-                  "restitution to second order in the time step, as at the other walls"}},
-                {"bullet", {Fidelity::exact}}},
+    .engines =
+        {{"hard", {Fidelity::exact}},
+         {"soft",
+          {Fidelity::to_stated_error, "restitution to second order in the time step, as at the other walls"}},
+         {"bullet", {Fidelity::exact}},
+         {"lammps",
+          {Fidelity::to_stated_error, "restitution to first order in the time step, as at the other walls"}}},
     // Known to 0.2 of that of the end walls; below 0.05 grains stay at the wall.
     .search = {.strengths = {{.parameters = "restitution",
                               .typical = -0.2,

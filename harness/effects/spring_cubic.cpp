@@ -46,7 +46,9 @@ extern const EffectRecord spring_cubic{
                  {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"}},
                 {"soft",
                  {Fidelity::to_stated_error,
-                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}}},
+                  "Runge-Kutta within each time step, error below rounding; the ledger closes to 1e-9"}},
+                {"lammps",
+                 {Fidelity::to_stated_error, "a variable of the place; Verlet's error, 1e-8 of the energy"}}},
     .search = {.strengths = {{.parameters = "coefficient", .strongest = 0.8}}},
     .apply = &apply};
 

@@ -41,7 +41,9 @@ extern const EffectRecord spring_quadratic{
     .engines = {{"hard",
                  {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"}},
                 {"soft",
-                 {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
+                 {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}},
+                {"lammps",
+                 {Fidelity::to_stated_error, "a variable of the place; Verlet's error, 1e-8 of the energy"}}},
     .search = {.not_searched = "Only the waveform of an empty box tells it.", .in_waveform = true},
     .apply = &apply};
 

@@ -4,7 +4,9 @@
 #include <span>
 
 #include "bullet_engine.hpp"
+#include "command_engine.hpp"
 #include "hard_engine.hpp"
+#include "lammps_engine.hpp"
 #include "soft_engine.hpp"
 
 namespace shakedown {
@@ -21,6 +23,7 @@ std::span<const NamedEngine> engines() {
       {"hard", make_hard_engine},
       {"soft", [] { return make_soft_engine(); }},
       {"bullet", make_bullet_engine},
+      {"lammps", make_lammps_engine},
   };
   return list;
 }
@@ -34,13 +37,16 @@ std::vector<std::string> engine_names() {
 }
 
 std::unique_ptr<Engine> engine_named(std::string_view name) {
+  if (name.starts_with(command_prefix)) return make_command_engine(name);
   std::string known;
   for (const NamedEngine& engine : engines()) {
     if (name == engine.name) return engine.make();
     known += (known.empty() ? "" : ", ") + std::string(engine.name);
   }
-  throw InputError(
-      {{{}, "engine", "there is no engine '" + std::string(name) + "'", "choose one of: " + known}});
+  throw InputError({{{},
+                     "engine",
+                     "there is no engine '" + std::string(name) + "'",
+                     "choose one of: " + known + ", or command:PROGRAM"}});
 }
 
 }  // namespace shakedown

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace shakedown {
@@ -100,24 +101,30 @@ std::string energy_lines(const Ensemble& ensemble, const Setup& setup) {
 double collisions_of(const RunResult& run) {
   double total = 0;
   for (const std::int64_t count : run.trajectory.collisions) total += static_cast<double>(count);
-  return total;
+  return total < 0 ? std::numeric_limits<double>::quiet_NaN() : total;
+}
+
+/// Other people's programs do not tell everything.
+std::string worst_line(const char* label, double worst, const char* unit) {
+  return std::isnan(worst) ? line(label, "- (not told)") : line(label, fmt::format("{:.1e}", worst), unit);
 }
 
 std::string health_lines(const Ensemble& ensemble) {
-  double ledger = 0, momentum = 0, overlap = -1, rescues = 0;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  double ledger = none, momentum = none, overlap = none, rescues = 0;
   std::set<std::string> notes;
   for (const RunResult& run : ensemble.runs) {
     const Health& health = run.trajectory.health;
-    ledger = std::max(ledger, health.ledger_error);
-    momentum = std::max(momentum, health.momentum_error);
-    overlap = std::max(overlap, health.deepest_overlap);
+    ledger = std::fmax(ledger, health.ledger_error);
+    momentum = std::fmax(momentum, health.momentum_error);
+    overlap = std::fmax(overlap, health.deepest_overlap);
     rescues = std::max(rescues, static_cast<double>(health.elastic_rescues));
     notes.insert(health.notes.begin(), health.notes.end());
   }
   std::string text = line("collisions", with_spread(ensemble.over_runs(collisions_of), 0)) +
-                     line("energy ledger open by", fmt::format("{:.1e}", ledger), "of E0") +
-                     line("momentum off by", fmt::format("{:.1e}", momentum), "of M Omega Delta0") +
-                     line("deepest overlap", fmt::format("{:.1e}", overlap), "m") +
+                     worst_line("energy ledger open by", ledger, "of E0") +
+                     worst_line("momentum off by", momentum, "of M Omega Delta0") +
+                     worst_line("deepest overlap", overlap, "m") +
                      line("impacts made elastic", fmt::format("{:.0f}", rescues));
   // Notes may hold numbers of their run: a long ensemble would bury the rest under them.
   constexpr std::size_t shown = 3;
@@ -150,9 +157,11 @@ std::string readable_summary(const Ensemble& ensemble, const Setup& setup) {
     collisions += collisions_of(run);
     seconds += run.trajectory.wall_seconds;
   }
-  return text +
-         line("time taken", fmt::format("{:.2f} s, {:.3g} collisions per second of engine time",
-                                        ensemble.wall_seconds, seconds > 0 ? collisions / seconds : 0.0));
+  std::string taken = fmt::format("{:.2f} s", ensemble.wall_seconds);
+  if (!std::isnan(collisions))
+    taken += fmt::format(", {:.3g} collisions per second of engine time",
+                         seconds > 0 ? collisions / seconds : 0.0);
+  return text + line("time taken", taken);
 }
 
 }  // namespace shakedown

@@ -106,11 +106,12 @@ Json health_json(const Health& health) {
 
 void add_work(const Trajectory& trajectory, Json& json) {
   std::int64_t total = 0;
+  const bool told = trajectory.collisions[0] >= 0;  // other people's programs do not tell them
   for (std::size_t i = 0; i < contact_classes; ++i) {
-    json["collisions"][contact_class_names[i]] = trajectory.collisions[i];
+    json["collisions"][contact_class_names[i]] = told ? Json(trajectory.collisions[i]) : Json(nullptr);
     total += trajectory.collisions[i];
   }
-  json["collisions"]["total"] = total;
+  json["collisions"]["total"] = told ? Json(total) : Json(nullptr);
   json["events"] = trajectory.events;
   json["end_time_s"] = number(trajectory.end_time);
   json["ledger_error"] = number(trajectory.health.ledger_error);
@@ -118,7 +119,8 @@ void add_work(const Trajectory& trajectory, Json& json) {
   json["deepest_overlap_m"] = number(trajectory.health.deepest_overlap);
   json["health"] = health_json(trajectory.health);
   json["wall_seconds"] = number(trajectory.wall_seconds);
-  json["collisions_per_second"] = number(static_cast<double>(total) / trajectory.wall_seconds);
+  json["collisions_per_second"] =
+      told ? number(static_cast<double>(total) / trajectory.wall_seconds) : Json(nullptr);
 }
 
 Json run_json(const RunResult& run, const Setup& setup) {

@@ -9,7 +9,7 @@ double seconds_to_energy_fraction(const Trajectory& trajectory, double fraction)
   const double level = fraction * trajectory.initial_energy;
   for (std::size_t i = 0; i < trajectory.total_energy.size(); ++i) {
     const double energy = trajectory.total_energy[i];
-    if (energy > level) continue;
+    if (!(energy <= level)) continue;  // an outside program may not tell it
     if (i == 0) return trajectory.time[0];
     const double before = trajectory.total_energy[i - 1];
     return trajectory.time[i - 1] +

@@ -57,7 +57,7 @@ ModelMotion motion_of(Setup setup, const std::vector<double>& time, double begin
         loss[c].at[i].add(interpolated(trajectory.time, trajectory.loss[c], at));
     }
     motion.health = worse_of(std::move(motion.health), trajectory.health);
-    for (const std::int64_t n : trajectory.collisions) motion.collisions += n;
+    for (const std::int64_t n : trajectory.collisions) motion.collisions += std::max<std::int64_t>(n, 0);
     ++motion.runs;
   };
   run_ensemble(engine, setup, many);

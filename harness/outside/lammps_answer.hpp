@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// What LAMMPS has written, as a trajectory.
+#pragma once
+#include "lammps_script.hpp"
+#include "trajectory.hpp"
+#include "work_folder.hpp"
+
+namespace shakedown {
+
+/// Time of the last row written so far, s; 0 without one.
+double lammps_time_so_far(const WorkFolder& folder, const LammpsSteps& steps);
+
+/// Throws PhysicsError when rows are missing or hold what are no finite numbers.
+Trajectory lammps_answer(const WorkFolder& folder, const Setup& setup, const Physics& physics,
+                         const State& initial, const LammpsScript& script);
+
+}  // namespace shakedown

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "work_folder.hpp"
+
+#include <stdlib.h>  // mkdtemp
+
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "errors.hpp"
+
+namespace shakedown {
+
+WorkFolder::WorkFolder(const std::filesystem::path& kept) : temporary_(kept.empty()) {
+  std::error_code problem;
+  if (temporary_) {
+    std::string name = (std::filesystem::temp_directory_path(problem) / "shakedown_XXXXXX").string();
+    if (!problem && ::mkdtemp(name.data()) == nullptr) problem = {errno, std::generic_category()};
+    path_ = name;
+  } else {
+    path_ = std::filesystem::absolute(kept);
+    std::filesystem::create_directories(path_, problem);
+  }
+  if (problem)
+    throw FileError(path_.string() + ": the folder for the files of an outside program cannot be made (" +
+                    problem.message() + "). " +
+                    (temporary_ ? "Set TMPDIR to a folder that may be written." : "Name another folder."));
+}
+
+WorkFolder::~WorkFolder() {
+  std::error_code ignored;
+  if (temporary_) std::filesystem::remove_all(path_, ignored);
+}
+
+void WorkFolder::write(const std::string& name, std::string_view contents) const {
+  std::ofstream file(path_ / name, std::ios::binary);
+  file << contents << std::flush;
+  if (!file)
+    throw FileError((path_ / name).string() + ": cannot be written (" +
+                    std::error_code(errno, std::generic_category()).message() +
+                    "). Free space, or set TMPDIR to another folder.");
+}
+
+std::filesystem::path kept_folder(int run) {
+  const char* folder = std::getenv("SHAKEDOWN_KEEP");
+  if (folder == nullptr || *folder == '\0') return {};
+  return std::filesystem::path(folder) / ("run_" + std::to_string(run));
+}
+
+std::string contents_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string end_of(const std::filesystem::path& file, std::size_t most) {
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in) return {};
+  const auto size = static_cast<std::size_t>(in.tellg());
+  const std::size_t from = size > most ? size - most : 0;
+  in.seekg(static_cast<std::streamoff>(from));
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t line = text.find('\n');
+  if (from > 0 && line != std::string::npos) text.erase(0, line + 1);
+  return text;
+}
+
+}  // namespace shakedown

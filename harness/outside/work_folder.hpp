@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace shakedown {
+
+/// The folder of one run of an outside program: what it is given and what it answers. It is removed with this
+/// object, unless somebody wants to look into it.
+class WorkFolder {
+ public:
+  /// `kept`: a folder that stays, made when it is missing; empty: a new one among the system's temporary
+  /// files. Throws FileError.
+  explicit WorkFolder(const std::filesystem::path& kept);
+  ~WorkFolder();
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+
+  /// Throws FileError.
+  void write(const std::string& name, std::string_view contents) const;
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }  ///< absolute
+
+ private:
+  std::filesystem::path path_;
+  bool temporary_ = false;
+};
+
+/// The folder that the environment variable SHAKEDOWN_KEEP asks for, for this run: "DIR/run_0"; empty: none.
+std::filesystem::path kept_folder(int run);
+
+/// The whole file; empty when there is none.
+std::string contents_of(const std::filesystem::path& file);
+
+/// The last `most` bytes of a file, from the beginning of a line on; empty when there is none.
+std::string end_of(const std::filesystem::path& file, std::size_t most);
+
+}  // namespace shakedown

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Contacts: restitution at walls and between grains, friction, energy and momentum, beside the soft engine.
+#include <cmath>
+
+#include "lammps.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+using LammpsGrains = WithLammps;
+
+constexpr double radius = 0.005, grain_mass = 4.04e-3, box_mass = 0.434;
+
+/// One sample at the end of `seconds`, with many steps in a contact.
+shakedown::Setup impact_of(double seconds) {
+  shakedown::Setup setup = resting_box();
+  setup.soft.steps_per_contact = 100;
+  setup.run.duration = seconds;
+  setup.run.sample_rate = 1 / seconds;
+  return setup;
+}
+
+TEST_F(LammpsGrains, ReboundFromTheEndWallPushesTheBox) {
+  const shakedown::Setup setup = impact_of(0.01);
+  const Trajectory run = run_with(*lammps, setup, {{Vec3(0.05 - radius - 1e-3, 0, 0), Vec3(0.5, 0, 0)}});
+  const double grain = run.end_state.velocity.at(0).x(), box = run.end_state.v_box;
+  EXPECT_NEAR((box - grain) / 0.5, 0.76, 5e-3);                               // seen: 7.6e-4
+  EXPECT_NEAR(grain_mass * grain + box_mass * box, grain_mass * 0.5, 3e-17);  // seen: 1.7e-18
+  const double reduced = grain_mass * box_mass / (grain_mass + box_mass),
+               lost = reduced * 0.25 / 2 * (1 - 0.76 * 0.76);
+  EXPECT_NEAR(run.ledger.contact_loss[1], lost, 2e-2 * lost);  // seen: 2.7e-3
+  EXPECT_NEAR(run.initial_energy - run.total_energy.back(), run.ledger.contact_loss[1],
+              8e-18);  // seen: 4.3e-19
+}
+
+TEST_F(LammpsGrains, ReboundFromASideWallLeavesTheBoxAlone) {
+  shakedown::Setup setup = impact_of(0.01);
+  add_effect(setup, "side_wall_restitution", {{"restitution", 0.5}});
+  const Trajectory run = run_with(*lammps, setup, {{Vec3(0, 0, 0.05 - radius - 1e-3), Vec3(0, 0, 0.5)}});
+  EXPECT_NEAR(-run.end_state.velocity.at(0).z() / 0.5, 0.5, 1e-2);  // seen: 3.4e-3
+  EXPECT_EQ(run.end_state.v_box, 0);
+  EXPECT_EQ(run.ledger.contact_loss[1], 0);
+}
+
+/// The notes of a run say how far the restitution scatters with the phase of touch.
+TEST_F(LammpsGrains, ScatterWithThePhaseOfTouch) {
+  shakedown::Setup setup = impact_of(0.01);
+  setup.domain = Domain::closed;
+  setup.box.length = setup.box.width[0] = setup.box.width[1] = 0.2;
+  setup.soft.steps_per_contact = 20.5;
+  const double speed = 0.3, step = setup.soft.contact_time / setup.soft.steps_per_contact;
+  std::vector<PlacedGrain> grains;
+  for (int i = 0; i < 64; ++i)
+    grains.push_back(
+        {Vec3(0.1 - radius - 1e-3 - speed * step * i / 64, 0.02 * (i % 8) - 0.07, 0.02 * (i / 8) - 0.07),
+         Vec3(speed, 0, 0)});
+  const Trajectory run = run_with(*lammps, setup, grains);
+  double sum = 0, most = 0;
+  for (const Vec3& velocity : run.end_state.velocity) {
+    const double error = -velocity.x() / speed - 0.76;
+    sum += error;
+    most = std::max(most, std::abs(error));
+  }
+  EXPECT_LT(most, 0.45 / 20.5);                // seen: 0.0163
+  EXPECT_LT(std::abs(sum / 64), 0.04 / 20.5);  // seen: 0.0014
+}
+
+TEST_F(LammpsGrains, MeetAsInTheSoftEngine) {
+  shakedown::Setup setup = impact_of(0.01);
+  const Vec3 along = Vec3(1, 2, 2) / 3;
+  const std::vector<PlacedGrain> grains{{-(radius + 1e-3) * along, 0.3 * along},
+                                        {(radius + 1e-3) * along, -0.2 * along}};
+  const Trajectory run = run_with(*lammps, setup, grains), other = run_with(*soft, setup, grains);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_LT((run.end_state.velocity[i] - other.end_state.velocity[i]).norm(), 3e-3) << i;  // seen: 2.1e-4
+  EXPECT_NEAR(run.ledger.contact_loss[0], other.ledger.contact_loss[0],
+              2e-2 * other.ledger.contact_loss[0]);  // seen: 2.9e-3
+}
+
+/// Impacts that slide throughout, at an end wall, at the side walls, and of two grains.
+class LammpsFriction : public WithLammps, public testing::WithParamInterface<std::vector<PlacedGrain>> {};
+
+TEST_P(LammpsFriction, TurnsGrainsAsTheSoftEngineDoes) {
+  shakedown::Setup setup = impact_of(0.01);
+  add_effect(setup, "grain_friction", {{"grain_grain", 0.1}, {"grain_wall", 0.1}});
+  const Trajectory run = run_with(*lammps, setup, GetParam()), other = run_with(*soft, setup, GetParam());
+  EXPECT_LT((run.end_state.velocity[0] - other.end_state.velocity[0]).norm(), 1e-2);  // seen: 9.4e-4
+  EXPECT_LT((run.end_state.spin[0] - other.end_state.spin[0]).norm(), 2);             // seen: 0.72
+  EXPECT_NEAR(run.end_state.v_box, other.end_state.v_box, 1e-4);                      // seen: 6.4e-6
+  for (std::size_t kind = 0; kind < contact_classes; ++kind)
+    EXPECT_NEAR(run.ledger.contact_loss[kind], other.ledger.contact_loss[kind], 1e-5)
+        << kind;                              // seen: 7.4e-7
+  EXPECT_LT(run.health.ledger_error, 2e-14);  // seen: 1.1e-15
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Impacts, LammpsFriction,
+    testing::Values(std::vector<PlacedGrain>{{Vec3(0.05 - radius - 1e-3, 0, 0), Vec3(0.5, 0.3, 0.4)}},
+                    std::vector<PlacedGrain>{{Vec3(0, 0.05 - radius - 1e-3, 0), Vec3(0.4, 0.5, 0.3)}},
+                    std::vector<PlacedGrain>{{Vec3(0, 0, -0.05 + radius + 1e-3), Vec3(-0.4, 0.3, -0.5)}},
+                    std::vector<PlacedGrain>{{Vec3(-radius - 1e-3, 0, 0), Vec3(0.5, 0.4, 0)},
+                                             {Vec3(radius + 1e-3, 4e-4, 0), Vec3(0, 0, 0)}}));
+
+TEST_F(LammpsGrains, FallAndAreDraggedAsInTheSoftEngine) {
+  shakedown::Setup setup = impact_of(0.05);
+  setup.soft.steps_per_contact = 20;
+  add_effect(setup, "constant_acceleration", {{"acceleration", Vec3(0.3, -0.2, 0.1)}});
+  add_effect(setup, "grain_air_drag", {{"linear", 0.02}, {"quadratic", 0.02}});
+  const std::vector<PlacedGrain> grains{{Vec3(0, 0, 0), Vec3(0.3, 0.1, -0.2)}};
+  const Trajectory run = run_with(*lammps, setup, grains), other = run_with(*soft, setup, grains);
+  EXPECT_LT((run.end_state.velocity[0] - other.end_state.velocity[0]).norm(), 1e-4);  // seen: 5.4e-6
+  EXPECT_NEAR(run.end_state.v_box, other.end_state.v_box, 7e-7);                      // seen: 3.9e-8
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(run.ledger.effect_loss.at(i), other.ledger.effect_loss.at(i), 5e-8) << i;  // seen: 2.8e-9
+}
+
+TEST_F(LammpsGrains, BeginAsEveryEngineDoes) {
+  shakedown::Setup setup;
+  setup.run.duration = 0.3;
+  const Trajectory run = lammps->run(setup, {3, {}}), other = soft->run(setup, {3, {}});
+  EXPECT_NEAR(run.initial_energy, other.initial_energy, 1e-14 * other.initial_energy);  // seen: 6e-16
+  EXPECT_NEAR(run.x_com.front(), other.x_com.front(), 1e-15);                           // seen: 2.1e-16
+  EXPECT_LT(largest_difference(run, other), 4e-4);                                      // seen: 2.2e-5
+  EXPECT_LT(run.health.ledger_error, 1e-5);                                             // seen: 5.5e-7
+  EXPECT_EQ(run.end_state.size(), 37u);
+}
+
+/// A damper whose losses are of all kinds: what is taken out is what is lost.
+TEST(SlowLammps, DamperLosesWhatTheSoftOneLoses) {
+  if (!has_lammps()) GTEST_SKIP() << "there is no program lmp";
+  shakedown::Setup setup;
+  setup.run.duration = 5;
+  const Trajectory run = make_lammps_engine()->run(setup), other = make_soft_engine()->run(setup);
+  for (std::size_t kind = 0; kind < contact_classes; ++kind)
+    EXPECT_NEAR(run.ledger.contact_loss[kind] / run.initial_energy,
+                other.ledger.contact_loss[kind] / other.initial_energy, 0.03)
+        << kind;                             // seen: 0.003
+  EXPECT_LT(run.health.ledger_error, 3e-4);  // seen: 1.6e-5
+}
+
+}  // namespace
