@@ -99,7 +99,7 @@ class SetSearch {
     if (found_.only_moving) fast.problem.keep_moving(moves * balance_.noise());
     if (fast.problem.windows() <= least_windows) return;
     fast.problem.set_wander(p.problem.wander());
-    fast.problem.set_covariance({});
+    fit_terms(fast, acting());  // what these forces let in is noise of a sine
     const SineFound sine = best_sine(fast, {acting(), {}, 0}, p.highest_frequency,
                                      std::min(options_.highest_frequency, fast.highest_frequency));
     if (sine.log_odds <= 0) return;

@@ -73,8 +73,10 @@ bool lessen_wander(SelectionProblem& p, double white, const std::vector<ChosenTe
     less.deviation = less.deviation > 1.5 * least ? less.deviation / 2 : 0;
     if (const double here = probability(less); here > most) most = here, best = less;
   }
+  if (best.deviation >= before.deviation) return false;
   take(p, best);
-  return best.deviation < before.deviation;
+  fit_terms(p, acting);
+  return true;
 }
 
 }  // namespace shakedown

@@ -13,7 +13,8 @@ double most_wander(const std::vector<MomentumRun>& runs, double white);
 void choose_wander(SelectionProblem& p, double white);
 
 /// Less of the wander that p has, by factors of two, or none, where that makes it and these forces, the noise
-/// that they let in included, more probable. False where it does not.
+/// that they let in included, more probable; that noise then stays in p's covariance. False where it does
+/// not.
 bool lessen_wander(SelectionProblem& p, double white, const std::vector<ChosenTerm>& acting);
 
 }  // namespace shakedown
