@@ -296,6 +296,7 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
   }
   audit.only_moving = weighed->only_moving;
   SelectionProblem p = std::move(weighed->problem);
+  p.problem.set_covariance({});  // the setup as it is lets in what its own forces do, no more
   for (std::size_t run = 0; run < p.problem.runs(); ++run) audit.runs.push_back(run_as_given(p.problem, run));
   audit.as_given = without_effects(p, false);
   audit.refitted = without_effects(p, true);

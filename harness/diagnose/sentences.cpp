@@ -77,8 +77,10 @@ std::string ties_in_words(const Diagnosis& d) {
                     h.probability > 1 - rules::answer_set;
            });
   };
+  const bool said = d.verdict == Verdict::unknown;  // that nothing known explains it
   for (const std::string& tie : ties_of(d.answers))
-    if (std::find(d.missing.begin(), d.missing.end(), tie) == d.missing.end() && !hardly(tie))
+    if (std::find(d.missing.begin(), d.missing.end(), tie) == d.missing.end() && !hardly(tie) &&
+        !(said && tie == unlisted_effect))
       ties.push_back(tie);
   if (ties.empty()) return "";
   // The most probable; the table has them all.
@@ -186,7 +188,7 @@ std::string first_words(const Diagnosis& d, std::span<const EffectRecord* const>
       return "Missing in the model: " + list_of(names) + "." + what_it_brings(d) + ties_in_words(d) +
              what_remains(d);
     }
-    case Verdict::unknown: return of_the_unknown(d, known);
+    case Verdict::unknown: return of_the_unknown(d, known) + ties_in_words(d);
   }
   return "";
 }
