@@ -57,7 +57,7 @@ void choose_wander(SelectionProblem& p, double white) {
   take(p, best);
 }
 
-bool lessen_wander(SelectionProblem& p, double white, const std::vector<ChosenTerm>& acting) {
+bool choose_wander_beside(SelectionProblem& p, double white, const std::vector<ChosenTerm>& acting) {
   const double usual = usual_wander * white, least = 0.25 * usual;
   const Wander before = p.problem.wander();
   SelectionProblem tried = p;
@@ -69,11 +69,20 @@ bool lessen_wander(SelectionProblem& p, double white, const std::vector<ChosenTe
   };
   Wander best = before;
   double most = probability(before);
+  const auto better = [&](const Wander& wander) {
+    const double here = probability(wander);
+    if (!(here > most)) return false;
+    most = here, best = wander;
+    return true;
+  };
   for (Wander less = before; less.deviation > 0;) {
     less.deviation = less.deviation > 1.5 * least ? less.deviation / 2 : 0;
-    if (const double here = probability(less); here > most) most = here, best = less;
+    better(less);
   }
-  if (best.deviation >= before.deviation) return false;
+  if (best.deviation == before.deviation)
+    for (Wander more = before; better({more.deviation = std::max(2 * more.deviation, least), more.time});) {
+    }
+  if (best.deviation == before.deviation) return false;
   take(p, best);
   fit_terms(p, acting);
   return true;

@@ -12,9 +12,9 @@ double most_wander(const std::vector<MomentumRun>& runs, double white);
 /// `white`: m, standard deviation of a frame's noise.
 void choose_wander(SelectionProblem& p, double white);
 
-/// Less of the wander that p has, by factors of two, or none, where that makes it and these forces, the noise
-/// that they let in included, more probable; that noise then stays in p's covariance. False where it does
-/// not.
-bool lessen_wander(SelectionProblem& p, double white, const std::vector<ChosenTerm>& acting);
+/// Another strength of p's wander, by factors of two, or none, where that makes it and these forces, the
+/// noise that they let in included, more probable; that noise then stays in p's covariance. False where it
+/// does not.
+bool choose_wander_beside(SelectionProblem& p, double white, const std::vector<ChosenTerm>& acting);
 
 }  // namespace shakedown
