@@ -20,8 +20,9 @@ namespace {
 /// chi2 by which a force that no list has must beat every set of known ones, beyond the prices of its
 /// parameters: it is e^5 times less likely beforehand.
 constexpr double price_of_the_unlisted = 10;
-/// ... and ln odds of nine to one, with which known effects are added too.
-constexpr double adds_the_unlisted = 2.2;
+/// ... and ln odds of nine to one, with which known effects are added too (rules::adds_effect of a
+/// diagnosis).
+const double adds_the_unlisted = std::log(9.0);
 
 constexpr double of_95_percent = 1.96;
 

@@ -2,6 +2,7 @@
 #include "sets_weighed.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "shape_found.hpp"
 #include "wander_choice.hpp"
@@ -34,7 +35,7 @@ class SetSearch {
       take_wander();
       weigh();
     }
-    take_wander_beside_what_acts();
+    weigh_beside_what_acts();
     if (find_shapes(found_.problem, acting())) weigh();
     look_for_fast_sines();
     return std::move(found_);
@@ -91,24 +92,32 @@ class SetSearch {
     const SelectionProblem& p = found_.problem;
     double most = log_evidence(p, base, found_.sets);
     const double turn = 1 / std::max(p.problem.longest(), 1.0);  // Hz
+    const double from = base.back().frequency;
+    const auto go = [&](double by) {
+      std::vector<ChosenTerm> moved = base;
+      moved.back().frequency += by;
+      if (std::abs(moved.back().frequency - from) > turn) return false;  // another sine's place
+      std::vector<BalanceHypothesis> sets = compare_sets(p, moved);
+      const double here = log_evidence(p, moved, sets);
+      if (here <= most) return false;
+      most = here, base = std::move(moved), found_.sets = std::move(sets);
+      return true;
+    };
     for (double step = turn / 4; step > turn / 50; step /= 2)
       for (const double direction : {-1.0, 1.0})
-        while (true) {
-          std::vector<ChosenTerm> moved = base;
-          moved.back().frequency += direction * step;
-          std::vector<BalanceHypothesis> sets = compare_sets(p, moved);
-          const double here = log_evidence(p, moved, sets);
-          if (here <= most) break;
-          most = here, base = std::move(moved), found_.sets = std::move(sets);
+        while (go(direction * step)) {
         }
   }
 
   /// A wander takes up what it is not weighed beside: sines, more than two strengths, the noise that a force
-  /// lets in. Each step makes wander and set together more probable.
-  void take_wander_beside_what_acts() {
-    constexpr int most_rounds = 4;
-    for (int round = 0; round < most_rounds && !options_.wander && acting().size() > 1; ++round) {
-      if (!choose_wander_beside(found_.problem, balance_.noise(), acting())) return;
+  /// lets in. Each step makes wander and set together more probable. Where the wander stays, what a friction
+  /// lets in is still to be known before sines are looked for: it looks like one.
+  void weigh_beside_what_acts() {
+    constexpr int most_rounds = 4;  // set and wander may go to and fro between two that are as probable
+    for (int round = 0; round < most_rounds && acting().size() > 1; ++round) {
+      const bool moved = !options_.wander && choose_wander_beside(found_.problem, balance_.noise(), acting());
+      if (!moved && (round > 0 || !acts_dry())) return;
+      if (!moved) fit_terms(found_.problem, acting());
       weigh();
     }
   }
@@ -130,7 +139,7 @@ class SetSearch {
     if (sine.log_odds <= 0) return;
     found_.problem = std::move(fast);
     weigh({{0, 0}, {-1, sine.frequency}});
-    take_wander_beside_what_acts();
+    weigh_beside_what_acts();
   }
 
   const BalanceProblem& balance_;

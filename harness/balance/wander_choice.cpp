@@ -75,13 +75,16 @@ bool choose_wander_beside(SelectionProblem& p, double white, const std::vector<C
     most = here, best = wander;
     return true;
   };
-  for (Wander less = before; less.deviation > 0;) {
-    less.deviation = less.deviation > 1.5 * least ? less.deviation / 2 : 0;
-    better(less);
+  Wander next = before;
+  while (next.deviation > 0) {
+    next.deviation = next.deviation > 1.5 * least ? next.deviation / 2 : 0;
+    better(next);
   }
-  if (best.deviation == before.deviation)
-    for (Wander more = before; better({more.deviation = std::max(2 * more.deviation, least), more.time});) {
-    }
+  if (best.deviation == before.deviation) {
+    next = before;
+    do next.deviation = std::max(2 * next.deviation, least);
+    while (better(next));
+  }
   if (best.deviation == before.deviation) return false;
   take(p, best);
   fit_terms(p, acting);

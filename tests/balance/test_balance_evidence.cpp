@@ -142,6 +142,19 @@ TEST(SlowBalanceEvidence, DryFrictionIsNotCalledYielding) {
   }
 }
 
+/// Who knows how the track wanders leaves the balance no wander to hide a friction's noise in.
+TEST(BalanceEvidence, DryFrictionIsNoSineWhereTheWanderIsKnown) {
+  PushedBox what;
+  what.dry_friction = 0.05;
+  MomentumOptions options;
+  options.formulas = false;
+  options.wander = Wander{0, 0.3};
+  const Experiment experiment = pushed_box(what, 11);
+  const MomentumAudit audit =
+      audit_momentum(measurement_of(pushed_setups(experiment), experiment), all_effects(), options);
+  EXPECT_EQ(audit.sets.front().effects, std::vector<std::string>{"clamp_dry_friction"});
+}
+
 TEST(BalanceEvidence, ACubicSpringComesFirst) {
   PushedBox what;
   what.cubic = -0.05;
