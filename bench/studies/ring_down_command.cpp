@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "data_file.hpp"
 #include "effects.hpp"
@@ -86,6 +87,8 @@ std::vector<RingDownResult> results_of(const RingDownArguments& arguments) {
 }
 
 int ring_downs(const RingDownArguments& arguments) {
+  std::optional<OutputFolder> folder;
+  if (!arguments.out.empty()) folder.emplace(arguments.out, OutputFolder::Use::alone);
   SeedLedger ledger(arguments.ledger);
   const LedgerKey key = ledger.begin("ring-downs", arguments.seed, version_line());
   const std::vector<RingDownResult> results = results_of(arguments);
@@ -93,10 +96,9 @@ int ring_downs(const RingDownArguments& arguments) {
   ledger.opened(key);
   const std::string table =
       (ledger.seen(key) ? "SEEN: this seed had been opened before\n" : "") + ring_down_table(results);
-  if (!arguments.out.empty()) {
-    const OutputFolder folder(arguments.out);
-    folder.write("ring_downs.csv", ring_down_csv(results));
-    folder.write("ring_downs.txt", table);
+  if (folder) {
+    folder->write("ring_downs.csv", ring_down_csv(results));
+    folder->write("ring_downs.txt", table);
   }
   fmt::print("{}", table);
   return exit_done;

@@ -14,6 +14,8 @@
 #include "errors.hpp"
 #include "output_file.hpp"
 #include "ring_down_signal.hpp"
+#include "scratch_folder.hpp"
+#include "study_commands.hpp"
 #include "waveform_search.hpp"
 
 using namespace shakedown;
@@ -167,6 +169,15 @@ double left_by_plain_fit(const Measurement& measurement) {
 }
 
 }  // namespace
+
+TEST(RingDowns, OneFolderIsOneProgramsAtATime) {
+  const ScratchFolder folder;
+  const OutputFolder held(folder, OutputFolder::Use::alone);
+  CLI::App program;
+  const Command command = add_ring_down_command(program);
+  program.parse("ring-downs --cases 1 --seed 1 --ledger \"\" --out " + held.path().string());
+  EXPECT_THROW(command.run(), FileError);
+}
 
 TEST(SlowRingDowns, ADiagnosisThatHoldsNeverLeavesTwiceWhatAPlainFitLeaves) {
   const auto engine = engine_named("hard");
