@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The refit and its calibration on a stand-in for the hard engine: a damped oscillation whose chaos is known.
+// The refit and its calibration on a stand-in for the hard engine whose chaos is known.
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <numbers>
 
+#include "damped_oscillation.hpp"
 #include "effects.hpp"
 #include "fit_round.hpp"
 #include "parameter_knobs.hpp"
@@ -19,68 +19,6 @@
 using namespace shakedown;
 
 namespace {
-
-/// Decay by the grains' restitution, frequency from the spring, chaos of half a millimetre in two shapes.
-class DampedOscillation final : public Engine {
- public:
-  std::string_view name() const override { return "stand-in"; }
-  Capability can_model(const EffectRecord&) const override { return {Fidelity::exact, ""}; }
-  Trajectory run(const Setup& setup, const RunOptions& options) const override {
-    Random random(setup.run.seed, static_cast<std::uint64_t>(options.run), Stream::velocities);
-    const double early = 5e-4 * random.normal(), late = 5e-4 * random.normal();
-    const double w = 2 * std::numbers::pi * setup.spring.frequency,
-                 rate = 0.3 * (1 - setup.restitution.grain_grain);
-    const double drag = physics_of(setup).box.viscous.sum() / 2;
-    Trajectory trajectory;
-    for (int k = 0; k <= static_cast<int>(setup.run.duration * 500); ++k) {
-      const double t = k / 500.0;
-      const double x = 0.1 * std::exp(-(rate + drag * std::abs(std::sin(0.4 * t))) * t) * std::cos(w * t);
-      trajectory.time.push_back(t);
-      trajectory.x_box.push_back(x + early * std::sin(1.3 * t) + late * std::sin(0.7 * t + 1));
-      trajectory.x_com.push_back(0.9 * x + 0.01 * setup.restitution.grain_wall + late * std::cos(2 * t));
-    }
-    trajectory.v_box = trajectory.total_energy = trajectory.x_box;
-    return trajectory;
-  }
-};
-
-/// Two box lengths measured on the stand-in with hidden values.
-std::vector<MeasuredFeatures> measured_on(const shakedown::Setup& truth, const shakedown::Setup& believed,
-                                          int run) {
-  std::vector<MeasuredFeatures> measured;
-  for (const double length : {0.040, 0.065}) {
-    RunOptions options;
-    options.run = run;
-    shakedown::Setup hidden = truth;
-    hidden.run.seed = 99 + static_cast<std::uint64_t>(length * 1e3);
-    const Trajectory trajectory = DampedOscillation{}.run(hidden, options);
-    MeasuredRun table;
-    table.name = length < 0.05 ? "short" : "long";
-    table.frame_rate = 500;
-    table.time = trajectory.time;
-    table.x_box = trajectory.x_box;
-    table.x_com = trajectory.x_com;
-    Random noise(7, static_cast<std::uint64_t>(run * 2 + (length > 0.05)), Stream::camera);
-    for (double& x : table.x_box) x += 2e-4 * noise.normal();
-    for (double& x : table.x_com) x += 5e-4 * noise.normal();
-    shakedown::Setup setup = believed;
-    setup.box.length = length;
-    Experiment experiment;
-    experiment.runs = {table};
-    measured.push_back(features_of(measurement_of({setup}, experiment)).front());
-  }
-  return measured;
-}
-
-shakedown::Setup believed_setup() {
-  shakedown::Setup setup;
-  setup.run.duration = 8;
-  return setup;
-}
-
-const std::vector<Knob> theta{{"restitution.grain_grain", 0.75, 0.15, 0.2, 0.999, true},
-                              {"restitution.grain_wall", 0.76, 0.15, 0.2, 0.999, true},
-                              {"spring.frequency", 1.23, 0.01, 1, 1.5, true}};
 
 TEST(Refit, RefusesRecordingsThatHoldNoMotion) {
   Experiment experiment;
@@ -160,99 +98,6 @@ TEST(Refit, RejectsWhatRefittingCannotExplainAndAcceptsTheEffect) {
   const Refit fit = refit(measured, knobs, workshop, {});
   EXPECT_GT(fit.p_value, 0.01);
   EXPECT_NEAR(fit.values.back().value, 0.1, 5 * fit.values.back().error);
-}
-
-TEST(Emulator, LearnsFromThePoolWhatLiesInItsBox) {
-  const DampedOscillation engine;
-  const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
-  SimulationPool pool;
-  Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr, &pool};
-  EXPECT_EQ(emulate(measured, theta, 64, 0, workshop)[0].residuals.rows(), 64);
-  EXPECT_EQ(emulate(measured, theta, 64, 1000, workshop)[0].residuals.rows(), 128);
-  std::vector<Knob> narrow = theta;
-  for (Knob& knob : narrow) knob.width *= 0.6;
-  const Eigen::Index some = emulate(measured, narrow, 64, 2000, workshop)[0].residuals.rows();
-  EXPECT_GT(some, 64 + 128 * 0.2);  // 0.75^3 of them
-  EXPECT_LT(some, 64 + 128 * 0.7);
-  std::vector<MeasuredFeatures> other = measured;
-  for (MeasuredFeatures& m : other) m.setup.grains.count = 20;
-  EXPECT_EQ(emulate(other, theta, 64, 3000, workshop)[0].residuals.rows(), 64);
-}
-
-/// The stand-in's data with what two errors of a camera would do to them.
-std::vector<MeasuredFeatures> filmed_on_stand_in() {
-  std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
-  for (MeasuredFeatures& m : measured) {
-    m.by_camera["camera_scale.scale"] = m.values;
-    m.by_camera["camera_lens.distortion"] = m.values.cwiseAbs2();
-  }
-  return measured;
-}
-
-/// The row of coefficients of the knob of this key; the terms after the constant are the knobs' in order.
-Eigen::RowVectorXd slope_of(const Emulator& emulator, const std::vector<Knob>& knobs, std::string_view key) {
-  for (std::size_t k = 0; k < knobs.size(); ++k)
-    if (knobs[k].key == key) return emulator.coefficients.row(static_cast<Eigen::Index>(k) + 1);
-  ADD_FAILURE() << key;
-  return {};
-}
-
-TEST(Emulator, KnowsEachKnobWhereverTheCamerasStand) {
-  const DampedOscillation engine;
-  const std::vector<MeasuredFeatures> measured = filmed_on_stand_in();
-  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
-  std::vector<Knob> scattered = theta;
-  scattered.push_back({"blade_viscous_damping.damping", 0, 0.05, 0, 10, false});
-  for (Knob& knob : scattered) knob.curved = false;
-  std::vector<Knob> exact{{"camera_scale.scale", 0, 0.005, -0.5, 0.5, false},
-                          {"camera_lens.distortion", 0, 0.1, -1, 1, false}};
-  for (Knob& knob : exact) knob.exact = true;
-  const std::vector<Knob> before{exact[0], exact[1], scattered[0], scattered[1], scattered[2], scattered[3]},
-      between{scattered[0], exact[0], scattered[1], scattered[2], exact[1], scattered[3]},
-      after{scattered[0], scattered[1], scattered[2], scattered[3], exact[0], exact[1]};
-  const Emulator plain = emulate(measured, scattered, 48, 0, workshop)[0];
-  for (const std::vector<Knob>& knobs : {before, between, after}) {
-    const Emulator emulator = emulate(measured, knobs, 48, 0, workshop)[0];
-    EXPECT_EQ(emulator.exact.size(), 2u);
-    for (const Knob& knob : scattered)  // the same runs, so the same to rounding; seen: 0
-      EXPECT_LT(
-          (slope_of(emulator, knobs, knob.key) - slope_of(plain, scattered, knob.key)).cwiseAbs().maxCoeff(),
-          1e-15)
-          << knob.key;
-    for (const Knob& knob : exact)
-      EXPECT_EQ(slope_of(emulator, knobs, knob.key),
-                knob.width * measured[0].by_camera.at(knob.key).transpose())
-          << knob.key;
-  }
-}
-
-TEST(EmulatorDeathTest, ADesignThatCannotTellItsColumnsApartIsAnError) {
-  const DampedOscillation engine;
-  const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
-  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
-  std::vector<Knob> knobs = theta;
-  knobs[1].width = 0;  // cannot move, while the others do
-  EXPECT_DEATH(emulate(measured, knobs, 48, 0, workshop), "rank");
-}
-
-TEST(Emulator, LeavesOutABlockAsARegressionWithoutItWould) {
-  const DampedOscillation engine;
-  const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
-  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
-  std::vector<Knob> knobs = theta;
-  knobs[0].cubic = true;
-  const Emulator all = emulate(measured, knobs, 50, 0, workshop)[0];
-  ASSERT_EQ(all.terms.cols(), 11);
-  const double left = 39.0 / 50;
-  const Eigen::MatrixXd features = all.terms * all.coefficients + all.residuals * std::sqrt(left);
-  const auto rest = [](const Eigen::MatrixXd& rows) {  // without rows 3, 11, 19, ...
-    Eigen::MatrixXd kept(rows.rows() - 6, rows.cols());
-    for (Eigen::Index i = 0, k = 0; i < rows.rows(); ++i)
-      if (i % 8 != 3) kept.row(k++) = rows.row(i);
-    return kept;
-  };
-  const Eigen::MatrixXd expected = rest(all.terms).colPivHouseholderQr().solve(rest(features));
-  EXPECT_LT((all.coefficients_without(3, 8) - expected).cwiseAbs().maxCoeff(), 5e-15);  // m; seen: 3e-16
 }
 
 TEST(FitRound, TellsHowFarItsEmulatorsNoiseMovesTheMinimum) {

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// What emulators learn from simulations, on a stand-in for the hard engine.
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+
+#include "damped_oscillation.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+TEST(Emulator, LearnsFromThePoolWhatLiesInItsBox) {
+  const DampedOscillation engine;
+  const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
+  SimulationPool pool;
+  Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr, &pool};
+  EXPECT_EQ(emulate(measured, theta, 64, 0, workshop)[0].residuals.rows(), 64);
+  EXPECT_EQ(emulate(measured, theta, 64, 1000, workshop)[0].residuals.rows(), 128);
+  std::vector<Knob> narrow = theta;
+  for (Knob& knob : narrow) knob.width *= 0.6;
+  const Eigen::Index some = emulate(measured, narrow, 64, 2000, workshop)[0].residuals.rows();
+  EXPECT_GT(some, 64 + 128 * 0.2);  // 0.75^3 of them
+  EXPECT_LT(some, 64 + 128 * 0.7);
+  std::vector<MeasuredFeatures> other = measured;
+  for (MeasuredFeatures& m : other) m.setup.grains.count = 20;
+  EXPECT_EQ(emulate(other, theta, 64, 3000, workshop)[0].residuals.rows(), 64);
+}
+
+/// The stand-in's data with what two errors of a camera would do to them.
+std::vector<MeasuredFeatures> filmed_on_stand_in() {
+  std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
+  for (MeasuredFeatures& m : measured) {
+    m.by_camera["camera_scale.scale"] = m.values;
+    m.by_camera["camera_lens.distortion"] = m.values.cwiseAbs2();
+  }
+  return measured;
+}
+
+/// The row of coefficients of the knob of this key; the terms after the constant are the knobs' in order.
+Eigen::RowVectorXd slope_of(const Emulator& emulator, const std::vector<Knob>& knobs, std::string_view key) {
+  for (std::size_t k = 0; k < knobs.size(); ++k)
+    if (knobs[k].key == key) return emulator.coefficients.row(static_cast<Eigen::Index>(k) + 1);
+  ADD_FAILURE() << key;
+  return {};
+}
+
+TEST(Emulator, KnowsEachKnobWhereverTheCamerasStand) {
+  const DampedOscillation engine;
+  const std::vector<MeasuredFeatures> measured = filmed_on_stand_in();
+  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  std::vector<Knob> scattered = theta;
+  scattered.push_back({"blade_viscous_damping.damping", 0, 0.05, 0, 10, false});
+  for (Knob& knob : scattered) knob.curved = false;
+  std::vector<Knob> exact{{"camera_scale.scale", 0, 0.005, -0.5, 0.5, false},
+                          {"camera_lens.distortion", 0, 0.1, -1, 1, false}};
+  for (Knob& knob : exact) knob.exact = true;
+  const std::vector<Knob> before{exact[0], exact[1], scattered[0], scattered[1], scattered[2], scattered[3]},
+      between{scattered[0], exact[0], scattered[1], scattered[2], exact[1], scattered[3]},
+      after{scattered[0], scattered[1], scattered[2], scattered[3], exact[0], exact[1]};
+  const Emulator plain = emulate(measured, scattered, 48, 0, workshop)[0];
+  for (const std::vector<Knob>& knobs : {before, between, after}) {
+    const Emulator emulator = emulate(measured, knobs, 48, 0, workshop)[0];
+    EXPECT_EQ(emulator.exact.size(), 2u);
+    for (const Knob& knob : scattered)  // the same runs, so the same to rounding; seen: 0
+      EXPECT_LT(
+          (slope_of(emulator, knobs, knob.key) - slope_of(plain, scattered, knob.key)).cwiseAbs().maxCoeff(),
+          1e-15)
+          << knob.key;
+    for (const Knob& knob : exact)
+      EXPECT_EQ(slope_of(emulator, knobs, knob.key),
+                knob.width * measured[0].by_camera.at(knob.key).transpose())
+          << knob.key;
+  }
+}
+
+TEST(EmulatorDeathTest, ADesignThatCannotTellItsColumnsApartIsAnError) {
+  const DampedOscillation engine;
+  const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
+  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  std::vector<Knob> knobs = theta;
+  knobs[1].width = 0;  // cannot move, while the others do
+  EXPECT_DEATH(emulate(measured, knobs, 48, 0, workshop), "rank");
+}
+
+TEST(Emulator, LeavesOutABlockAsARegressionWithoutItWould) {
+  const DampedOscillation engine;
+  const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
+  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  std::vector<Knob> knobs = theta;
+  knobs[0].cubic = true;
+  const Emulator all = emulate(measured, knobs, 50, 0, workshop)[0];
+  ASSERT_EQ(all.terms.cols(), 11);
+  const double left = 39.0 / 50;
+  const Eigen::MatrixXd features = all.terms * all.coefficients + all.residuals * std::sqrt(left);
+  const auto rest = [](const Eigen::MatrixXd& rows) {  // without rows 3, 11, 19, ...
+    Eigen::MatrixXd kept(rows.rows() - 6, rows.cols());
+    for (Eigen::Index i = 0, k = 0; i < rows.rows(); ++i)
+      if (i % 8 != 3) kept.row(k++) = rows.row(i);
+    return kept;
+  };
+  const Eigen::MatrixXd expected = rest(all.terms).colPivHouseholderQr().solve(rest(features));
+  EXPECT_LT((all.coefficients_without(3, 8) - expected).cwiseAbs().maxCoeff(), 5e-15);  // m; seen: 3e-16
+}
+
+}  // namespace
