@@ -171,12 +171,14 @@ double left_by_plain_fit(const Measurement& measurement) {
 }  // namespace
 
 TEST(RingDowns, OneFolderIsOneProgramsAtATime) {
-  const ScratchFolder folder;
+  const ScratchFolder folder, beside;
   const OutputFolder held(folder, OutputFolder::Use::alone);
   CLI::App program;
   const Command command = add_ring_down_command(program);
-  program.parse("ring-downs --cases 1 --seed 1 --ledger \"\" --out " + held.path().string());
+  program.parse("ring-downs --cases 1 --seed 1 --ledger " + (beside / "ledger.csv").string() + " --out " +
+                held.path().string());
   EXPECT_THROW(command.run(), FileError);
+  EXPECT_FALSE(std::filesystem::exists(beside / "ledger.csv"));  // the seed counts as unseen
 }
 
 TEST(SlowRingDowns, ADiagnosisThatHoldsNeverLeavesTwiceWhatAPlainFitLeaves) {
