@@ -268,6 +268,17 @@ void describe(const SelectionProblem& p, const Selection& selection,
   audit.explained = 1 - selection.fit.chi2 / p.problem.impulse().squaredNorm();
 }
 
+/// Of this set, where no set's own noise is counted.
+double log_odds_over_nothing(const std::vector<BalanceHypothesis>& sets, const BalanceHypothesis& one) {
+  const auto same = std::find_if(sets.begin(), sets.end(), [&](const BalanceHypothesis& other) {
+    return std::equal(other.chosen.begin(), other.chosen.end(), one.chosen.begin(), one.chosen.end(),
+                      [](const ChosenTerm& a, const ChosenTerm& b) {
+                        return a.term == b.term && a.frequency == b.frequency;
+                      });
+  });
+  return same == sets.end() ? one.gain / 2 : same->log_odds;
+}
+
 /// With frequency and nuisances alone, or with what the setup says of the frequency.
 BalanceFit without_effects(const SelectionProblem& p, bool free_frequency) {
   return balance_of(
@@ -305,6 +316,7 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
   const std::vector<BalanceHypothesis> sets = with_own_noise(p, weighed->sets);
   Selection selection = fit_terms(p, sets.front().chosen);
   audit.sets = sets_in_words(p, sets, known);
+  audit.log_odds = log_odds_over_nothing(weighed->sets, sets.front());
   audit.alternatives = alternatives_of(p, sets, balance.frequency(), known);
   for (const int term : terms_seen(p)) audit.seen.push_back(p.known[static_cast<std::size_t>(term)].key());
   describe_frequency(selection, balance.frequency(), audit);
