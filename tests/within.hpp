@@ -13,12 +13,16 @@
 #pragma once
 #include <gtest/gtest.h>
 
-/// A tolerance beside the error that was seen; does not compile when it is more than twenty times as large.
+/// Does not compile when the tolerance is more than twenty times the error that was seen.
+consteval double checked_tolerance(double tolerance, double seen) {
+  if (!(tolerance > 0 && tolerance <= 20 * seen)) throw "a tolerance is at most 20 times the error seen";
+  return tolerance;
+}
+
+/// The two together, for tables of cases.
 struct Tolerance {
   double size;
-  consteval Tolerance(double tolerance, double seen) : size(tolerance) {
-    if (!(tolerance > 0 && tolerance <= 20 * seen)) throw "a tolerance is at most 20 times the error seen";
-  }
+  consteval Tolerance(double tolerance, double seen) : size(checked_tolerance(tolerance, seen)) {}
 };
 
 /// |value - expected| <= tolerance; `seen` is the largest error seen when the test was written. The two may
