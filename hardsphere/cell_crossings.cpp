@@ -16,12 +16,12 @@ constexpr int most_cells = 65000;  // along an axis
 
 #ifdef __AVX512F__
 /// Which of an axis's three offsets enters each of the 27 sums of one offset an axis.
-constexpr std::array<std::int32_t, 32> digits(std::int32_t step) {
+constexpr std::array<std::int32_t, 32> digits_of(std::int32_t step) {
   std::array<std::int32_t, 32> which{};
   for (std::int32_t n = 0; n < 27; ++n) which[static_cast<std::size_t>(n)] = n / step % 3;
   return which;
 }
-constexpr std::array<std::int32_t, 32> of_x = digits(9), of_y = digits(3), of_z = digits(1);
+constexpr std::array<std::int32_t, 32> of_x = digits_of(9), of_y = digits_of(3), of_z = digits_of(1);
 #endif
 
 int cells_across(double extent, double edge) {

@@ -10,21 +10,21 @@ namespace shakedown {
 
 namespace {
 
-using Loop = std::variant<EventLoop<ScriptedGrains, BoxMotion>, EventLoop<ScriptedGrains, DrivenBox>>;
+using ReplayedLoop = std::variant<EventLoop<ScriptedGrains, BoxMotion>, EventLoop<ScriptedGrains, DrivenBox>>;
 
-Loop loop_for(const Setup& setup, const State& state) {
+ReplayedLoop replayed_loop(const Setup& setup, const State& state) {
   if (setup.domain == Domain::periodic)
     throw InputError({{{}, "domain.kind", "a periodic cell has no collision log", "run the setup again"}});
   const Physics physics = physics_of(setup);
   const ScriptedGrains grains(state);
-  return is_driven(physics) ? Loop(std::in_place_index<1>, state, physics, setup, grains)
-                            : Loop(std::in_place_index<0>, state, physics, setup, grains);
+  return is_driven(physics) ? ReplayedLoop(std::in_place_index<1>, state, physics, setup, grains)
+                            : ReplayedLoop(std::in_place_index<0>, state, physics, setup, grains);
 }
 
 }  // namespace
 
 struct Replay::Inside {
-  Loop loop;
+  ReplayedLoop loop;
   const CollisionLog* log;
   EventReader reader;
   std::int64_t interval;
@@ -43,8 +43,11 @@ struct Replay::Inside {
 };
 
 Replay::Replay(const Setup& setup, const CollisionLog& log)
-    : inside_(new Inside{
-          loop_for(setup, log.initial), &log, EventReader(log), digest_interval(log.initial.size()), {}}) {
+    : inside_(new Inside{replayed_loop(setup, log.initial),
+                         &log,
+                         EventReader(log),
+                         digest_interval(log.initial.size()),
+                         {}}) {
   inside_->read();
 }
 Replay::~Replay() = default;

@@ -16,7 +16,7 @@ bool has_forces_beside_spring(const Physics& physics) {
   return physics.spring_cubic != 0 || !physics.box.none();
 }
 
-void check(const Setup& setup, const Physics& physics) {
+void expect_modelled(const Setup& setup, const Physics& physics) {
   std::vector<Violation> found;
   if (setup.domain == Domain::periodic)
     found.push_back({place_of(setup, "domain.kind"), "domain.kind",
@@ -167,7 +167,7 @@ class BulletEngine final : public Engine {
   Trajectory run(const Setup& setup, const RunOptions& options) const override {
     refuse_what_is_not_modelled(*this, setup);
     const Physics physics = physics_of(setup);
-    check(setup, physics);
+    expect_modelled(setup, physics);
     return BulletRun(setup, options, physics).run();
   }
 };

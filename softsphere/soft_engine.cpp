@@ -25,7 +25,7 @@ constexpr double fewest_steps_per_contact = 5;
 /// Above this the bounce is visibly not what the setup says.
 constexpr double largest_quiet_restitution_error = 5e-3;
 
-void check(const Setup& setup) {
+void expect_soft(const Setup& setup) {
   std::vector<Violation> found;
   if (setup.domain == Domain::periodic)
     found.push_back({place_of(setup, "domain.kind"), "domain.kind",
@@ -220,7 +220,7 @@ class SoftEngine final : public Engine {
   Capability can_model(const EffectRecord& effect) const override { return effect.capability(name()); }
   Trajectory run(const Setup& setup, const RunOptions& options) const override {
     refuse_what_is_not_modelled(*this, setup);
-    check(setup);
+    expect_soft(setup);
     return SoftRun(initial_state(setup, options.run), setup, options, search_).run();
   }
 
@@ -233,7 +233,7 @@ class SoftEngine final : public Engine {
 std::unique_ptr<Engine> make_soft_engine(PairSearch search) { return std::make_unique<SoftEngine>(search); }
 
 Trajectory run_soft_from(const State& state, const Setup& setup, const RunOptions& options) {
-  check(setup);
+  expect_soft(setup);
   return SoftRun(state, setup, options, PairSearch::neighbour_list).run();
 }
 

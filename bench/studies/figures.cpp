@@ -150,7 +150,7 @@ Chart energies(const PaperRuns& runs) {
   return {"energies", "Square root of the total energy, mean over runs, hard engine", {panel}};
 }
 
-Chart puzzle(const Puzzle& puzzle) {
+Chart puzzle_chart(const Puzzle& puzzle) {
   Curve value{"fitted to L = 40 mm", {}, {}}, low{"95 % interval, low", {}, {}, true},
       high{"95 % interval, high", {}, {}, true}, paper{"the paper's fit", {}, {}, true};
   for (const PuzzlePoint& point : puzzle.points) {
@@ -182,7 +182,7 @@ std::vector<Chart> charts_of(const PaperRuns& runs) {
   charts.push_back(optimised(runs.hard[4]));
   charts.push_back(length_sweep(runs));
   charts.push_back(energies(runs));
-  charts.push_back(puzzle(runs.puzzle));
+  charts.push_back(puzzle_chart(runs.puzzle));
   return charts;
 }
 

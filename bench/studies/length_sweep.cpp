@@ -8,7 +8,7 @@
 namespace shakedown {
 
 namespace {
-constexpr double cycles = 60 * 1.23;
+constexpr double cycles_of_run = 60 * 1.23;
 }
 
 LengthSweep sweep_lengths(const Engine& engine, const Setup& base, const std::vector<double>& lengths,
@@ -20,7 +20,7 @@ LengthSweep sweep_lengths(const Engine& engine, const Setup& base, const std::ve
     const auto place = static_cast<std::size_t>(job / wanted.runs);
     Setup setup = base;
     setup.box.length = lengths[place];
-    setup.run.duration = cycles / base.spring.frequency;
+    setup.run.duration = cycles_of_run / base.spring.frequency;
     setup.run.sample_rate = 200 * base.spring.frequency;
     const Trajectory trajectory = engine.run(setup, {job % wanted.runs, {}, wanted.stop});
     if (trajectory.interrupted) throw Interrupted("stopped while lengths were swept");

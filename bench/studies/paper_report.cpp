@@ -15,7 +15,7 @@ namespace shakedown {
 
 namespace {
 
-constexpr std::size_t most_points = 700;  // of a curve; a plot is about that many pixels wide
+constexpr std::size_t most_points_of_plot = 700;  // of a curve; a plot is about that many pixels wide
 
 double at(const Curve& curve, double x) {
   const auto after = std::lower_bound(curve.x.begin(), curve.x.end(), x);
@@ -34,7 +34,7 @@ std::vector<double> common_x(const Panel& panel) {
                        [](const Curve& a, const Curve& b) { return a.x.size() < b.x.size(); });
   if (longest == panel.curves.end()) return {};
   std::vector<double> x;
-  const std::size_t step = std::max<std::size_t>(1, longest->x.size() / most_points);
+  const std::size_t step = std::max<std::size_t>(1, longest->x.size() / most_points_of_plot);
   for (std::size_t i = 0; i < longest->x.size(); i += step) x.push_back(longest->x[i]);
   for (const Curve& curve : panel.curves)
     if (curve.points) x.insert(x.end(), curve.x.begin(), curve.x.end());
@@ -93,7 +93,7 @@ ReportSection figures_section(const Paper& paper, const std::string& title, bool
   return section;
 }
 
-std::string readable(const Finding& f) {
+std::string readable_value(const Finding& f) {
   const std::string unit = f.unit.empty() ? "" : " " + f.unit;
   if (std::isnan(f.low) || f.low == f.high) return for_people(f.value) + unit;
   return fmt::format("{}{} ({} to {})", for_people(f.value), unit, for_people(f.low), for_people(f.high));
@@ -114,7 +114,7 @@ ReportSection statements_section(const Paper& paper) {
   for (const Statement& s : paper.statements) {
     verdicts.rows.push_back(
         {s.text, s.paper, mark_of(s.judgement) + std::string(name_of(s.judgement)), s.rule});
-    for (const Finding& f : s.findings) findings.rows.push_back({s.name, f.what, readable(f)});
+    for (const Finding& f : s.findings) findings.rows.push_back({s.name, f.what, readable_value(f)});
   }
   section.tables = {verdicts, findings};
   for (const Statement& s : paper.statements)

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-std::string readable(const Finding& finding) {
+std::string readable_line(const Finding& finding) {
   if (std::isnan(finding.value)) return "none";
   const std::string unit = finding.unit.empty() ? "" : " " + finding.unit;
   if (std::isnan(finding.low) || finding.low == finding.high)
@@ -157,7 +157,7 @@ std::string paper_markdown(const Paper& paper) {
   for (const Statement& s : paper.statements) {
     text += fmt::format("\n## {}: {}\n\n{} Paper: {}.\nIt holds when: {}.\n\n", s.name, name_of(s.judgement),
                         s.text, s.paper, s.rule);
-    for (const Finding& f : s.findings) text += "- " + f.what + ": " + readable(f) + "\n";
+    for (const Finding& f : s.findings) text += "- " + f.what + ": " + readable_line(f) + "\n";
     if (!s.remark.empty()) text += "\n" + s.remark + "\n";
   }
   text += puzzle_markdown(paper.runs.puzzle);

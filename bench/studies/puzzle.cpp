@@ -22,8 +22,8 @@ Setup believed() {
   return setup;
 }
 
-Experiment film(double restitution, double friction, const std::vector<double>& lengths,
-                const PuzzleOptions& options) {
+Experiment film_of_laboratory(double restitution, double friction, const std::vector<double>& lengths,
+                              const PuzzleOptions& options) {
   Setup truth = believed();
   truth.restitution.grain_grain = restitution;
   truth.run.duration = 16;
@@ -116,16 +116,16 @@ Puzzle solve_puzzle(const PuzzleOptions& options) {
   Setup start = believed();
   start.restitution.grain_grain = 0.85;
   tell("the puzzle: the paper's fit");
-  puzzle.as_the_paper = fitted(start, film(0.75, 0, {0.040, 0.040}, options),
+  puzzle.as_the_paper = fitted(start, film_of_laboratory(0.75, 0, {0.040, 0.040}, options),
                                "restitution.grain_grain,restitution.grain_wall", options);
   const std::vector<double> frictions =
       options.quick ? std::vector{0.0, 0.1, 0.2, 0.5} : std::vector{0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5};
   for (const double friction : frictions) {
     tell(fmt::format("the puzzle: friction {:g}", friction));
     const bool chosen = friction == puzzle.friction;
-    const Experiment experiment =
-        film(drop_test_restitution, friction,
-             chosen ? std::vector{0.040, 0.040, 0.065, 0.085, 0.104} : std::vector{0.040, 0.040}, options);
+    const Experiment experiment = film_of_laboratory(
+        drop_test_restitution, friction,
+        chosen ? std::vector{0.040, 0.040, 0.065, 0.085, 0.104} : std::vector{0.040, 0.040}, options);
     PuzzlePoint point{friction, fitted(start, experiment, "restitution.grain_grain", options), {}};
     if (!options.quick)
       point.both = fitted(start, experiment, "restitution.grain_grain,restitution.grain_wall", options);

@@ -126,8 +126,8 @@ void draw_second_swing(Random& random, std::span<const EffectRecord* const> know
   set_number(truth, "second_mode.phase", between(random, -3, 3), known);
 }
 
-void hide(const Law& law, Random& random, std::span<const EffectRecord* const> known, RingDown& drawn,
-          std::vector<std::string>& keys) {
+void hide_law(const Law& law, Random& random, std::span<const EffectRecord* const> known, RingDown& drawn,
+              std::vector<std::string>& keys) {
   Setup& truth = drawn.trial.hidden.truth;
   const Scale scale{truth.box.mass, 2 * std::numbers::pi * truth.spring.frequency,
                     truth.release.displacement};
@@ -163,7 +163,7 @@ RingDown drawn_once(Random& random, unsigned which, const Engine& engine,
   truth.release.displacement = log_between(random, 0.01, 0.2);
   std::vector<std::string> keys;
   for (std::size_t i = 0; i < laws.size(); ++i)
-    if ((which >> i & 1) != 0) hide(laws[i], random, known, drawn, keys);
+    if ((which >> i & 1) != 0) hide_law(laws[i], random, known, drawn, keys);
   RecordingSettings& recording = drawn.trial.recording;
   draw_frames(random, truth.spring.frequency, truth, recording);
   drawn.noise = draw_noise(random, truth.release.displacement, recording);
@@ -171,7 +171,8 @@ RingDown drawn_once(Random& random, unsigned which, const Engine& engine,
   if (random.uniform() < share_of_rigs) {
     const auto rig = static_cast<std::size_t>(random.bits() >> 20) % of_rigs.size();
     // A pendulum's sine beside a cubic spring says the same twice.
-    if (rig != a_pendulum || (which & a_cubic_spring) == 0) hide(of_rigs[rig], random, known, drawn, keys);
+    if (rig != a_pendulum || (which & a_cubic_spring) == 0)
+      hide_law(of_rigs[rig], random, known, drawn, keys);
   }
   if (random.uniform() < share_of_encoders && find_choice(truth, "camera_tilt") == nullptr) {
     draw_edges(random, truth, recording);

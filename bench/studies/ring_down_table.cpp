@@ -30,7 +30,7 @@ std::string line(std::string_view what, const std::vector<RingDownResult>& resul
 }
 
 /// What right or wrong answers leave of the motion, and how many of them say that the model holds.
-std::string left_by(const std::vector<RingDownResult>& results, bool right) {
+std::string answers_left_by(const std::vector<RingDownResult>& results, bool right) {
   std::vector<double> left;
   int hold = 0;
   for (const RingDownResult& one : results)
@@ -106,7 +106,7 @@ std::string ring_down_table(const std::vector<RingDownResult>& results) {
   add("8 to 20 frames a period", frames_between(8, 20));
   add("20 to 100 frames a period", frames_between(20, 100));
   add("100 frames a period and more", frames_between(100, any));
-  text += left_by(results, true) + left_by(results, false);
+  text += answers_left_by(results, true) + answers_left_by(results, false);
   std::vector<double> seconds;
   for (const RingDownResult& one : results) seconds.push_back(one.answer.seconds);
   std::sort(seconds.begin(), seconds.end());

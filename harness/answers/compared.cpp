@@ -239,8 +239,8 @@ Compared compared_with(const Setup& setup, const Measurement& recorded, const En
 namespace {
 
 /// Nothing was found and nothing is suspected: the parameters and the camera are there to be turned.
-ReportKnobs knobs_of(const LastFit& last, const Setup& setup, const Engine& engine, int threads,
-                     const std::atomic<bool>* stop) {
+ReportKnobs knobs_of_comparison(const LastFit& last, const Setup& setup, const Engine& engine, int threads,
+                                const std::atomic<bool>* stop) {
   if (last.swing) return knobs_of(turned_numbers(*last.swing, setup, {}, all_effects()), last, setup);
   TurnedOptions options;
   options.known = all_effects();
@@ -257,7 +257,7 @@ Report report_of(const Compared& compared, const Setup& setup, const Engine& eng
                  const std::atomic<bool>* stop) {
   return report_of(compared.fit, compared.momentum, compared.judgement, compared.measurement, setup,
                    drawn_curves(compared.measurement, nullptr, setup, engine, threads, stop),
-                   knobs_of(compared.last, setup, engine, threads, stop));
+                   knobs_of_comparison(compared.last, setup, engine, threads, stop));
 }
 
 }  // namespace shakedown

@@ -70,8 +70,8 @@ std::vector<std::string> suspects_of(const Diagnosis& diagnosis) {
   return names;
 }
 
-ReportKnobs knobs_of(const Diagnosis& diagnosis, const Setup& user, const Engine& engine,
-                     const PageOptions& page) {
+ReportKnobs knobs_of_diagnosis(const Diagnosis& diagnosis, const Setup& user, const Engine& engine,
+                               const PageOptions& page) {
   if (!diagnosis.last_fit) return {};
   const LastFit& fit = *diagnosis.last_fit;
   if (fit.swing)
@@ -106,7 +106,7 @@ Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, con
   const Measurement& shown = fit != nullptr ? fit->measurement : measurement;
   return report_of(diagnosis, measurement, given,
                    measured_against_model(shown, &given, diagnosis.amended, *engine, drawn),
-                   knobs_of(diagnosis, given, *engine, page));
+                   knobs_of_diagnosis(diagnosis, given, *engine, page));
 }
 
 }  // namespace shakedown

@@ -80,8 +80,8 @@ Fit fitted_and_judged(const Setup& setup, const Measurement& recorded, const std
 namespace {
 
 /// The keys that were fitted are there to be turned.
-ReportKnobs knobs_of(const Fit& fit, const Setup& given, const Measurement& measurement, const Engine& engine,
-                     int threads, const std::atomic<bool>* stop) {
+ReportKnobs knobs_of_fit(const Fit& fit, const Setup& given, const Measurement& measurement,
+                         const Engine& engine, int threads, const std::atomic<bool>* stop) {
   if (fit.measured.empty()) return {};
   const Workshop workshop{&engine, all_effects(), threads, stop, {}, nullptr};
   RefitOptions once;
@@ -108,7 +108,7 @@ Report report_of(const Fit& fit, const Setup& given, const Measurement& recorded
   const Measurement measurement =
       from_first_turns(empty ? with_setup(recorded, fit.fitted, all_effects()) : recorded, engine);
   return report_of(fit, measurement, drawn_curves(measurement, &given, fit.fitted, engine, threads, stop),
-                   knobs_of(fit, given, measurement, engine, threads, stop));
+                   knobs_of_fit(fit, given, measurement, engine, threads, stop));
 }
 
 }  // namespace shakedown

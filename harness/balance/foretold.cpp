@@ -8,10 +8,10 @@ namespace shakedown {
 namespace {
 
 /// First row and number of rows.
-using Stretch = std::pair<Eigen::Index, Eigen::Index>;
+using FirstAndCount = std::pair<Eigen::Index, Eigen::Index>;
 
-std::vector<Stretch> stretches_of(const MomentumProblem& problem) {
-  std::vector<Stretch> stretches;
+std::vector<FirstAndCount> stretches_of(const MomentumProblem& problem) {
+  std::vector<FirstAndCount> stretches;
   for (std::size_t run = 0; run < problem.runs(); ++run)
     if (problem.rows(run) > 0) stretches.push_back({problem.begin(run), problem.rows(run)});
   if (stretches.size() != 1) return stretches;

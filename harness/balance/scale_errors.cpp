@@ -34,9 +34,9 @@ std::vector<CommonFactor> factors_of(const Measurement& measurement,
 bool is_same(const MomentumTerm& term, const FoundTerm& found) { return term.key() == found.key(); }
 
 /// The values of the terms found, fitted once more to this measurement.
-std::vector<double> values_of(const Measurement& measurement, std::span<const EffectRecord* const> known,
-                              const NuisanceValues& already, const MomentumOptions& options,
-                              const MomentumAudit& audit) {
+std::vector<double> nuisance_values(const Measurement& measurement,
+                                    std::span<const EffectRecord* const> known, const NuisanceValues& already,
+                                    const MomentumOptions& options, const MomentumAudit& audit) {
   std::vector<std::string> only;
   for (const FoundTerm& found : audit.terms) only.push_back(found.effect);
   const BalanceProblem balance(measurement, known, already, only);
@@ -72,11 +72,11 @@ void allow_for_scales(const Measurement& measurement, std::span<const EffectReco
   if (audit.terms.empty() || audit.unlisted) return;
   const std::vector<CommonFactor> factors = factors_of(measurement, known);
   if (factors.empty()) return;
-  const std::vector<double> here = values_of(measurement, known, already, options, audit);
+  const std::vector<double> here = nuisance_values(measurement, known, already, options, audit);
   if (here.empty()) return;
   for (const CommonFactor& factor : factors) {
-    const std::vector<double> moved =
-        values_of(read_with(measurement, {{factor.key, factor.step}}, known), known, already, options, audit);
+    const std::vector<double> moved = nuisance_values(
+        read_with(measurement, {{factor.key, factor.step}}, known), known, already, options, audit);
     for (std::size_t i = 0; i < moved.size(); ++i) {
       // In parts of the value: the fit here may differ a little from the one that was told.
       FoundTerm& term = audit.terms[i];

@@ -20,7 +20,7 @@ std::string with_interval(const Estimate& value, int digits) {
                      digits);
 }
 
-std::string row_of(const BounceAnswer& answer, std::size_t i) {
+std::string row_of_law(const BounceAnswer& answer, std::size_t i) {
   const LawFit& law = answer.laws[i];
   const LawTest& test = answer.tests[i];
   std::string text = fmt::format("  {:6.1f} %  {:<22}", 100 * law.probability, law.name());
@@ -130,7 +130,7 @@ std::string bounce_text(const BounceReading& reading) {
       "\n  probability of the laws (parameters with 95 % intervals, reference speed {:.3g} m/s)\n",
       answer.reference);
   for (std::size_t i = 0; i < answer.laws.size(); ++i)
-    if (i < 3 || answer.laws[i].probability > 1e-3) text += row_of(answer, i);
+    if (i < 3 || answer.laws[i].probability > 1e-3) text += row_of_law(answer, i);
   text += fmt::format("  {} {}: {}\n", best.name(), answer.holds() ? "holds" : "does not hold",
                       standing_text(answer));
   if (best.model.air == AirModel::free)

@@ -57,7 +57,7 @@ Eigen::VectorXd residuals(const std::vector<Flights>& all, const BounceModel& mo
   return residual;
 }
 
-ImpactRow row_of(const Values& values, double speed, double next) {
+ImpactRow row_of_impact(const Values& values, double speed, double next) {
   ImpactRow row;
   row.speed = speed;
   const double takeoff = values.flight.takeoff(next);
@@ -76,8 +76,8 @@ std::vector<ImpactRow> rows_of(const std::vector<Flights>& all, const BounceMode
       rows.push_back(row);
     };
     if (std::isfinite(flights.height)) {
-      ImpactRow row =
-          row_of(values, values.flight.fall(flights.height + values.height_offset), flights.interval[0]);
+      ImpactRow row = row_of_impact(values, values.flight.fall(flights.height + values.height_offset),
+                                    flights.interval[0]);
       row.instants = {0, -1, 1};
       const double h = 1e-3 * flights.height;
       const double slope =
@@ -88,7 +88,7 @@ std::vector<ImpactRow> rows_of(const std::vector<Flights>& all, const BounceMode
     }
     for (std::size_t i = 1; i < flights.interval.size(); ++i) {
       const double before = flights.interval[i - 1], h = 1e-4 * before;
-      ImpactRow row = row_of(values, impact_speed(values.flight, before), flights.interval[i]);
+      ImpactRow row = row_of_impact(values, impact_speed(values.flight, before), flights.interval[i]);
       const double slope =
           (foretold(model, values, before + h) - foretold(model, values, before - h)) / (2 * h);
       row.instants = {slope, -(1 + slope), 1};

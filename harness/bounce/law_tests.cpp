@@ -67,7 +67,7 @@ std::string sentence(const ImpactRow& row, OutlierKind kind, double size, double
 }
 
 /// Legendre's polynomials of the logarithm of the speed, from -1 at the slowest to 1 at the fastest.
-Eigen::MatrixXd bends_of(const Linearised& at, int first, int count) {
+Eigen::MatrixXd columns_of_bends(const Linearised& at, int first, int count) {
   double low = 1e300, high = 0;
   for (const ImpactRow& row : at.rows) low = std::min(low, row.speed), high = std::max(high, row.speed);
   Eigen::MatrixXd columns(at.residual.size(), count);
@@ -175,7 +175,7 @@ LawTest test_of(const LawFit& fit, const TimingKnown& timing) {
   const int bends = std::min<int>(most_bends, static_cast<int>(count - own - 1) / 2);
   const int first = static_cast<int>(law_of(fit.model.law).parameters.size());
   Eigen::MatrixXd columns(count, 1 + own + std::max(bends, 0));
-  columns << fit.at.residual, fit.at.slope, bends_of(fit.at, first, std::max(bends, 0));
+  columns << fit.at.residual, fit.at.slope, columns_of_bends(fit.at, first, std::max(bends, 0));
   const auto chi2_of = [&](const SpreadNode& node, Eigen::Index used) {
     const Eigen::MatrixXd products = whitened(fit.at, columns, node).products;
     return products(0, 0) - gain_of(products.topLeftCorner(1 + used, 1 + used));

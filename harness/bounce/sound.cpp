@@ -95,7 +95,7 @@ std::size_t meeting_of_variances(std::span<const float> signal) {
 
 /// A loud impact shows a weak beginning that is lost in the noise of the next: its place is where it reaches
 /// a share of its own peak, which is the same moment of each.
-std::size_t risen(std::span<const float> signal, std::size_t onset) {
+std::size_t samples_risen(std::span<const float> signal, std::size_t onset) {
   float peak = 0;
   for (std::size_t i = onset; i < signal.size(); ++i) peak = std::max(peak, std::abs(signal[i]));
   std::size_t i = onset;
@@ -122,7 +122,7 @@ double placed(const Sound& sound, double about) {
     }
     if (power <= loudest) continue;
     loudest = power;
-    place = static_cast<double>(from + risen(part, meeting_of_variances(part))) / sound.rate;
+    place = static_cast<double>(from + samples_risen(part, meeting_of_variances(part))) / sound.rate;
   }
   return place;
 }

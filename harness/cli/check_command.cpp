@@ -79,7 +79,7 @@ int check_linear_decay(const LinearDecayArguments& arguments) {
   return std::ranges::all_of(checks, &DecayCheck::passed) ? exit_done : exit_model_rejected;
 }
 
-void add_ensemble_options(CLI::App& command, LinearDecayArguments& arguments) {
+void add_decay_options(CLI::App& command, LinearDecayArguments& arguments) {
   command.add_option("--engines", arguments.engines, "engines, separated by commas")
       ->delimiter(',')
       ->type_name("NAMES")
@@ -103,7 +103,7 @@ Command add_linear_decay_check(CLI::App& check) {
   CLI::App& command = *check.add_subcommand(
       "linear-decay", "the paper's damper loses amplitude along a nearly straight line, at the stored slope");
   const auto arguments = std::make_shared<LinearDecayArguments>();
-  add_ensemble_options(command, *arguments);
+  add_decay_options(command, *arguments);
   command
       .add_option("--baselines", arguments->baselines,
                   "file of the stored intervals; default: that of the program")

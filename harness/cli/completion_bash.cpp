@@ -15,7 +15,7 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 /// What bash's compgen lists for a value; files are what it takes by itself where nothing is listed.
-std::string values_of(const OptionWords& option) {
+std::string words_offered(const OptionWords& option) {
   switch (option.kind) {
     case ValueKind::words: return "-W '" + joined(option.choices) + "'";
     case ValueKind::folder: return "-d";
@@ -29,14 +29,14 @@ std::string case_of(const std::string& path, const CLI::App& command) {
   std::string values, options, positional = "-W ''";
   for (const OptionWords& option : options_of(command)) {
     if (option.positional) {
-      positional = values_of(option);
+      positional = words_offered(option);
       continue;
     }
     options += (options.empty() ? "" : " ") + joined(option.names);
     if (option.kind == ValueKind::none) continue;
     std::string pattern;
     for (const std::string& name : option.names) pattern += (pattern.empty() ? "" : "|") + name;
-    values += fmt::format("        {}) list=\"{}\" ;;\n", pattern, values_of(option));
+    values += fmt::format("        {}) list=\"{}\" ;;\n", pattern, words_offered(option));
   }
   std::string below;
   for (const CLI::App* one : commands_of(command)) below += (below.empty() ? "" : " ") + one->get_name();
@@ -48,7 +48,7 @@ std::string case_of(const std::string& path, const CLI::App& command) {
       path, options, positional, values);
 }
 
-std::string cases_of(const std::string& path, const CLI::App& command, const std::string& studies) {
+std::string cases_of_commands(const std::string& path, const CLI::App& command, const std::string& studies) {
   std::string text;
   for (const CLI::App* one : commands_of(command)) {
     const std::string here = path + (path.empty() ? "" : " ") + one->get_name();
@@ -56,7 +56,7 @@ std::string cases_of(const std::string& path, const CLI::App& command, const std
                 ? fmt::format("    '{}') _completion_loader {} 2>/dev/null; {} \"$@\"; return ;;\n", here,
                               studies, "_shakedown_studies")
                 : case_of(here, *one);
-    text += cases_of(here, *one, studies);
+    text += cases_of_commands(here, *one, studies);
   }
   return text;
 }
@@ -99,7 +99,7 @@ std::string bash_completion(const std::string& program, const CLI::App& parser) 
       "}}\n"
       "complete -o filenames -F {1} {0}\n",
       program, function_name(program), groups_of(parser), case_of("", parser),
-      cases_of("", parser, program + "-studies"));
+      cases_of_commands("", parser, program + "-studies"));
 }
 
 }  // namespace shakedown

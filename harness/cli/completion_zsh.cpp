@@ -60,7 +60,7 @@ std::string arguments_of(const CLI::App& command, const std::string& indent) {
   return text;
 }
 
-std::string names_of(const CLI::App& command) {
+std::string names_of_commands(const CLI::App& command) {
   std::string text;
   for (const CLI::App* one : commands_of(command))
     text += fmt::format(" '{}:{}'", one->get_name(), quoted(one->get_description()));
@@ -76,7 +76,7 @@ std::string body_of(const CLI::App& command, const std::string& indent) {
   std::string text = indent + arguments_of(command, indent) + " \\\n" + indent +
                      "  '1: :->commands' '*:: :->" + state + "'\n" + indent + "case $state in\n";
   text += fmt::format("{0}  commands) local -a known; known=({1}); _describe command known ;;\n", indent,
-                      names_of(command));
+                      names_of_commands(command));
   text += indent + "  " + state + ")\n" + indent + "    case $words[1] in\n";
   for (const CLI::App* one : commands_of(command))
     text += fmt::format("{0}      {1})\n{2}{0}        ;;\n", indent, one->get_name(),

@@ -94,7 +94,7 @@ void write_folder(const OutputFolder& folder, const std::vector<Crosscheck>& fou
   folder.write("summary.json", crosscheck_json(found));
 }
 
-int run(const CrosscheckArguments& arguments) {
+int run_crosscheck(const CrosscheckArguments& arguments) {
   const std::vector<Case> cases = cases_of(arguments);
   arguments.json.check();
   arguments.report.check();
@@ -202,7 +202,7 @@ Command add_crosscheck_command(CLI::App& program) {
       "Exit code 1: an observable differs beyond its margin (its 95 % interval lies outside). \"Cannot "
       "tell\" "
       "is\nno failure.");
-  return {&command, [arguments] { return run(*arguments); }};
+  return {&command, [arguments] { return run_crosscheck(*arguments); }};
 }
 
 }  // namespace shakedown

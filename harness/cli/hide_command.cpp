@@ -111,7 +111,7 @@ int hide(const HideArguments& arguments, const Trial& trial) {
   return exit_done;
 }
 
-nlohmann::ordered_json json_of(const Share& share) {
+nlohmann::ordered_json json_of_share(const Share& share) {
   return {{"hits", share.hits},
           {"trials", share.trials},
           {"share", share.value},
@@ -143,8 +143,8 @@ int measure_power(const HideArguments& arguments, const Trial& trial) {
   }
   arguments.json.write(nlohmann::ordered_json{{"schema_version", 1},
                                               {"hidden", hidden},
-                                              {"detected", json_of(power.detected)},
-                                              {"named", json_of(power.named)},
+                                              {"detected", json_of_share(power.detected)},
+                                              {"named", json_of_share(power.named)},
                                               {"answers", answers}}
                            .dump(2) +
                        "\n");

@@ -28,7 +28,7 @@ Experiment planned_experiment(HiddenQuestion question, Trial trial) {
   return measured(question, trial, catch_interruption(), {});
 }
 
-std::string words_of(const Trial& trial, const HiddenQuestion& question) {
+std::string words_of_trial(const Trial& trial, const HiddenQuestion& question) {
   std::string runs;
   for (const PlannedRun& run : trial.runs) runs += (runs.empty() ? "" : ", ") + run.name;
   return fmt::format("{} runs ({}) of {:g} s, noise of a frame {:g} mm at {:g} Hz{}", trial.runs.size(), runs,
@@ -70,7 +70,7 @@ int map_strengths(const MapArguments& arguments, const HiddenQuestion& question,
     throw Interrupted(what_is_kept(journal.get()));
   }
   std::FILE* people = json.for_people();
-  const std::string words = words_of(trial, question);
+  const std::string words = words_of_trial(trial, question);
   fmt::print(people, "{}\n{}", words, map_text(map));
   if (folder) folder->write("map.json", map_json(map));
   // What was left out for want of time can be gone on with.

@@ -111,7 +111,7 @@ std::string p_of(const Rung& rung) {
   return std::isfinite(rung.fit.p_value) ? fmt::format("{:.3f}", rung.fit.p_value) : "-";
 }
 
-std::string readable(const std::vector<Rung>& rungs, bool refitted) {
+std::string readable_rungs(const std::vector<Rung>& rungs, bool refitted) {
   std::string text =
       fmt::format("{:<28} {:>16} {:>16} {:>12} {:>8} {:>10} {:>10}\n", "errors and their floor, mm", "box",
                   "grains' centre", refitted ? "held out" : "", "p", "misfit", "momentum");
@@ -135,7 +135,7 @@ std::string readable(const std::vector<Rung>& rungs, bool refitted) {
          "have; momentum: p of its balance.\n";
 }
 
-std::string json_of(const std::vector<Rung>& rungs, bool refitted) {
+std::string json_of_rungs(const std::vector<Rung>& rungs, bool refitted) {
   nlohmann::ordered_json ladder = nlohmann::ordered_json::array();
   for (const Rung& rung : rungs) {
     nlohmann::ordered_json values = nlohmann::ordered_json::object();
@@ -192,8 +192,8 @@ int ladder(const LadderArguments& arguments) {
   PaperValues taken(setups.front(), given_by_measurements);
   for (const Setup& setup : setups) taken.join(PaperValues(setup, given_by_measurements));
   taken.print(arguments.json.for_people());
-  fmt::print(arguments.json.for_people(), "{}", readable(rungs, arguments.refit));
-  const std::string document = taken.added_to(json_of(rungs, arguments.refit));
+  fmt::print(arguments.json.for_people(), "{}", readable_rungs(rungs, arguments.refit));
+  const std::string document = taken.added_to(json_of_rungs(rungs, arguments.refit));
   if (folder) folder->write("ladder.json", document);
   if (arguments.report.wanted(arguments.out))
     fmt::print(

@@ -79,7 +79,7 @@ void refuse_what_cannot_be_written(const RunArguments& arguments, const Setup& s
   if (!found.empty()) throw InputError(std::move(found));
 }
 
-int run(const RunArguments& arguments) {
+int run_setup(const RunArguments& arguments) {
   const Setup setup = arguments.setup.read();
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
   refuse_what_is_not_modelled(*engine, setup);
@@ -137,7 +137,7 @@ Command add_run_command(CLI::App& program) {
                    "with --out: the collision log, from which `shakedown export` and reports rebuild the "
                    "motion at any time");
   add_json_option(command, arguments->json);
-  return {&command, [arguments] { return run(*arguments); }};
+  return {&command, [arguments] { return run_setup(*arguments); }};
 }
 
 }  // namespace shakedown

@@ -64,7 +64,7 @@ int threads_of(const SweepArguments& arguments, const JobShare& share) {
   return share.of > 1 && share.source != "--shard" ? 1 : threads_or_all(0);
 }
 
-std::string readable(const SweepCost& cost, const JobShare& share, int threads) {
+std::string readable_cost(const SweepCost& cost, const JobShare& share, int threads) {
   std::string text = fmt::format("{} points, {} runs", cost.points, cost.jobs);
   if (share.of > 1)
     text += fmt::format("; share {} of {} (from {}): {} runs", share.index + 1, share.of, share.source,
@@ -75,8 +75,8 @@ std::string readable(const SweepCost& cost, const JobShare& share, int threads) 
                             duration(cost.seconds), threads, threads == 1 ? "" : "s");
 }
 
-nlohmann::ordered_json json_of(const std::vector<ResultRow>& rows, const SweepIdentity& identity,
-                               bool complete) {
+nlohmann::ordered_json json_of_sweep(const std::vector<ResultRow>& rows, const SweepIdentity& identity,
+                                     bool complete) {
   nlohmann::ordered_json axes = nlohmann::ordered_json::array();
   for (const SweepAxis& axis : identity.axes) axes.push_back({{"key", axis.key}, {"unit", axis.unit}});
   return {{"schema_version", 1}, {"engine", identity.engine}, {"axes", axes},
@@ -95,7 +95,7 @@ void present(const ResultFile& file, const std::string& name, const Presentation
              results_digest(rows));
   if (how.report.wanted(""))
     fmt::print(how.json.for_people(), "{}", how.report.write(report_of(file, name), ""));
-  nlohmann::ordered_json document_of = json_of(rows, file.identity(), complete);
+  nlohmann::ordered_json document_of = json_of_sweep(rows, file.identity(), complete);
   document_of["finding"] = finding;
   const std::string document = document_of.dump(2) + "\n";
   how.json.write(taken != nullptr ? taken->added_to(document) : document);
@@ -107,8 +107,8 @@ ResultFile::Opening opening_of(const SweepArguments& arguments, const JobShare& 
 }
 
 /// Its pilot runs go into a file in memory beside what the real one holds: nothing is left behind.
-int estimate(const SweepArguments& arguments, const SweepPlan& plan, const Engine& engine,
-             const JobShare& share) {
+int print_estimate(const SweepArguments& arguments, const SweepPlan& plan, const Engine& engine,
+                   const JobShare& share) {
   const SweepIdentity identity = identity_of(plan, engine);
   ResultFile file(":memory:", identity, ResultFile::Opening::fresh);
   if (std::filesystem::exists(arguments.out))
@@ -122,7 +122,7 @@ int estimate(const SweepArguments& arguments, const SweepPlan& plan, const Engin
   if (*options.stop) throw Interrupted("nothing was to be kept");
   SweepCost cost = outcome.cost;
   cost.seconds = cost.seconds_a_run * static_cast<double>(cost.here - cost.done) / options.threads;
-  fmt::print(arguments.results.json.for_people(), "{}\n", readable(cost, share, options.threads));
+  fmt::print(arguments.results.json.for_people(), "{}\n", readable_cost(cost, share, options.threads));
   if (outcome.failed > 0)
     fmt::print(stderr, "{} of {} runs that were tried failed; the first: {}\n", outcome.failed, outcome.added,
                outcome.first_failure);
@@ -158,7 +158,7 @@ int sweep(const SweepArguments& arguments) {
   arguments.results.check({arguments.out});
   for (const std::string& note : plan.notes) fmt::print(stderr, "note: {}\n", note);
   taken.print(arguments.results.json.for_people());
-  if (arguments.estimate) return estimate(arguments, plan, *engine, share);
+  if (arguments.estimate) return print_estimate(arguments, plan, *engine, share);
   ResultFile file(arguments.out, identity_of(plan, *engine), opening_of(arguments, share));
   for (const std::string& other : file.begin_session(version_line()))
     fmt::print(stderr,
@@ -171,7 +171,7 @@ int sweep(const SweepArguments& arguments) {
   options.stop = catch_interruption();
   std::unique_ptr<ProgressDisplay> display;
   options.announce = [&](const SweepCost& cost) {
-    fmt::print(stderr, "{}\n", readable(cost, share, options.threads));
+    fmt::print(stderr, "{}\n", readable_cost(cost, share, options.threads));
     display = std::make_unique<ProgressDisplay>("sweeping");
     return true;
   };

@@ -81,8 +81,8 @@ std::string curve_csv(const FrictionOscillator& oscillator, const Setup& setup) 
   return text;
 }
 
-std::string json_of(const Theory& theory, const std::optional<Friction>& friction,
-                    const std::string& engine) {
+std::string json_of_theory(const Theory& theory, const std::optional<Friction>& friction,
+                           const std::string& engine) {
   nlohmann::ordered_json json{{"schema_version", 1},
                               {"spring",
                                {{"beam_stiffness_N_per_m", theory.beam_stiffness},
@@ -114,8 +114,8 @@ std::string json_of(const Theory& theory, const std::optional<Friction>& frictio
   return json.dump(2) + "\n";
 }
 
-std::string readable(const Theory& theory, const std::optional<Friction>& friction,
-                     const std::string& engine) {
+std::string readable_theory(const Theory& theory, const std::optional<Friction>& friction,
+                            const std::string& engine) {
   const auto line = [](std::string_view name, const std::string& value) {
     return fmt::format("  {:<44}{}\n", name, value);
   };
@@ -147,7 +147,7 @@ std::string readable(const Theory& theory, const std::optional<Friction>& fricti
               fmt::format("{:.2f} mm", 1e3 * friction->rms_difference));
 }
 
-int estimate(const TheoryArguments& arguments) {
+int print_theory(const TheoryArguments& arguments) {
   const Setup setup = arguments.setup.read();
   const Theory theory = theory_of(setup);
   arguments.json.check();
@@ -162,8 +162,8 @@ int estimate(const TheoryArguments& arguments) {
   }
   const PaperValues taken(setup);
   taken.print(arguments.json.for_people());
-  fmt::print(arguments.json.for_people(), "{}", readable(theory, friction, arguments.engine));
-  arguments.json.write(taken.added_to(json_of(theory, friction, arguments.engine)));
+  fmt::print(arguments.json.for_people(), "{}", readable_theory(theory, friction, arguments.engine));
+  arguments.json.write(taken.added_to(json_of_theory(theory, friction, arguments.engine)));
   return exit_done;
 }
 
@@ -182,7 +182,7 @@ Command add_theory_command(CLI::App& program) {
                   "write the friction-damped oscillator as t_s,x_box_m,v_box_m_per_s")
       ->type_name("FILE");
   add_json_option(command, arguments->json);
-  return {&command, [arguments] { return estimate(*arguments); }};
+  return {&command, [arguments] { return print_theory(*arguments); }};
 }
 
 }  // namespace shakedown

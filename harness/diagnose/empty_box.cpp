@@ -86,8 +86,9 @@ double input_uncertainty(const SwingFrames& frames, const FirstTurn& turn, const
 }
 
 /// Each run against the final model, its turn fitted.
-std::vector<Validation> validation_of(const Measurement& final, const Engine& engine,
-                                      std::span<const EffectRecord* const> known, const Diagnosis& d) {
+std::vector<Validation> validation_by_compare(const Measurement& final, const Engine& engine,
+                                              std::span<const EffectRecord* const> known,
+                                              const Diagnosis& d) {
   std::vector<Validation> rows;
   for (const Measurement::Run& run : final.runs) {
     const SwingFrames frames = frames_of(run);
@@ -158,7 +159,7 @@ void judge(const Measurement& final_model, const Engine& engine, std::span<const
   findings.refitted = !(balance.as_given.p_value > rules::holds);
   findings.camera_stands_out = !standing_out(d.camera).empty();
   findings.explained = std::min(d.explained, share_explained(given_in_phase, final));
-  if (final.why_not.empty()) d.validation = validation_of(final_model, engine, known, d);
+  if (final.why_not.empty()) d.validation = validation_by_compare(final_model, engine, known, d);
   findings.left = {{"box", final.error, floor, given_in_phase.error, final.amplitude, final.looks_like}};
   for (Difference& row : differences_of(d.validation)) findings.left.push_back(std::move(row));
   d.left = findings.left;

@@ -11,7 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A ten-thousandth of a millimetre is enough for a picture.
-Json in_mm(const std::vector<double>& metres) {
+Json json_in_mm(const std::vector<double>& metres) {
   Json list = Json::array();
   for (const double value : metres)
     list.push_back(std::isfinite(value) ? Json(std::round(value * 1e7) / 1e4) : Json(nullptr));
@@ -31,11 +31,11 @@ Json curves_json(const LastFit& fit) {
     list.push_back({{"run", curve.run},
                     {"observable", curve.observable},
                     {"time_s", time},
-                    {"measured_mm", in_mm(curve.measured)},
-                    {"model_mm", in_mm(curve.model)},
-                    {"as_given_mm", in_mm(curve.as_given)},
-                    {"residual_mm", in_mm(residual)},
-                    {"spread_mm", in_mm(curve.spread)}});
+                    {"measured_mm", json_in_mm(curve.measured)},
+                    {"model_mm", json_in_mm(curve.model)},
+                    {"as_given_mm", json_in_mm(curve.as_given)},
+                    {"residual_mm", json_in_mm(residual)},
+                    {"spread_mm", json_in_mm(curve.spread)}});
   }
   return list;
 }

@@ -80,7 +80,7 @@ std::shared_ptr<const BaseMotion> motion_of(const std::string& samples) {
   return read.back().second;
 }
 
-std::vector<ParameterProblem> check(const EffectChoice& choice) {
+std::vector<ParameterProblem> check_samples(const EffectChoice& choice) {
   const std::string problem = motion_of(choice.text("samples"))->problem();
   if (problem.empty()) return {};
   return {
@@ -88,7 +88,7 @@ std::vector<ParameterProblem> check(const EffectChoice& choice) {
 }
 
 /// What the spring does more because its far end is not at zero.
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_base_motion(const EffectChoice& choice, int index, Physics& physics) {
   const std::shared_ptr<const BaseMotion> motion = motion_of(choice.text("samples"));
   const double start = choice.number("start"), stiffness = physics.stiffness, cubic = physics.spring_cubic;
   const auto spring = [=](double stretch) { return -stiffness * stretch * (1 + cubic * stretch * stretch); };
@@ -131,8 +131,8 @@ extern const EffectRecord base_motion{
                  {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
     .search = {.not_searched = "It is recorded, not looked for."},
     .nuisance = true,
-    .apply = &apply,
+    .apply = &apply_base_motion,
     .applied_last = true,
-    .check = &check};
+    .check = &check_samples};
 
 }  // namespace shakedown::effect

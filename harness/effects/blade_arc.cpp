@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_blade_arc(const EffectChoice& choice, int index, Physics& physics) {
   physics.grains.arc_length = choice.number("blade_length");
   physics.grains.arc_effect = index;
 }
@@ -47,6 +47,6 @@ extern const EffectRecord blade_arc{
                               .high = 3,
                               .inverse = true,
                               .strongest = 0.15}}},
-    .apply = &apply};
+    .apply = &apply_blade_arc};
 
 }  // namespace shakedown::effect

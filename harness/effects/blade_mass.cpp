@@ -5,7 +5,9 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) { physics.box_mass += choice.number("mass"); }
+void apply_blade_mass(const EffectChoice& choice, int, Physics& physics) {
+  physics.box_mass += choice.number("mass");
+}
 }  // namespace
 
 extern const EffectRecord blade_mass{
@@ -32,6 +34,6 @@ extern const EffectRecord blade_mass{
                     .sentence = "Mass added to the box.",
                     .unit_shown = "g"}},
     .engines = {{every_engine, {Fidelity::exact}}},
-    .apply = &apply};
+    .apply = &apply_blade_mass};
 
 }  // namespace shakedown::effect

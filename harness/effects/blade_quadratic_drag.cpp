@@ -7,7 +7,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_blade_quadratic_drag(const EffectChoice& choice, int index, Physics& physics) {
   const double drag = choice.number("drag");
   physics.box.free.push_back({[drag](double, double v, double) { return -drag * v * std::abs(v); }, index});
 }
@@ -43,6 +43,6 @@ extern const EffectRecord blade_quadratic_drag{
                   "a variable of the velocity half a time step earlier: 6e-5 of the force at the default "
                   "step, out of phase with it"}}},
     .search = {.strengths = {{.parameters = "drag", .strongest = 0.6}}},
-    .apply = &apply};
+    .apply = &apply_blade_quadratic_drag};
 
 }  // namespace shakedown::effect

@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_blade_viscous_damping(const EffectChoice& choice, int index, Physics& physics) {
   physics.box.viscous.add(choice.number("damping"), index);
 }
 }  // namespace
@@ -38,6 +38,6 @@ extern const EffectRecord blade_viscous_damping{
                  {Fidelity::to_stated_error,
                   "a variable of the velocity half a time step earlier: 6e-5 of the force at the default "
                   "step, out of phase with it"}}},
-    .apply = &apply};
+    .apply = &apply_blade_viscous_damping};
 
 }  // namespace shakedown::effect

@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_camera_arc(const EffectChoice& choice, int, Physics& physics) {
   physics.camera.arc_length = choice.number("blade_length");
 }
 }  // namespace
@@ -40,6 +40,6 @@ extern const EffectRecord camera_arc{
                               .high = 3,
                               .inverse = true,
                               .strongest = 0.12}}},
-    .apply = &apply};
+    .apply = &apply_camera_arc};
 
 }  // namespace shakedown::effect

@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_camera_com_bias(const EffectChoice& choice, int, Physics& physics) {
   physics.camera.centre_bias = choice.number("bias");
 }
 }  // namespace
@@ -29,6 +29,6 @@ extern const EffectRecord camera_com_bias{
                     .typical = 0.05,
                     .sentence = "Share of the distance to the middle that is lost."}},
     .engines = {{every_engine, {Fidelity::exact}}},
-    .apply = &apply};
+    .apply = &apply_camera_com_bias};
 
 }  // namespace shakedown::effect

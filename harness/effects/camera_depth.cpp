@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_camera_depth(const EffectChoice& choice, int, Physics& physics) {
   physics.camera.depth = choice.number("depth");
 }
 }  // namespace
@@ -33,6 +33,6 @@ extern const EffectRecord camera_depth{
               "Relative enlargement of the grains against the marker; positive: the grains are nearer."}},
     .engines = {{every_engine, {Fidelity::exact}}},
     .camera_error = {.known_as = "camera.depth", .usual = 0.005},  // 5 mm behind the marker at 1 m
-    .apply = &apply};
+    .apply = &apply_camera_depth};
 
 }  // namespace shakedown::effect

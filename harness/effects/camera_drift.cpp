@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_camera_drift(const EffectChoice& choice, int, Physics& physics) {
   physics.camera.drift = choice.number("drift");
 }
 }  // namespace
@@ -29,6 +29,6 @@ extern const EffectRecord camera_drift{
                     .unit_shown = "mm/s"}},
     .engines = {{every_engine, {Fidelity::exact}}},
     .search = {.strengths = {{.parameters = "drift", .strongest = 5e-3}}},
-    .apply = &apply};
+    .apply = &apply_camera_drift};
 
 }  // namespace shakedown::effect

@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_camera_lens(const EffectChoice& choice, int, Physics& physics) {
   physics.camera.lens = choice.number("distortion");
 }
 }  // namespace
@@ -32,6 +32,6 @@ extern const EffectRecord camera_lens{
                         "Relative error of a position 0.2 m from the optical axis; negative: barrel."}},
     .engines = {{every_engine, {Fidelity::exact}}},
     .camera_error = {.known_as = "camera.lens", .usual = 0.005},  // half a per cent: a phone, corrected
-    .apply = &apply};
+    .apply = &apply_camera_lens};
 
 }  // namespace shakedown::effect

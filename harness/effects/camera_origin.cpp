@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_camera_origin(const EffectChoice& choice, int, Physics& physics) {
   physics.camera.origin = choice.number("origin");
 }
 }  // namespace
@@ -33,6 +33,6 @@ extern const EffectRecord camera_origin{
                      .usual = 0.0003,
                      .each_run = true,
                      .unknown = 0.1},  // m; a pixel or two
-    .apply = &apply};
+    .apply = &apply_camera_origin};
 
 }  // namespace shakedown::effect

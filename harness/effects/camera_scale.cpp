@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_camera_scale(const EffectChoice& choice, int, Physics& physics) {
   physics.camera.scale = choice.number("scale");
 }
 }  // namespace
@@ -30,6 +30,6 @@ extern const EffectRecord camera_scale{
     .engines = {{every_engine, {Fidelity::exact}}},
     .search = {.strengths = {{.parameters = "scale", .strongest = 0.2}}},
     .camera_error = {.known_as = "camera.scale", .usual = 0.005},  // a ruler filmed by eye
-    .apply = &apply};
+    .apply = &apply_camera_scale};
 
 }  // namespace shakedown::effect

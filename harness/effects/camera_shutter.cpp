@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_camera_shutter(const EffectChoice& choice, int, Physics& physics) {
   physics.camera.shutter = choice.number("time");
 }
 }  // namespace
@@ -33,6 +33,6 @@ extern const EffectRecord camera_shutter{
     .engines = {{every_engine, {Fidelity::exact}}},
     .camera_error = {.known_as = "camera.shutter",
                      .usual = 0.003},  // s; a frame of 10 to 30 ms seen to a part
-    .apply = &apply};
+    .apply = &apply_camera_shutter};
 
 }  // namespace shakedown::effect

@@ -5,7 +5,9 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) { physics.camera.tilt = choice.number("tilt"); }
+void apply_camera_tilt(const EffectChoice& choice, int, Physics& physics) {
+  physics.camera.tilt = choice.number("tilt");
+}
 }  // namespace
 
 extern const EffectRecord camera_tilt{
@@ -32,6 +34,6 @@ extern const EffectRecord camera_tilt{
     .search = {.odds = 0.1,
                .not_searched = "Only the waveform of an empty box tells it.",
                .in_waveform = true},
-    .apply = &apply};
+    .apply = &apply_camera_tilt};
 
 }  // namespace shakedown::effect

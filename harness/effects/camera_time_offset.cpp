@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_camera_time_offset(const EffectChoice& choice, int, Physics& physics) {
   physics.camera.time_offset = choice.number("offset");
 }
 }  // namespace
@@ -31,6 +31,6 @@ extern const EffectRecord camera_time_offset{
     .engines = {{every_engine, {Fidelity::exact}}},
     .search = {.strengths = {{.parameters = "offset", .strongest = 0.04}}},
     .camera_error = {.known_as = "camera.trigger", .usual = 0.001, .each_run = true},  // s; half a frame
-    .apply = &apply};
+    .apply = &apply_camera_time_offset};
 
 }  // namespace shakedown::effect

@@ -52,7 +52,7 @@ Json json_of(const Capability& capability) {
 }
 
 /// In mm/s at the strength measured, a row a box length; empty: not measured, or seen by the camera only.
-Json differences_of(const EffectRecord& effect) {
+Json differences_json(const EffectRecord& effect) {
   Json rows = Json::array();
   for (const EngineDifference& row : engine_differences()) {
     if (row.effect != effect.name) continue;
@@ -102,7 +102,7 @@ Json json_of(const EffectRecord& effect) {
           {"source", effect.source},       {"limits", effect.limits},
           {"replaces", effect.claims},     {"dissipative", effect.dissipative},
           {"parameters", parameters},      {"engines", engines},
-          {"search", search_json(effect)}, {"hard_soft_difference", differences_of(effect)},
+          {"search", search_json(effect)}, {"hard_soft_difference", differences_json(effect)},
           {"example", example_of(effect)}};
 }
 

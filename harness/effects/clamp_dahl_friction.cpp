@@ -9,7 +9,7 @@ namespace {
 /// short.
 constexpr double rigid = 1e-5;
 
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_clamp_dahl_friction(const EffectChoice& choice, int index, Physics& physics) {
   const double force = choice.number("force"), travel = choice.number("travel");
   if (!(force > 0)) return;
   if (travel < rigid)
@@ -61,6 +61,6 @@ extern const EffectRecord clamp_dahl_friction{
     .search = {.besides = {{"travel", 0.005}},
                .shapes = {{"travel", {0.00098, 0.00128, 0.00174, 0.00247, 0.00375, 0.0063, 0.0135, 0.056}}},
                .odds = 0.1},
-    .apply = &apply};
+    .apply = &apply_clamp_dahl_friction};
 
 }  // namespace shakedown::effect

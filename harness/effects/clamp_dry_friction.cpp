@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_clamp_dry_friction(const EffectChoice& choice, int index, Physics& physics) {
   physics.box.dry_friction.add(choice.number("force"), index);
 }
 }  // namespace
@@ -37,6 +37,6 @@ extern const EffectRecord clamp_dry_friction{
                 {"lammps",
                  {Fidelity::to_stated_error,
                   "smooth below 10 um/s or 10 F h/M (h the step): the box creeps instead of sticking"}}},
-    .apply = &apply};
+    .apply = &apply_clamp_dry_friction};
 
 }  // namespace shakedown::effect

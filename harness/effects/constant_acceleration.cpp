@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_constant_acceleration(const EffectChoice& choice, int index, Physics& physics) {
   const Vec3& acceleration = choice.vector("acceleration");
   physics.grains.constant.add(acceleration, index);
   physics.box.constant.add(physics.box_mass * acceleration.x(), index);
@@ -46,7 +46,7 @@ extern const EffectRecord constant_acceleration{
                              {.parameters = "acceleration.y", .typical = 0.15, .even = true, .strongest = 2},
                              {.parameters = "acceleration.z", .typical = 0.15, .even = true, .strongest = 2}},
                .cost = Search::Cost::slow},
-    .apply = &apply,
+    .apply = &apply_constant_acceleration,
     .applied_last = true};
 
 }  // namespace shakedown::effect

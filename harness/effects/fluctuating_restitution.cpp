@@ -17,7 +17,7 @@ double deviate(ContactClass kind, double closing_speed) {
       .normal();
 }
 
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_fluctuating_restitution(const EffectChoice& choice, int, Physics& physics) {
   const double deviation = choice.number("deviation");
   physics.contact.restitution_at = [mean = physics.contact.restitution, deviation](ContactClass kind,
                                                                                    double speed) {
@@ -53,7 +53,7 @@ extern const EffectRecord fluctuating_restitution{
                   "the hard engine's"}}},
     // Energy is lost as with the root mean square of the restitution, which 0.05 raises from 0.75 by 0.0017.
     .search = {.not_searched = "Refitted restitutions take up all of it but the scatter of single impacts."},
-    .apply = &apply,
+    .apply = &apply_fluctuating_restitution,
     .applied_last = true};
 
 }  // namespace shakedown::effect

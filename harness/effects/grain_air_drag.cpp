@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_grain_air_drag(const EffectChoice& choice, int index, Physics& physics) {
   physics.grains.drag.add({choice.number("linear"), choice.number("quadratic")}, index);
 }
 }  // namespace
@@ -50,6 +50,6 @@ extern const EffectRecord grain_air_drag{
     .search = {.strengths = {{.parameters = "linear", .levels = {1e-3, 2e-3, 4e-3}, .strongest = 0.02}},
                .cost = Search::Cost::slow,
                .odds = 0.0067},
-    .apply = &apply};
+    .apply = &apply_grain_air_drag};
 
 }  // namespace shakedown::effect

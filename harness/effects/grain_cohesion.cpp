@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_grain_cohesion(const EffectChoice& choice, int index, Physics& physics) {
   physics.contact.attraction_force = choice.number("force");
   physics.contact.attraction_range = choice.number("range");
   physics.contact.attraction_of_walls = choice.number("walls");
@@ -75,6 +75,6 @@ extern const EffectRecord grain_cohesion{
                .odds = 0.135},
     // Films by the soft engine judged by the hard one with the same numbers, 0.2 mm: README.md.
     .codes_differ = 2.5,
-    .apply = &apply};
+    .apply = &apply_grain_cohesion};
 
 }  // namespace shakedown::effect

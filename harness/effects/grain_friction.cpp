@@ -5,14 +5,14 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_grain_friction(const EffectChoice& choice, int, Physics& physics) {
   const double wall = choice.number("grain_wall");
   physics.contact.friction = {choice.number("grain_grain"), wall, wall};
   physics.contact.tangential_restitution = choice.number("tangential_restitution");
 }
 
 /// A spring with a dashpot turns the slip round; it cannot leave part of it in its old direction.
-Capability capability_of(const EffectChoice& choice, std::string_view engine, Capability general) {
+Capability capability_of_friction(const EffectChoice& choice, std::string_view engine, Capability general) {
   if (engine == "lammps" && choice.number("tangential_restitution") != 1)
     return {
         Fidelity::not_modelled,
@@ -80,7 +80,7 @@ extern const EffectRecord grain_friction{
                               .levels = {0.05, 0.1, 0.2, 0.35, 0.6}}},
                .cost = Search::Cost::dear,
                .hides_in_restitution = true},
-    .apply = &apply,
-    .capability_of = &capability_of};
+    .apply = &apply_grain_friction,
+    .capability_of = &capability_of_friction};
 
 }  // namespace shakedown::effect

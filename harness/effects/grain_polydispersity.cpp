@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_grain_polydispersity(const EffectChoice& choice, int, Physics& physics) {
   physics.relative_diameter_deviation = choice.number("relative_deviation");
 }
 }  // namespace
@@ -36,6 +36,6 @@ extern const EffectRecord grain_polydispersity{
            "its contacts have one set of constants, for grains of one size; use --engine hard or soft"}},
          {every_engine, {Fidelity::exact}}},
     .search = {.strengths = {{.parameters = "relative_deviation", .strongest = 0.1}}},
-    .apply = &apply};
+    .apply = &apply_grain_polydispersity};
 
 }  // namespace shakedown::effect

@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_initial_box_velocity(const EffectChoice& choice, int, Physics& physics) {
   physics.initial_box_velocity = choice.number("velocity");
 }
 }  // namespace
@@ -31,6 +31,6 @@ extern const EffectRecord initial_box_velocity{
                     .sentence = "Velocity of the box at release, along +x.",
                     .unit_shown = "mm/s"}},
     .engines = {{every_engine, {Fidelity::exact}}},
-    .apply = &apply};
+    .apply = &apply_initial_box_velocity};
 
 }  // namespace shakedown::effect

@@ -6,7 +6,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_initial_packing(const EffectChoice& choice, int, Physics& physics) {
   physics.packing = packing_of(choice.text("packing"));
 }
 }  // namespace
@@ -31,6 +31,6 @@ extern const EffectRecord initial_packing{
     .engines = {{every_engine, {Fidelity::exact}}},
     .search = {.not_searched = "How a run was released is not a law of physics; every fit allows for it."},
     .nuisance = true,
-    .apply = &apply};
+    .apply = &apply_initial_packing};
 
 }  // namespace shakedown::effect

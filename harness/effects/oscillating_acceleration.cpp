@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_oscillating_acceleration(const EffectChoice& choice, int index, Physics& physics) {
   const Vec3& amplitude = choice.vector("amplitude");
   const double frequency = choice.number("frequency"), phase = choice.number("phase");
   physics.grains.harmonics.push_back({amplitude, frequency, phase, index});
@@ -54,7 +54,7 @@ extern const EffectRecord oscillating_acceleration{
                   "fix addforce with variables of time, second order in the step"}}},
     .search = {.strengths = {{.parameters = "amplitude.x", .typical = 0.1}},
                .harmonic = SearchedHarmonic{"amplitude.x", "frequency", "phase"}},
-    .apply = &apply,
+    .apply = &apply_oscillating_acceleration,
     .applied_last = true};
 
 }  // namespace shakedown::effect

@@ -7,7 +7,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_pendulum(const EffectChoice& choice, int index, Physics& physics) {
   const double stiffness = physics.stiffness, length = choice.number("length");
   physics.box.free.push_back(
       {[=](double x, double, double) { return stiffness * (x - length * std::sin(x / length)); }, index});
@@ -40,6 +40,6 @@ extern const EffectRecord pendulum{
     .search = {.strengths = {{.parameters = "length", .typical = 0.5, .inverse = true}},
                .not_searched = "Only the waveform of an empty box tells it from a softening spring.",
                .in_waveform = true},
-    .apply = &apply};
+    .apply = &apply_pendulum};
 
 }  // namespace shakedown::effect

@@ -8,7 +8,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_second_mode(const EffectChoice& choice, int index, Physics& physics) {
   const double force = physics.box_mass * choice.number("amplitude"), rate = choice.number("rate"),
                omega = 2 * std::numbers::pi * choice.number("frequency"), phase = choice.number("phase");
   physics.box.free.push_back(
@@ -63,7 +63,7 @@ extern const EffectRecord second_mode{
     .search = {.harmonic = SearchedHarmonic{"amplitude", "frequency", "phase", "rate"},
                .not_searched = "Only the waveform of an empty box tells it.",
                .in_waveform = true},
-    .apply = &apply,
+    .apply = &apply_second_mode,
     .applied_last = true};
 
 }  // namespace shakedown::effect

@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_side_wall_restitution(const EffectChoice& choice, int, Physics& physics) {
   physics.contact.restitution[static_cast<std::size_t>(ContactClass::side_wall)] =
       choice.number("restitution");
 }
@@ -45,6 +45,6 @@ extern const EffectRecord side_wall_restitution{
                               .high = 0.999,
                               .absent_key = "restitution.grain_wall",
                               .strongest = -0.66}}},
-    .apply = &apply};
+    .apply = &apply_side_wall_restitution};
 
 }  // namespace shakedown::effect

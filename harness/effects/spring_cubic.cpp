@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_spring_cubic(const EffectChoice& choice, int, Physics& physics) {
   const double given = choice.number("reference"),
                displacement = given > 0 ? given : physics.release_displacement;
   if (displacement == 0)
@@ -50,6 +50,6 @@ extern const EffectRecord spring_cubic{
                 {"lammps",
                  {Fidelity::to_stated_error, "a variable of the place; Verlet's error, 1e-8 of the energy"}}},
     .search = {.strengths = {{.parameters = "coefficient", .strongest = 0.8}}},
-    .apply = &apply};
+    .apply = &apply_spring_cubic};
 
 }  // namespace shakedown::effect

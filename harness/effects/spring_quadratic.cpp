@@ -5,7 +5,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_spring_quadratic(const EffectChoice& choice, int index, Physics& physics) {
   const double stiffness = physics.stiffness,
                per_metre = choice.number("coefficient") / choice.number("reference");
   physics.box.free.push_back(
@@ -45,6 +45,6 @@ extern const EffectRecord spring_quadratic{
                 {"lammps",
                  {Fidelity::to_stated_error, "a variable of the place; Verlet's error, 1e-8 of the energy"}}},
     .search = {.not_searched = "Only the waveform of an empty box tells it.", .in_waveform = true},
-    .apply = &apply};
+    .apply = &apply_spring_quadratic};
 
 }  // namespace shakedown::effect

@@ -33,7 +33,7 @@ std::vector<ParameterProblem> probed(const Formula& formula) {
   return {};
 }
 
-std::vector<ParameterProblem> check(const EffectChoice& choice) {
+std::vector<ParameterProblem> check_formula(const EffectChoice& choice) {
   try {
     return probed(formula_of(choice));
   } catch (const FormulaProblem& wrong) {
@@ -45,7 +45,7 @@ std::vector<ParameterProblem> check(const EffectChoice& choice) {
   }
 }
 
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_user_force(const EffectChoice& choice, int index, Physics& physics) {
   const Formula formula = formula_of(choice);
   const auto newton = [formula](double x, double v, double t) {
     const double force = formula(x, v, t);
@@ -58,7 +58,7 @@ void apply(const EffectChoice& choice, int index, Physics& physics) {
 
 /// Between impacts the hard engine knows the grains' motion in closed form; a force that follows a grain
 /// would bend it.
-Capability capability_of(const EffectChoice& choice, std::string_view engine, Capability general) {
+Capability capability_of_formula(const EffectChoice& choice, std::string_view engine, Capability general) {
   if (engine != "hard" || choice.text("on") != "grains") return general;
   const Formula formula = formula_of(choice);
   if (!formula.uses("x") && !formula.uses("v")) return general;
@@ -104,8 +104,8 @@ extern const EffectRecord user_force{
          {"soft", {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
     .search = {.not_searched = "A formula has no strength of its own; where no effect of the list fits, a "
                                "diagnosis offers formulas."},
-    .apply = &apply,
-    .check = &check,
-    .capability_of = &capability_of};
+    .apply = &apply_user_force,
+    .check = &check_formula,
+    .capability_of = &capability_of_formula};
 
 }  // namespace shakedown::effect

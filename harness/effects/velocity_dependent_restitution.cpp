@@ -61,7 +61,7 @@ void apply_viscoelastic(const EffectChoice& choice, Physics& physics) {
   };
 }
 
-void apply(const EffectChoice& choice, int, Physics& physics) {
+void apply_velocity_dependent_restitution(const EffectChoice& choice, int, Physics& physics) {
   choice.text("law") == "power" ? apply_power(choice, physics) : apply_viscoelastic(choice, physics);
 }
 
@@ -115,7 +115,7 @@ extern const EffectRecord velocity_dependent_restitution{
                   "Hertz's force "
                   "itself, first order in the time step"}}},
     .search = {.strengths = {{.parameters = "exponent", .strongest = 0.5}}, .hides_in_restitution = true},
-    .apply = &apply,
+    .apply = &apply_velocity_dependent_restitution,
     .applied_last = true};
 
 }  // namespace shakedown::effect

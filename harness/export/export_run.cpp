@@ -49,7 +49,7 @@ std::filesystem::path write_paraview(const StoredRun& run, const FrameTimes& tim
   return folder.path() / "motion.pvd";
 }
 
-void append(std::vector<double>& to, const std::vector<Vec3>& values) {
+void append_flat(std::vector<double>& to, const std::vector<Vec3>& values) {
   for (const Vec3& v : values) to.insert(to.end(), v.begin(), v.end());
 }
 
@@ -59,9 +59,9 @@ std::filesystem::path write_arrays(const StoredRun& run, const FrameTimes& times
   const State& initial = run.log.initial;
   for_each_frame(run, times, [&](const Frame& frame) {
     time.push_back(frame.time);
-    append(position, frame.state.position);
-    append(velocity, frame.state.velocity);
-    append(spin, frame.state.spin);
+    append_flat(position, frame.state.position);
+    append_flat(velocity, frame.state.velocity);
+    append_flat(spin, frame.state.spin);
     box.insert(box.end(), {frame.state.x_box, frame.state.v_box});
   });
   const std::size_t frames = time.size(), n = initial.size();

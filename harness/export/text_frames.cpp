@@ -9,7 +9,7 @@ namespace shakedown {
 
 namespace {
 
-void append(std::string& text, const Vec3& v, char separator) {
+void append_text(std::string& text, const Vec3& v, char separator) {
   fmt::format_to(std::back_inserter(text), "{}{}{}{}{}{}", v.x(), separator, v.y(), separator, v.z(),
                  separator);
 }
@@ -27,11 +27,11 @@ std::string extended_xyz(const Frame& frame) {
       s.spin.empty() ? "" : ":angular_velocity:R:3", frame.time, s.x_box, s.v_box);
   for (std::size_t i = 0; i < s.size(); ++i) {
     text += "X ";
-    append(text, s.position[i], ' ');
-    append(text, s.velocity[i], ' ');
-    append(text, s.mass[i] * s.velocity[i], ' ');
+    append_text(text, s.position[i], ' ');
+    append_text(text, s.velocity[i], ' ');
+    append_text(text, s.mass[i] * s.velocity[i], ' ');
     fmt::format_to(std::back_inserter(text), "{} {} {} ", s.radius[i], s.mass[i], s.mass[i]);
-    if (!s.spin.empty()) append(text, s.spin[i], ' ');
+    if (!s.spin.empty()) append_text(text, s.spin[i], ' ');
     fmt::format_to(std::back_inserter(text), "{}\n", i + 1);
   }
   return text;
@@ -49,10 +49,10 @@ std::string lammps_dump(const Frame& frame) {
   text += s.spin.empty() ? "\n" : " omegax omegay omegaz\n";
   for (std::size_t i = 0; i < s.size(); ++i) {
     fmt::format_to(std::back_inserter(text), "{} 1 ", i + 1);
-    append(text, s.position[i], ' ');
-    append(text, s.velocity[i], ' ');
+    append_text(text, s.position[i], ' ');
+    append_text(text, s.velocity[i], ' ');
     fmt::format_to(std::back_inserter(text), "{} {} ", s.radius[i], s.mass[i]);
-    if (!s.spin.empty()) append(text, s.spin[i], ' ');
+    if (!s.spin.empty()) append_text(text, s.spin[i], ' ');
     text.back() = '\n';
   }
   return text;
@@ -69,9 +69,9 @@ std::string csv_lines(const Frame& frame) {
   std::string text;
   for (std::size_t i = 0; i < s.size(); ++i) {
     fmt::format_to(std::back_inserter(text), "{},{},", frame.time, i + 1);
-    append(text, s.position[i], ',');
-    append(text, s.velocity[i], ',');
-    if (!s.spin.empty()) append(text, s.spin[i], ',');
+    append_text(text, s.position[i], ',');
+    append_text(text, s.velocity[i], ',');
+    if (!s.spin.empty()) append_text(text, s.spin[i], ',');
     fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", s.radius[i], s.mass[i], s.x_box, s.v_box);
   }
   return text;

@@ -29,7 +29,7 @@ std::vector<double> numbers_of(const TableColumn& column) {
   return numbers;
 }
 
-double range_of(const TableColumn& column) {
+double range_of_column(const TableColumn& column) {
   const std::vector<double> numbers = numbers_of(column);
   if (numbers.empty()) return 0;
   const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
@@ -97,7 +97,7 @@ void guess_unit(const Table& table, const TableColumn& column, bool is_time, Gue
     const bool whole = std::all_of(column.value.begin(), column.value.end(),
                                    [](double v) { return !(std::abs(v - std::round(v)) > 0); });
     guess.unit = contains_any(name, {"frame", "slice", "bild", "image"}) ? "frame"
-                 : whole && range_of(column) > 200                       ? "ms"
+                 : whole && range_of_column(column) > 200                ? "ms"
                                                                          : "s";
     if (guess.unit == "frame") guess.certain = true;
   } else {
@@ -105,11 +105,11 @@ void guess_unit(const Table& table, const TableColumn& column, bool is_time, Gue
     const std::vector<double> numbers = numbers_of(column);
     const bool from_a_corner = !numbers.empty() && *std::min_element(numbers.begin(), numbers.end()) >= 0;
     constexpr double full_turn = 6.3;  // more than that an oscillating angle in radians cannot reach
-    guess.unit = is_angle_name(column.name) ? (range_of(column) > full_turn ? "deg" : "rad")
-                 : is_of_imagej(table)      ? "px"
-                 : range_of(column) < 1     ? "m"
-                 : from_a_corner            ? "px"
-                                            : "mm";
+    guess.unit = is_angle_name(column.name)    ? (range_of_column(column) > full_turn ? "deg" : "rad")
+                 : is_of_imagej(table)         ? "px"
+                 : range_of_column(column) < 1 ? "m"
+                 : from_a_corner               ? "px"
+                                               : "mm";
   }
   guess.reason +=
       std::string("; unit guessed from ") + (is_time ? "the name and the steps" : "the size of the numbers");
@@ -134,7 +134,7 @@ std::vector<const TableColumn*> possible_positions(const Table& table) {
   std::vector<const TableColumn*> columns;
   for (const TableColumn& column : table.columns) {
     const bool velocity = lower(column.name).ends_with("_v");
-    const bool still = numbers_of(column).size() > 2 && !(range_of(column) > 0);
+    const bool still = numbers_of(column).size() > 2 && !(range_of_column(column) > 0);
     if (!velocity && !still && !names_any(column.name, others)) columns.push_back(&column);
   }
   return columns;
@@ -157,7 +157,7 @@ const TableColumn* along_the_motion(const Table& table, const TableColumn* colum
   upper_twin.back() = static_cast<char>(std::toupper(static_cast<unsigned char>(twin.back())));
   for (const std::string& other : {twin, upper_twin})
     if (const TableColumn* found = find_column(table, other);
-        found && !taken.contains(other) && range_of(*found) > 1.5 * range_of(*column))
+        found && !taken.contains(other) && range_of_column(*found) > 1.5 * range_of_column(*column))
       return found;
   return column;
 }

@@ -15,12 +15,11 @@ namespace {
 
 using TomlKind = TomlValue::Kind;
 using Violations = std::vector<Violation>;
-using Reader = ExperimentReader;
 
 /// A position as people write it beside a column: a length, pixels, or an angle where the column holds one.
 class PositionReader {
  public:
-  PositionReader(const Reader& reader, const ColumnChoice& choice, double pixel_size)
+  PositionReader(const ExperimentReader& reader, const ColumnChoice& choice, double pixel_size)
       : reader_(&reader), choice_(&choice), pixel_size_(pixel_size) {}
 
   /// m; nothing when it is absent or wrong (reported).
@@ -61,7 +60,7 @@ class PositionReader {
     return radians ? std::optional(*radians * choice_->per_radian) : std::nullopt;
   }
 
-  const Reader* reader_;
+  const ExperimentReader* reader_;
   const ColumnChoice* choice_;
   double pixel_size_;
 };
@@ -69,7 +68,7 @@ class PositionReader {
 /// What [column.NAME] says, on top of what a wider table said before.
 ColumnChoice column_choice(const TomlValue& table, const std::string& path, ColumnChoice choice,
                            double pixel_size, Violations& violations) {
-  const Reader reader(table, ExperimentTable::column, path, violations);
+  const ExperimentReader reader(table, ExperimentTable::column, path, violations);
   choice.place = table.place;
   if (reader.find("from")) choice.from = reader.text("from");
   if (reader.find("unit")) choice.unit = reader.text("unit");

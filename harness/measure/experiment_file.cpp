@@ -26,7 +26,6 @@ namespace {
 
 using TomlKind = TomlValue::Kind;
 using Violations = std::vector<Violation>;
-using Reader = ExperimentReader;
 
 /// A value of the file as an override of the setup would be written on the command line.
 std::string as_written(const TomlValue& value) {
@@ -89,7 +88,7 @@ bool is_empty_box(const MeasuredRun& run) {
   return count && count->value == "0";
 }
 
-void take_length_and_grains(const Reader& reader, const std::filesystem::path& folder,
+void take_length_and_grains(const ExperimentReader& reader, const std::filesystem::path& folder,
                             const std::string& file, MeasuredRun& run) {
   const TomlValue* length = reader.find("box_length");
   run.box_length = reader.number("box_length", std::numeric_limits<double>::quiet_NaN());
@@ -119,7 +118,7 @@ void take_length_of_setup(const TomlValue& table, MeasuredRun& run, Violations& 
     run.box_length = *metres;  // else the setup complains
 }
 
-Start start_of(const Reader& reader) {
+Start start_of(const ExperimentReader& reader) {
   const std::string word = reader.choice("release");
   return word == "unknown" ? Start::anywhere : word == "at rest" ? Start::from_rest : Start::not_said;
 }
@@ -179,7 +178,7 @@ void read_series(const Table& table, RunColumns columns, const ClockAndScale& sc
 void read_run(const TomlValue& table, const std::filesystem::path& folder, const Defaults& defaults,
               Experiment& experiment, Violations& violations) {
   MeasuredRun run;
-  const Reader reader(table, ExperimentTable::run, "run.", violations);
+  const ExperimentReader reader(table, ExperimentTable::run, "run.", violations);
   const std::string file = reader.text("file");
   if (file.empty())
     violations.push_back({table.place, "run.file", "is missing", "name the table of this run"});
@@ -271,7 +270,7 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
   Experiment experiment;
   experiment.file = name;
   Violations violations;
-  const Reader reader(root, ExperimentTable::file, "", violations);
+  const ExperimentReader reader(root, ExperimentTable::file, "", violations);
   experiment.title = reader.text("title");
   Defaults defaults;
   defaults.effects = effects;
@@ -279,7 +278,7 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
   const TomlValue* columns = reader.table("column");
   std::string sensor;
   if (const TomlValue* camera = reader.table("camera")) {
-    const Reader of_camera(*camera, ExperimentTable::camera, "camera.", violations);
+    const ExperimentReader of_camera(*camera, ExperimentTable::camera, "camera.", violations);
     defaults.scale.frame_rate = of_camera.number("frame_rate", 0);
     defaults.scale.pixel_size = of_camera.number("pixel_size", 0);
     sensor = of_camera.choice("sensor");

@@ -10,7 +10,7 @@ namespace shakedown {
 
 namespace {
 
-using Table = ExperimentTable;
+using Where = ExperimentTable;
 using Kind = ExperimentKind;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -20,22 +20,22 @@ constexpr double longest_arm = 1000;  // m a radian
 
 const std::vector<ExperimentKey>& table() {
   static const std::vector<ExperimentKey> keys{
-      {Table::file, "title", Kind::text, "", -infinity, infinity, "\"brass balls, July\"",
+      {Where::file, "title", Kind::text, "", -infinity, infinity, "\"brass balls, July\"",
        "Stands over reports. Without it: the name of the file."},
-      {Table::file, "camera", Kind::table, "", -infinity, infinity, "[camera]",
+      {Where::file, "camera", Kind::table, "", -infinity, infinity, "[camera]",
        "What holds of the whole film."},
-      {Table::file, "column", Kind::table, "", -infinity, infinity, "[column.box_position]",
+      {Where::file, "column", Kind::table, "", -infinity, infinity, "[column.box_position]",
        "Which column is what: time, box_position (or box_velocity, box_acceleration), grain_centre, "
        "base_position."},
-      {Table::file, "known", Kind::table, "", -infinity, infinity, "[known]",
+      {Where::file, "known", Kind::table, "", -infinity, infinity, "[known]",
        "What was weighed and measured, and how well."},
-      {Table::file, "run", Kind::tables, "", -infinity, infinity, "[[run]]", "The recordings, one each."},
-      {Table::camera, "frame_rate", Kind::quantity, "Hz", 0, highest_frame_rate, "\"500 Hz\"",
+      {Where::file, "run", Kind::tables, "", -infinity, infinity, "[[run]]", "The recordings, one each."},
+      {Where::camera, "frame_rate", Kind::quantity, "Hz", 0, highest_frame_rate, "\"500 Hz\"",
        "Frames a second of the motion itself (of a slow-motion film those while filming). Needed where no "
        "column is a clock, or it counts frames; else the clock is used."},
-      {Table::camera, "pixel_size", Kind::quantity, "mm", 0, largest_pixel, "\"0.12 mm\"",
+      {Where::camera, "pixel_size", Kind::quantity, "mm", 0, largest_pixel, "\"0.12 mm\"",
        "The length that one pixel shows in the plane of the motion. Needed where positions are in px."},
-      {Table::camera,
+      {Where::camera,
        "sensor",
        Kind::choice,
        "",
@@ -46,33 +46,33 @@ const std::vector<ExperimentKey>& table() {
        "Without "
        "it: camera where there are pixels, numbered frames, a frame_rate or a track of grains, else other.",
        {"camera", "encoder", "ranger", "gyro", "other"}},
-      {Table::column, "from", Kind::text, "", -infinity, infinity, "\"x_box_mm\"",
+      {Where::column, "from", Kind::text, "", -infinity, infinity, "\"x_box_mm\"",
        "Header of the column, with or without its unit in brackets. Empty: not measured."},
-      {Table::column, "unit", Kind::text, "", -infinity, infinity, "\"mm\"",
+      {Where::column, "unit", Kind::text, "", -infinity, infinity, "\"mm\"",
        "Unit of the numbers: m, cm, mm, um, px, rad, deg; of the time s, ms, us, frame. Without it: what the "
        "header says in brackets."},
-      {Table::column, "origin", Kind::position, "mm", -infinity, infinity, "\"250 mm\"",
+      {Where::column, "origin", Kind::position, "mm", -infinity, infinity, "\"250 mm\"",
        "What the column reads where the spring is relaxed (the box at rest, nothing else pulling); it is "
        "subtracted. Without it: 0 is taken, as not stated."},
-      {Table::column, "reversed", Kind::flag, "", -infinity, infinity, "true",
+      {Where::column, "reversed", Kind::flag, "", -infinity, infinity, "true",
        "The column grows away from the side of the release. Without it: false."},
-      {Table::column, "per_radian", Kind::quantity, "mm", 0, longest_arm, "\"100 mm\"",
+      {Where::column, "per_radian", Kind::quantity, "mm", 0, longest_arm, "\"100 mm\"",
        "Of angles: the length of the setup that one radian is, e.g. the distance of the box from the pivot."},
-      {Table::column, "uncertainty", Kind::position, "mm", -infinity, infinity, "\"0.2 mm\"",
+      {Where::column, "uncertainty", Kind::position, "mm", -infinity, infinity, "\"0.2 mm\"",
        "Standard deviation of one frame. Without it: found from the frames."},
-      {Table::column, "track", Kind::texts, "", -infinity, infinity, "[\"1\", \"2\"]",
+      {Where::column, "track", Kind::texts, "", -infinity, infinity, "[\"1\", \"2\"]",
        "Of tables with one row a track and frame: the number of the track; of several their mean is taken."},
-      {Table::column, "track_from", Kind::text, "", -infinity, infinity, "\"TRACK_ID\"",
+      {Where::column, "track_from", Kind::text, "", -infinity, infinity, "\"TRACK_ID\"",
        "Header of the column with the numbers of tracks. Without it: TRACK_ID, particle, Track or id."},
-      {Table::run, "file", Kind::text, "", -infinity, infinity, "\"L040.csv\"",
+      {Where::run, "file", Kind::text, "", -infinity, infinity, "\"L040.csv\"",
        "The table of this run, from the folder of the experiment file. One table may hold several runs."},
-      {Table::run, "box_length", Kind::quantity, "mm", 0, longest_box, "\"40 mm\"",
+      {Where::run, "box_length", Kind::quantity, "mm", 0, longest_box, "\"40 mm\"",
        "Inner length of the box along the motion in this run. Without it: the setup's."},
-      {Table::run, "frame_rate", Kind::quantity, "Hz", 0, highest_frame_rate, "\"240 Hz\"",
+      {Where::run, "frame_rate", Kind::quantity, "Hz", 0, highest_frame_rate, "\"240 Hz\"",
        "As in [camera], of this run."},
-      {Table::run, "release_time", Kind::quantity, "s", -infinity, infinity, "\"0.3 s\"",
+      {Where::run, "release_time", Kind::quantity, "s", -infinity, infinity, "\"0.3 s\"",
        "What the clock of the table shows at the release. Without it: 0."},
-      {Table::run,
+      {Where::run,
        "release",
        Kind::choice,
        "",
@@ -82,13 +82,13 @@ const std::vector<ExperimentKey>& table() {
        "How the recording begins: from rest at release.displacement, or somewhere in the motion with a "
        "position and speed of its own. Without it: unknown for an empty box, else at rest.",
        {"at rest", "unknown"}},
-      {Table::run, "initial_grains", Kind::text, "", -infinity, infinity, "\"grains.csv\"",
+      {Where::run, "initial_grains", Kind::text, "", -infinity, infinity, "\"grains.csv\"",
        "Table id,x,y,z,vx,vy,vz (m, m/s) of the grains at release, from the folder of the experiment file. "
        "Where every "
        "velocity is 0 nobody measured them: each simulation draws its own."},
-      {Table::run, "column", Kind::table, "", -infinity, infinity, "column.box_position.from = \"x2\"",
+      {Where::run, "column", Kind::table, "", -infinity, infinity, "column.box_position.from = \"x2\"",
        "Columns of this run alone, on top of those of the file."},
-      {Table::run, "known", Kind::table, "", -infinity, infinity, "known.\"box.mass\" = \"450 g +- 1 g\"",
+      {Where::run, "known", Kind::table, "", -infinity, infinity, "known.\"box.mass\" = \"450 g +- 1 g\"",
        "What is known of this run alone; goes before what the file says."},
   };
   return keys;

@@ -8,7 +8,7 @@
 
 namespace shakedown {
 
-using Kind = TomlValue::Kind;
+using TomlKind = TomlValue::Kind;
 
 namespace {
 
@@ -25,7 +25,7 @@ const TomlValue* ExperimentReader::find(std::string_view key) const { return tab
 
 std::string ExperimentReader::text(std::string_view key) const {
   const TomlValue* value = find(key);
-  if (!value || value->kind == Kind::text) return value ? value->text : "";
+  if (!value || value->kind == TomlKind::text) return value ? value->text : "";
   report(*value, key, "is " + std::string(describe(value->kind)) + " where a text is due",
          example_of(key_of(key)));
   return {};
@@ -35,15 +35,15 @@ std::vector<std::string> ExperimentReader::texts(std::string_view key) const {
   const TomlValue* value = find(key);
   std::vector<std::string> texts;
   const auto add = [&](const TomlValue& item) {
-    if (item.kind == Kind::integer)
+    if (item.kind == TomlKind::integer)
       texts.push_back(std::to_string(item.integer));
-    else if (item.kind == Kind::text)
+    else if (item.kind == TomlKind::text)
       texts.push_back(item.text);
     else
       report(item, key, "is " + std::string(describe(item.kind)) + " where a text is due",
              example_of(key_of(key)));
   };
-  if (value && value->kind == Kind::array)
+  if (value && value->kind == TomlKind::array)
     for (const TomlValue& item : value->items) add(item);
   else if (value)
     add(*value);
@@ -53,7 +53,8 @@ std::vector<std::string> ExperimentReader::texts(std::string_view key) const {
 bool ExperimentReader::flag(std::string_view key) const {
   const TomlValue* value = find(key);
   if (!value) return false;
-  if (value->kind != Kind::boolean) report(*value, key, "is neither true nor false", "write true or false");
+  if (value->kind != TomlKind::boolean)
+    report(*value, key, "is neither true nor false", "write true or false");
   return value->boolean;
 }
 
@@ -75,7 +76,7 @@ double ExperimentReader::number(std::string_view name, double otherwise) const {
 
 std::string ExperimentReader::choice(std::string_view name) const {
   const TomlValue* value = find(name);
-  if (!value || value->kind == Kind::table) return {};
+  if (!value || value->kind == TomlKind::table) return {};
   const ValueOrProblem<std::string> word = choice_in(*value, key_of(name).choices);
   if (const std::string* found = std::get_if<std::string>(&word)) return *found;
   report(*value, name, std::get<Problem>(word).problem, std::get<Problem>(word).remedy);
@@ -84,7 +85,7 @@ std::string ExperimentReader::choice(std::string_view name) const {
 
 const TomlValue* ExperimentReader::table(std::string_view key) const {
   const TomlValue* value = find(key);
-  if (!value || value->kind == Kind::table) return value;
+  if (!value || value->kind == TomlKind::table) return value;
   report(*value, key, "is " + std::string(describe(value->kind)) + " where a table is due",
          example_of(key_of(key)));
   return nullptr;

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Kind = ExperimentKind;
-using Table = ExperimentTable;
+using Where = ExperimentTable;
 
 constexpr std::string_view known_pattern =
     "^\\(?\\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\\s*[^\\s]*\\s*(\\+-|\\+/-|\u00b1)\\s*[0-9.]+.*$";
@@ -33,7 +33,7 @@ Conventions:
 * An error is one standard deviation. `+-` may be written as `±`; the unit once or with both.
 )";
 
-const std::vector<ExperimentTable> tables{Table::file, Table::camera, Table::column, Table::run};
+const std::vector<ExperimentTable> tables{Where::file, Where::camera, Where::column, Where::run};
 
 std::string bounds_of(const ExperimentKey& key) {
   if (key.kind == Kind::choice) {
@@ -112,17 +112,17 @@ Json schema_of_known() {
 }  // namespace
 
 std::string experiment_schema() {
-  const Json known = schema_of_known(), one = object_of(properties_of(Table::column, {}, {}));
+  const Json known = schema_of_known(), one = object_of(properties_of(Where::column, {}, {}));
   const Json column = object_of({{"time", one},
                                  {"box_position", one},
                                  {"box_velocity", one},
                                  {"box_acceleration", one},
                                  {"grain_centre", one},
                                  {"base_position", one}});
-  Json properties = properties_of(Table::file, column, known);
-  properties["camera"] = object_of(properties_of(Table::camera, {}, {}));
+  Json properties = properties_of(Where::file, column, known);
+  properties["camera"] = object_of(properties_of(Where::camera, {}, {}));
   // Beside its own keys a run has tables: keys of the setup, effects among them.
-  Json run = object_of(properties_of(Table::run, column, known), false);
+  Json run = object_of(properties_of(Where::run, column, known), false);
   run["additionalProperties"] = {{"type", "object"}};
   run["required"] = Json::array({"file"});
   properties["run"] = {{"type", "array"}, {"minItems", 1}, {"items", run}};

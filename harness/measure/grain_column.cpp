@@ -49,7 +49,7 @@ double range_of(const std::vector<double>& x) {
   return high > low ? high - low : 0;
 }
 
-std::string mm(double metres) {
+std::string short_mm(double metres) {
   char digits[32];
   std::snprintf(digits, sizeof digits, "%.3g", metres);
   return write_quantity(std::strtod(digits, nullptr), "mm");
@@ -70,14 +70,14 @@ std::optional<Problem> problem_of_grains(const std::vector<double>& x_box, const
   };
   constexpr double hardly = 0.02;  // of the box's way
   if (range_of(x_com) < hardly * range_of(x_box))
-    return Problem{"stands still while the box swings by " + mm(range_of(x_box)),
+    return Problem{"stands still while the box swings by " + short_mm(range_of(x_box)),
                    "choose the column of the grains, or write column.grain_centre.from = \"\" to do without"};
   if (fits({})) return std::nullopt;
   char share[32];
   std::snprintf(share, sizeof share, "%.0f", 100 * share_outside(x_box, x_com, length, {}));
   const std::string found = "in " + std::string(share) +
-                            " % of the frames the grains' centre lies outside of the box (" + mm(length) +
-                            " long)";
+                            " % of the frames the grains' centre lies outside of the box (" +
+                            short_mm(length) + " long)";
   constexpr std::array<Remedy, 6> units{
       {{1e-3, "it is in another unit: write unit = \"mm\" where it says m"},
        {1e-2,
@@ -96,7 +96,7 @@ std::optional<Problem> problem_of_grains(const std::vector<double>& x_box, const
   if (const double shift = median_apart(x_box, x_com); fits({1, -shift}))
     return Problem{found,
                    "it is counted from elsewhere than the box: move the origin of [column.grain_centre] by " +
-                       mm(shift)};
+                       short_mm(shift)};
   return Problem{found,
                  "look whether this is the column of the grains, and at its unit and origin; write "
                  "column.grain_centre.from = \"\" to do without, or correct box_length"};

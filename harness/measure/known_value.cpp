@@ -171,7 +171,7 @@ std::optional<ValueAndError> split_error(std::string_view text) {
   return std::nullopt;
 }
 
-std::string example_of(std::string_view unit) {
+std::string example_with_error(std::string_view unit) {
   const auto with_unit = [&](const char* number) {
     return unit.empty() ? std::string(number) : number + (" " + std::string(unit));
   };
@@ -196,7 +196,7 @@ ValueOrProblem<double> error_of(const ValueAndError& both, double value, std::st
 
 /// Value and error of `known`, or the problem.
 std::optional<Problem> take(const TomlValue& from, const Target& target, KnownValue& known) {
-  const std::string remedy = "write value and error, e.g. " + example_of(target.unit);
+  const std::string remedy = "write value and error, e.g. " + example_with_error(target.unit);
   if (from.kind != TomlKind::text)
     return Problem{"is " + std::string(describe(from.kind)) + " (a text with value and error is expected)",
                    remedy};

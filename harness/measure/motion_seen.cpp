@@ -29,7 +29,7 @@ std::vector<Turn> without_single_frames(const std::vector<double>& time, const s
   return smooth;
 }
 
-double range_of(const std::vector<Turn>& frames) {
+double range_of_turn(const std::vector<Turn>& frames) {
   std::vector<double> sorted;
   for (const Turn& frame : frames) sorted.push_back(frame.position);
   std::sort(sorted.begin(), sorted.end());
@@ -103,7 +103,7 @@ double MotionSeen::frames_per_period(double interval) const {
 MotionSeen motion_seen(const std::vector<double>& time, const std::vector<double>& x) {
   const std::vector<Turn> frames = without_single_frames(time, x);
   MotionSeen seen;
-  seen.range = range_of(frames);
+  seen.range = range_of_turn(frames);
   seen.turns = turns_of(frames, least_swing * seen.range);
   seen.period = period_of(seen.turns);
   std::vector<double> smooth(x.size(), std::numeric_limits<double>::quiet_NaN());

@@ -101,7 +101,7 @@ std::size_t settled_from(const Frames& f, const Stay& stay, double amplitude, do
   return stay.first;
 }
 
-std::string rounded(double seconds) {
+std::string rounded_seconds(double seconds) {
   char digits[32];
   std::snprintf(digits, sizeof digits, "%.4g", seconds);
   return write_quantity(std::strtod(digits, nullptr), "s");
@@ -181,17 +181,17 @@ Experiment with_releases_seen(Experiment experiment, const std::vector<Setup>& s
     if (const auto prelude = prelude_of(run.time, audit.x_box, audit.box.standard_deviation)) {
       experiment.notes.push_back(run.name + ": the box " +
                                  (prelude->held > 0
-                                      ? "is held for " + rounded(prelude->held) + " and let go at "
+                                      ? "is held for " + rounded_seconds(prelude->held) + " and let go at "
                                       : "is moved before it swings freely, from ") +
-                                 rounded(prelude->release) +
+                                 rounded_seconds(prelude->release) +
                                  " of the table's clock: what comes before is left out (release_time = \"" +
-                                 rounded(prelude->release) + "\" under its [[run]] says the same)");
+                                 rounded_seconds(prelude->release) + "\" under its [[run]] says the same)");
       run = counted_from(std::move(run), prelude->release);
     } else if (grains && !starts_anywhere(run, setups[r]) && begins_with_the_release(run)) {
-      experiment.notes.push_back(run.name + ": the first frame, at " + rounded(shown) +
+      experiment.notes.push_back(run.name + ": the first frame, at " + rounded_seconds(shown) +
                                  " of the table's clock, shows the box at rest: it is taken for the release "
                                  "(release_time = \"" +
-                                 rounded(shown) + "\" under its [[run]] says the same)");
+                                 rounded_seconds(shown) + "\" under its [[run]] says the same)");
       run = counted_from(std::move(run), shown);
     }
   }

@@ -36,7 +36,7 @@ std::string rounded(double si, const char* unit) {
   std::snprintf(digits, sizeof digits, "%.3g", si);
   return write_quantity(std::strtod(digits, nullptr), unit);
 }
-std::string mm(double metres) { return rounded(metres, "mm"); }
+std::string rounded_mm(double metres) { return rounded(metres, "mm"); }
 
 /// What cameras run at, where one is within 5 %.
 double usual_rate_near(double rate) {
@@ -158,8 +158,8 @@ class RunCheck {
     const double tens = std::log10(shown / stated);
     constexpr double near = 0.12;     // of a power of ten: 30 %
     constexpr double doubtful = 1.3;  // of what was set with a ruler
-    const std::string found =
-        "the box starts with a swing of " + mm(shown) + " where release.displacement is " + mm(stated);
+    const std::string found = "the box starts with a swing of " + rounded_mm(shown) +
+                              " where release.displacement is " + rounded_mm(stated);
     if (std::abs(tens) > 0.5 && std::abs(tens - std::round(tens)) < near) {
       const double factor = std::pow(10, -std::round(tens));
       const char* unit = factor == 10      ? "centimetres? Write unit = \"cm\" where it says mm"
@@ -175,7 +175,7 @@ class RunCheck {
     }
     if (shown > stated * doubtful || shown < stated / doubtful) {
       add("release", starts_at_rest(), "release.displacement", found,
-          "write release.displacement = \"" + mm(shown) +
+          "write release.displacement = \"" + rounded_mm(shown) +
               "\" under its [[run]], or correct the scale of the picture (pixel_size, unit)");
       return !starts_at_rest();
     }
@@ -187,8 +187,8 @@ class RunCheck {
     if (!released() || std::abs(from_centre) < 0.5 * motion_.amplitude) return;
     if ((from_centre > 0) == (setup_.release.displacement > 0)) return;
     add("side", true, "column.box_position",
-        "the box starts on the other side (" + mm(from_centre) + " from where it swings about; released at " +
-            mm(setup_.release.displacement) + ")",
+        "the box starts on the other side (" + rounded_mm(from_centre) +
+            " from where it swings about; released at " + rounded_mm(setup_.release.displacement) + ")",
         "write reversed = true in [column.box_position] and [column.grain_centre], or turn the sign of "
         "release.displacement");
   }
@@ -200,10 +200,11 @@ class RunCheck {
     if (off < std::max(worth_saying * motion_.amplitude, 4 * motion_.centre_error)) return;
     const bool impossible = released() && off > absurd * motion_.amplitude;
     add("origin", impossible, "column.box_position.origin",
-        "the box swings about x = " + mm(motion_.centre) + ", not about 0 (where the spring is relaxed)",
+        "the box swings about x = " + rounded_mm(motion_.centre) +
+            ", not about 0 (where the spring is relaxed)",
         run_.origin_stated
             ? "move the origin by that much, unless a steady force pulls there"
-            : "write origin = \"" + mm(motion_.centre) +
+            : "write origin = \"" + rounded_mm(motion_.centre) +
                   "\" in [column.box_position] and [column.grain_centre], unless a steady force pulls there");
   }
 

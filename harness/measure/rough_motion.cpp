@@ -32,7 +32,7 @@ double typical_interval(const std::vector<Point>& points) {
 }
 
 /// Between the 1 % and 99 % quantiles, which a few wrong frames do not move.
-double range_of(const std::vector<Point>& points) {
+double range_of_points(const std::vector<Point>& points) {
   std::vector<double> values;
   for (const Point& point : points) values.push_back(point.x);
   std::sort(values.begin(), values.end());
@@ -73,7 +73,7 @@ void set_swing(const std::vector<Point>& turns, RoughMotion& motion) {
       std::max(robust_deviation(centres), motion.noise) / std::sqrt(static_cast<double>(centres.size()));
 }
 
-double noise_of(const std::vector<Point>& points) {
+double noise_of_points(const std::vector<Point>& points) {
   std::vector<double> differences;  // of second order: 0 for steady motion
   for (std::size_t i = 2; i < points.size(); ++i)
     differences.push_back(points[i].x - 2 * points[i - 1].x + points[i - 2].x);
@@ -150,10 +150,10 @@ RoughMotion rough_motion(const std::vector<double>& time, const std::vector<doub
   if (points.size() < 5) return motion;
   const double interval = typical_interval(points);
   motion.unbroken = unbroken_share(points, interval);
-  motion.noise = noise_of(points);
+  motion.noise = noise_of_points(points);
   motion.first = (points[0].x + points[1].x + points[2].x) / 3;
   constexpr double least_turn = 0.2;  // of the whole range: above noise, below the first swings
-  const double range = range_of(points);
+  const double range = range_of_points(points);
   if (!(range > 0)) return motion;
   set_swing(turning_points(points, least_turn * range), motion);
   if (!std::isfinite(motion.frequency)) return motion;

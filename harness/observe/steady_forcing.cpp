@@ -14,7 +14,7 @@ namespace shakedown {
 
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double full_turn = 2 * std::numbers::pi;
 
 /// Sampled values at a time between samples.
 double value_at(const std::vector<double>& values, double place) {
@@ -65,7 +65,7 @@ std::optional<SteadyForcing> forcing_by_base(const Setup& setup, const EffectCho
   }
   if (std::ssize(passed) < 3) return {};
   const double period = (passed.back() - passed.front()) / static_cast<double>(passed.size() - 1),
-               omega = two_pi / period;
+               omega = full_turn / period;
   const SteadyForcing found{0, 1 / period, -omega * passed.back(), amplitude};
   // A base that halts or swings otherwise has no steady state.
   double off = 0;
@@ -113,7 +113,7 @@ SteadyState steady_state(const Setup& setup, const Trajectory& trajectory) {
   EXPECT(forcing && trajectory.time.size() > 2);
   const Physics physics = physics_of(setup);
   const double rate = static_cast<double>(trajectory.time.size() - 1) / trajectory.time.back();
-  const double omega = two_pi * forcing->frequency, cycle = rate / forcing->frequency;
+  const double omega = full_turn * forcing->frequency, cycle = rate / forcing->frequency;
   const double end = static_cast<double>(trajectory.time.size() - 1), begin = end - steady_cycles * cycle;
   EXPECT(begin >= 0);
   const double grains = setup.grains.count * setup.grains.mass;
@@ -172,8 +172,8 @@ SteadyState steady_state(const Setup& setup, const Trajectory& trajectory) {
   const double growth = trajectory.total_energy.empty() ? 0
                                                         : value_at(trajectory.total_energy, end) -
                                                               value_at(trajectory.total_energy, begin);
-  state.loss_factor =
-      (work - growth) / steady_cycles / (two_pi * physics.stiffness * state.amplitude * state.amplitude / 2);
+  state.loss_factor = (work - growth) / steady_cycles /
+                      (full_turn * physics.stiffness * state.amplitude * state.amplitude / 2);
   return state;
 }
 

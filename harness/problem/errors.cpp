@@ -35,12 +35,12 @@ std::string to_string(const Violation& violation) {
 namespace {
 
 /// As much as somebody reads; what is left is counted.
-constexpr std::size_t most_shown = 100, longest = 50000;
+constexpr std::size_t most_shown = 100, longest_text = 50000;
 
 std::string joined(const std::vector<Violation>& violations) {
   std::string text;
   std::size_t shown = 0;
-  for (; shown < std::min(violations.size(), most_shown) && text.size() < longest; ++shown)
+  for (; shown < std::min(violations.size(), most_shown) && text.size() < longest_text; ++shown)
     text += (text.empty() ? "" : "\n") + to_string(violations[shown]);
   if (violations.size() > shown) text += "\nand " + std::to_string(violations.size() - shown) + " more";
   return text;

@@ -103,15 +103,15 @@ ReportSection strengths(const Diagnosis& d, const Setup& given) {
   return section;
 }
 
-std::string in_mm(double metres) { return std::isfinite(metres) ? for_people(metres * 1e3) : "–"; }
+std::string text_in_mm(double metres) { return std::isfinite(metres) ? for_people(metres * 1e3) : "–"; }
 
 std::vector<std::string> row_of(const Difference& one, double amplitude) {
   const double share = one.error / (std::isfinite(one.amplitude) ? one.amplitude : amplitude),
                times = times_floor(one);
   return {one.of,
-          in_mm(one.error),
+          text_in_mm(one.error),
           std::isfinite(share) ? for_people(100 * share) : "–",
-          in_mm(one.floor),
+          text_in_mm(one.floor),
           std::isfinite(times) ? for_people(times) : "–",
           one.looks_like};
 }

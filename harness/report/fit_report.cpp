@@ -23,7 +23,7 @@ std::string value_with_interval(const FittedParameter& p, double si) {
 
 double si_of(const FittedParameter& p) { return std::get<Unit>(parse_unit(p.unit)).si; }
 
-ReportSection parameters_section(const Fit& fit) {
+ReportSection fitted_section(const Fit& fit) {
   ReportSection section;
   section.title = "Parameters";
   section.paragraphs = {"Best values with 95 % intervals; dashed: where the fit started."};
@@ -58,7 +58,7 @@ std::string headline(const Fit& fit) {
                      for_people(most));
 }
 
-std::vector<ReportFact> facts_of(const Fit& fit) {
+std::vector<ReportFact> facts_of_fit(const Fit& fit) {
   std::vector<ReportFact> facts;
   for (const FittedParameter& p : fit.parameters) {
     const std::string text = with_interval(p.value / si_of(p), p.low / si_of(p), p.high / si_of(p));
@@ -99,9 +99,9 @@ Report report_of(const Fit& fit, const Measurement& measurement,
                        value_with_interval(fit.parameters[i], si_of(fit.parameters[i]));
   report.subtitle = fmt::format("Fitted to {} run{}, {} left out.", fit.used.size(),
                                 fit.used.size() == 1 ? "" : "s", fit.left_out.size());
-  report.facts = facts_of(fit);
+  report.facts = facts_of_fit(fit);
   report.replays = replays_of(curves);
-  report.sections = {curves_section(curves, "Measured against model"), parameters_section(fit),
+  report.sections = {curves_section(curves, "Measured against model"), fitted_section(fit),
                      errors_section("Runs fitted", fit.used)};
   if (!fit.left_out.empty())
     report.sections.push_back(errors_section("Runs left out, foretold", fit.left_out));

@@ -46,7 +46,7 @@ std::vector<EffectChoice> choices_of(const std::vector<TurnedNumber>& numbers, S
   return choices;
 }
 
-std::vector<double> in_mm(const std::vector<double>& metres) {
+std::vector<double> values_in_mm(const std::vector<double>& metres) {
   std::vector<double> mm = metres;
   for (double& value : mm) value *= 1e3;
   return mm;
@@ -59,10 +59,10 @@ std::vector<ReportKnobs::Run> runs_of(const LastFit& fit) {
     if (runs.empty() || runs.back().name != curve.run) runs.push_back({}), runs.back().name = curve.run;
     runs.back().curves.push_back({curve.observable,
                                   curve.time,
-                                  in_mm(curve.measured),
-                                  in_mm(curve.spread),
-                                  in_mm(curve.model),
-                                  in_mm(curve.as_given),
+                                  values_in_mm(curve.measured),
+                                  values_in_mm(curve.spread),
+                                  values_in_mm(curve.model),
+                                  values_in_mm(curve.as_given),
                                   {}});
   }
   return runs;

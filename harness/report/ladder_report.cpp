@@ -61,7 +61,7 @@ ReportTable by_run(const std::vector<Rung>& rungs) {
   return table;
 }
 
-ReportSection parameters_section(const std::vector<Rung>& rungs) {
+ReportSection refits_section(const std::vector<Rung>& rungs) {
   ReportSection section;
   section.title = "Parameters";
   section.paragraphs = {"As refitted to all runs, with 95 % intervals."};
@@ -97,7 +97,7 @@ Report report_of(const std::vector<Rung>& rungs, bool refitted, const Measuremen
       refitted ? "Both restitutions and the frequency of each refitted." : "Each as its file has it.";
   report.sections = {errors_section(rungs, refitted)};
   report.sections.front().tables.push_back(by_run(rungs));
-  if (refitted) report.sections.push_back(parameters_section(rungs));
+  if (refitted) report.sections.push_back(refits_section(rungs));
   say_how_to_reproduce(report, last);
   return report;
 }

@@ -84,7 +84,7 @@ double density_of(const NoiseFound& noise, double interval, double frequency) {
 
 namespace {
 
-std::vector<double> in_mm(std::vector<double> values) {
+std::vector<double> density_in_mm(std::vector<double> values) {
   for (double& value : values) value *= 1e3;
   return values;
 }
@@ -125,8 +125,8 @@ ReportPlot spectrum_plot(const RunAudit& run, const std::vector<double>& x, cons
   std::vector<double> found;
   for (const double f : spectrum.frequency) found.push_back(density_of(noise, run.frame_interval, f));
   if (plot.x.empty()) return plot;
-  plot.curves = {{"track", CurveRole::model, in_mm(spectrum.density)},
-                 {"noise as found", CurveRole::as_given, in_mm(std::move(found))}};
+  plot.curves = {{"track", CurveRole::model, density_in_mm(spectrum.density)},
+                 {"noise as found", CurveRole::as_given, density_in_mm(std::move(found))}};
   return plot;
 }
 
@@ -140,7 +140,7 @@ std::string source_of(const NoiseFound& noise) {
   return "assumed";
 }
 
-std::vector<std::string> row_of(const std::string& run, const char* of, const NoiseFound& noise) {
+std::vector<std::string> row_of_noise(const std::string& run, const char* of, const NoiseFound& noise) {
   const auto mm = [](double metres) {
     return std::isfinite(metres) && metres > 0 ? for_people(1e3 * metres) : std::string("–");
   };
@@ -172,8 +172,8 @@ ReportSection noise_section(const Measurement& measurement) {
   for (const Measurement::Run& run : measurement.runs) {
     const RunAudit& found = run.audit;
     const bool centre = found.com.standard_deviation > 0;
-    table.rows.push_back(row_of(found.run, "box", found.box));
-    if (centre) table.rows.push_back(row_of(found.run, "grains' centre", found.com));
+    table.rows.push_back(row_of_noise(found.run, "box", found.box));
+    if (centre) table.rows.push_back(row_of_noise(found.run, "grains' centre", found.com));
     for (const ReportPlot& plot : {over_time(found.run, found.box, centre ? found.com : NoiseFound{}),
                                    spectrum_plot(found, found.x_box, found.box, "box"),
                                    spectrum_plot(found, centre ? found.x_com : std::vector<double>{},

@@ -22,7 +22,7 @@ std::string plus_minus(const Statistic& value, double factor, const char* unit) 
              : fmt::format("{} {}", for_people(factor * value.mean), unit);
 }
 
-std::vector<double> thinned(const std::vector<double>& values, std::size_t step, double factor) {
+std::vector<double> every_nth(const std::vector<double>& values, std::size_t step, double factor) {
   std::vector<double> kept;
   for (std::size_t i = 0; i < values.size(); i += step) kept.push_back(factor * values[i]);
   return kept;
@@ -64,14 +64,14 @@ void RunCurves::add(const Trajectory& t) {
   const std::array<const std::vector<double>*, 6> series{&t.x_box,   &t.x_com,   &t.total_energy,
                                                          &t.loss[0], &t.loss[1], &t.loss[2]};
   if (++runs_ == 1) {
-    time_ = thinned(t.time, step, 1);
-    first_box_ = thinned(t.x_box, step, 1e3);
-    first_centre_ = thinned(t.x_com, step, 1e3);
+    time_ = every_nth(t.time, step, 1);
+    first_box_ = every_nth(t.x_box, step, 1e3);
+    first_centre_ = every_nth(t.x_com, step, 1e3);
     log_ = t.collision_log;
     for (auto& statistics : statistics_) statistics.resize(time_.size());
   }
   for (std::size_t s = 0; s < series.size(); ++s) {
-    const std::vector<double> values = thinned(*series[s], step, 1e3);
+    const std::vector<double> values = every_nth(*series[s], step, 1e3);
     for (std::size_t i = 0; i < std::min(values.size(), time_.size()); ++i) statistics_[s][i].add(values[i]);
   }
 }

@@ -45,7 +45,7 @@ std::string remedy_for(std::string_view word, std::span<const std::string_view> 
 
 // ---- overrides: written into the tree before anything is read, so that one reader checks both ----
 
-TomlValue value_of(const Override& override) {
+TomlValue value_of_override(const Override& override) {
   const SourcePlace place{override.origin, 0, 0};
   TomlValue value;
   try {
@@ -94,7 +94,7 @@ TomlValue& effect_table(TomlValue& root, std::string_view name, const SourcePlac
 }
 
 /// The component of an array that .x, .y or .z names, or nullptr.
-TomlValue* component(TomlValue& array, std::string_view axis) {
+TomlValue* component_named(TomlValue& array, std::string_view axis) {
   if (array.kind != TomlValue::Kind::array || axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z')
     return nullptr;
   const std::size_t index = static_cast<std::size_t>(axis[0] - 'x');
@@ -107,7 +107,7 @@ void set(TomlEntry& entry, TomlValue value) {
 }
 
 void write_override(TomlValue& root, const Override& override, Known known) {
-  TomlValue value = value_of(override);
+  TomlValue value = value_of_override(override);
   const SourcePlace place = value.place;
   std::string_view path = override.key;
   const auto next_word = [&] {
@@ -122,7 +122,7 @@ void write_override(TomlValue& root, const Override& override, Known known) {
                                               : &as_table(entry_of(root, word, place).value, place);
   for (word = next_word(); !path.empty(); word = next_word()) {
     TomlEntry& deeper = entry_of(*table, word, place);
-    if (TomlValue* axis = component(deeper.value, path)) {
+    if (TomlValue* axis = component_named(deeper.value, path)) {
       *axis = std::move(value);
       return;
     }
@@ -350,7 +350,8 @@ TomlValue changed_in_part(const Setup& setup, std::span<const Override> override
         list.items.push_back(table_of(*choice, setup));
     } else if (const SetupKey* list = find_setup_key(key.substr(0, key.rfind('.')))) {
       TomlValue& section = entry_of(root, list->section(), place).value;
-      set(entry_of(section, list->name(), place), value_of({"", toml_of(*list, setup), override.origin}));
+      set(entry_of(section, list->name(), place),
+          value_of_override({"", toml_of(*list, setup), override.origin}));
     }
   }
   return root;
@@ -370,7 +371,7 @@ Override parse_override(std::string_view text, const std::string& origin) {
 }
 
 std::string toml_value(const Override& override) {
-  const TomlValue value = value_of(override);
+  const TomlValue value = value_of_override(override);
   return value.kind == TomlValue::Kind::text ? toml_string(value.text) : override.value;
 }
 

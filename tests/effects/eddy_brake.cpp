@@ -8,7 +8,7 @@
 namespace shakedown::effect {
 
 namespace {
-void apply(const EffectChoice& choice, int index, Physics& physics) {
+void apply_eddy_brake(const EffectChoice& choice, int index, Physics& physics) {
   const double damping = choice.number("damping"), centre = choice.number("centre"),
                width = choice.number("width");
   physics.box.free.push_back({[=](double x, double v, double) {
@@ -54,6 +54,6 @@ extern const EffectRecord eddy_brake{
                  {Fidelity::to_stated_error, "box motion dense to 1e-13 of the release displacement"}},
                 {"soft",
                  {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
-    .apply = &apply};
+    .apply = &apply_eddy_brake};
 
 }  // namespace shakedown::effect

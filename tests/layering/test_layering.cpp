@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -137,6 +138,31 @@ bool is_standard(const std::string& header) {
 
 const std::set<std::string> generated{"build_info.hpp"};
 
+/// What the unnamed namespaces of a source name at the beginning of a line (types, functions, values,
+/// aliases), with that line.
+std::map<std::string, std::string> hidden_names_of(const fs::path& file) {
+  static const std::regex type("(?:struct|class|enum class|enum|using|namespace) (\\w+).*");
+  static const std::regex value_or_function("(?:[^=({;]*[\\s*&])?(\\w+)\\s*[(={;\\[].*");
+  static const std::regex further_value(", (\\w+) = ");
+  std::map<std::string, std::string> names;
+  std::ifstream stream(file);
+  bool inside = false;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("namespace {")) inside = true;
+    if (line.starts_with("}  // namespace")) inside = false;
+    if (!inside || line.empty() || std::string(" }#/").find(line[0]) != std::string::npos ||
+        line.starts_with("template"))
+      continue;
+    std::smatch match;
+    if (std::regex_match(line, match, type) || std::regex_match(line, match, value_or_function))
+      names.emplace(match[1], line);
+    if (line.starts_with("const"))
+      for (std::sregex_iterator more(line.begin(), line.end(), further_value), none; more != none; ++more)
+        names.emplace((*more)[1], line);
+  }
+  return names;
+}
+
 }  // namespace
 
 TEST(Layering, EachFolderOpensWhatItsCMakeListsNamesAndAllOfIt) {
@@ -202,6 +228,24 @@ TEST(Layering, EveryFolderOfTheProjectIsInTheTable) {
       if (name == "tests" || name == "bench" || name == "harness/packaging") continue;
       EXPECT_TRUE(named.contains(name)) << name;
     }
+}
+
+/// Sources of a folder may be compiled together (SHAKEDOWN_TOGETHER): two functions of one name would then be
+/// overloads of each other, and a call could reach the other one. An alias may be said twice in the same
+/// words.
+TEST(Layering, NoHiddenNameOfAFolderMeansTwoThings) {
+  for (const Layer& layer : layers()) {
+    std::map<std::string, std::pair<fs::path, std::string>> first;
+    for (const fs::path& file : sources_of(layer.folder))
+      for (const auto& [name, line] : hidden_names_of(file)) {
+        const auto [place, fresh] = first.emplace(name, std::pair{file, line});
+        const bool alias =
+            line.ends_with(";") && (line.starts_with("using ") || line.starts_with("namespace "));
+        EXPECT_TRUE(fresh || (alias && place->second.second == line))
+            << name << " of " << fs::relative(file, PROJECT_ROOT) << " is named by "
+            << fs::relative(place->second.first, PROJECT_ROOT) << " too: give one another name";
+      }
+  }
 }
 
 /// Other versions of clang-format break lines elsewhere.
