@@ -91,7 +91,8 @@ class Writer {
     std::string words = fmt::format("hooke {} {} damping velocity ", contact.stiffness, contact.damping);
     const double friction = physics_.contact.friction[index];
     if (friction == 0) return words + "tangential linear_nohistory 0 0";
-    return words + fmt::format("tangential linear_history {} 0 {}", 2.0 / 7 * contact.stiffness, friction);
+    return words + fmt::format("tangential linear_history {} 0 {}",
+                               physics_.contact.stiffness_ratio * contact.stiffness, friction);
   }
 
   void contacts() {
@@ -103,8 +104,9 @@ class Writer {
         "`velocity`: the dashpot is not multiplied by a mass.",
         setup_.soft.contact_time, physics_.contact.restitution[0]);
     if (physics_.contact.has_friction())
-      say("# Friction: a tangential spring of 2/7 of the normal one, which slides at mu times the normal "
-          "force.");
+      say("# Friction: a tangential spring of {} of the normal one, which slides at mu times the normal "
+          "force.",
+          physics_.contact.stiffness_ratio);
     say("pair_style      granular");
     say("pair_coeff      * * {}", law(ContactClass::grain_grain));
     say("neighbor        {} bin", 0.2 * setup_.grains.diameter);

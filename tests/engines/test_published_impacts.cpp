@@ -79,8 +79,7 @@ TEST(PublishedImpact, SlidesAtTheAnglesOfChungAndOoi) {
   }
 }
 
-/// From 49 degrees on what Kharaz, Gorham and Salman measured left 1 to 2 degrees farther out. Below 32 no
-/// engine of ours makes what they saw; a tangential spring as stiff as that of elastic bodies would.
+/// From 49 degrees on what Kharaz, Gorham and Salman measured left 1 to 2 degrees farther out.
 TEST(PublishedImpact, SlidesAtTheAnglesOfKharazWhereNothingSticks) {
   for (const auto& figure : published::measured_angles) {
     const Encounter it = oblique_impact(figure.degrees);
@@ -89,9 +88,30 @@ TEST(PublishedImpact, SlidesAtTheAnglesOfKharazWhereNothingSticks) {
       if (figure.degrees < 32.5) continue;
       WITHIN(rebound(engine, it, 1).contact_degrees, figure.contact_degrees, 3, 2.0) << engine;
     }
-    const double elastic = by_tangential_spring(it, 2 * (1 - 0.23) / (2 - 0.23));
-    if (figure.degrees > 32.5) continue;
-    WITHIN(rebound_of(it, with_slip_left(it, elastic)).contact_degrees, figure.contact_degrees, 2, 0.98);
+  }
+}
+
+/// Below 32 degrees surfaces give way sideways. With the tangential spring of elastic bodies of alumina
+/// (Poisson's ratio 0.23) hard and soft leave as what was measured, with nothing fitted; with that of 2/7
+/// they are 5.6 degrees off (root of the mean square).
+TEST(PublishedImpact, LeavesAtTheAnglesOfKharazWithTheSpringOfElasticBodies) {
+  for (const char* engine : {"hard", "soft"}) {
+    double squares = 0, rigid_squares = 0;
+    int angles = 0;
+    for (const auto& figure : published::measured_angles) {
+      Encounter it = oblique_impact(figure.degrees);
+      if (figure.degrees > 32.5) continue;
+      const double rigid = rebound(engine, it, 1).contact_degrees - figure.contact_degrees;
+      it.stiffness_ratio = 2 * (1 - 0.23) / (2 - 0.23);
+      SCOPED_TRACE(figure.degrees);
+      const double seen = rebound(engine, it, 1).contact_degrees;
+      WITHIN(seen, figure.contact_degrees, 2, 0.98) << engine;
+      squares += std::pow(seen - figure.contact_degrees, 2);
+      rigid_squares += rigid * rigid;
+      ++angles;
+    }
+    WITHIN(std::sqrt(squares / angles), 0.7, 0.2, 0.025) << engine;
+    WITHIN(std::sqrt(rigid_squares / angles), 5.6, 0.3, 0.021) << engine;
   }
 }
 

@@ -102,6 +102,18 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector<PlacedGrain>{{Vec3(-radius - 1e-3, 0, 0), Vec3(0.5, 0.4, 0)},
                                              {Vec3(radius + 1e-3, 4e-4, 0), Vec3(0, 0, 0)}}));
 
+/// A tangential spring of its own ratio, where most of the contact sticks.
+TEST_F(LammpsGrains, GiveWaySidewaysAsInTheSoftEngine) {
+  shakedown::Setup setup = impact_of(0.01);
+  add_effect(setup, "grain_friction", {{"grain_grain", 0.5}, {"grain_wall", 0.5}, {"stiffness_ratio", 0.82}});
+  const std::vector<PlacedGrain> grains{{Vec3(0.05 - radius - 1e-3, 0, 0), Vec3(0.5, 0.1, 0.1)}};
+  const Trajectory run = run_with(*lammps, setup, grains), other = run_with(*soft, setup, grains);
+  setup.effects.back().values["stiffness_ratio"] = ContactLaw::turning_ratio;
+  const Trajectory turned = run_with(*soft, setup, grains);
+  WITHIN((run.end_state.spin[0] - other.end_state.spin[0]).norm(), 0, 3, 0.3);
+  EXPECT_GT((turned.end_state.spin[0] - other.end_state.spin[0]).norm(), 5);
+}
+
 TEST_F(LammpsGrains, FallAndAreDraggedAsInTheSoftEngine) {
   shakedown::Setup setup = impact_of(0.05);
   setup.soft.steps_per_contact = 20;
