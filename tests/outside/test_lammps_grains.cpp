@@ -127,6 +127,19 @@ TEST_F(LammpsGrains, FallAndAreDraggedAsInTheSoftEngine) {
     EXPECT_NEAR(run.ledger.effect_loss.at(i), other.ledger.effect_loss.at(i), 5e-8) << i;  // seen: 2.8e-9
 }
 
+TEST_F(LammpsGrains, AreDrivenByAFormulaAsInTheSoftEngine) {
+  shakedown::Setup setup = impact_of(0.05);
+  add_effect(setup, "user_force",
+             {{"on", std::string("grains")}, {"force", std::string("-0.3*x - 0.01*v + 2e-3*sin(40*t)")}});
+  const std::vector<PlacedGrain> grains{{Vec3(0.01, 0, 0), Vec3(0.3, 0.1, -0.2)},
+                                        {Vec3(-0.02, 0.02, 0), Vec3(-0.1, 0.1, 0)}};
+  const Trajectory run = run_with(*lammps, setup, grains), other = run_with(*soft, setup, grains);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_LT((run.end_state.velocity[i] - other.end_state.velocity[i]).norm(), 5e-6) << i;  // seen: 3.5e-7
+  EXPECT_EQ(run.end_state.v_box, 0);
+  EXPECT_NEAR(run.ledger.effect_loss.at(0), other.ledger.effect_loss.at(0), 3e-9);  // seen: 1.5e-10
+}
+
 TEST_F(LammpsGrains, BeginAsEveryEngineDoes) {
   shakedown::Setup setup;
   setup.run.duration = 0.3;
