@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What happens when grains touch each other or a wall: restitution along the normal, friction across.
+// What happens when grains touch each other or a wall: restitution along the normal, friction across, rolling
+// resistance.
 #pragma once
 #include "elastic_limits.hpp"
-#include "impact.hpp"
+#include "rolling_impact.hpp"
 #include "wells.hpp"
 
 namespace shakedown {
@@ -43,11 +44,19 @@ class Impacts {
  private:
   double restitution(ContactClass contact, double closing, double elastic_below, std::int64_t& rescues) const;
   bool rubs(double closing, double elastic_below, int i, int j = -1);
-  double rub_pair(int i, int j, MeetingPair& pair, double reduced, double impulse);
+  /// Whether contacts of this kind rub or resist rolling.
+  bool touches_roughly(std::size_t kind) const {
+    return law_.friction[kind] > 0 || (law_.rolling_resistance[kind] > 0 && !spin_.empty());
+  }
+  double rub_pair(int i, int j, MeetingPair& pair, const NormalImpact& normal_impact);
+  double roll_pair(int i, int j, MeetingPair& pair, const RollingContact& contact,
+                   const NormalImpact& normal_impact);
   Vec3 surface_velocity(int i, const Vec3& normal) const {
     return spin_[static_cast<std::size_t>(i)].cross(normal) * scene_.grains.radius(i);
   }
-  Friction rub_wall(int i, const Vec3& normal, const Vec3& slip, const Vec3& mass, double normal_impulse);
+  Friction rub_wall(int i, const Vec3& normal, const Vec3& slip, const Vec3& mass,
+                    const NormalImpact& normal_impact);
+  Friction roll_on_wall(int i, const RollingContact& contact, const NormalImpact& normal_impact);
   void fixed_side_wall(int i, int axis, int side);
   void moving_side_wall(int i, int axis, int side);
   void press_by_the_swing();
@@ -79,8 +88,7 @@ void Impacts<Scene>::start(const State& state, const Physics& physics, const Set
 template <class Scene>
 double Impacts<Scene>::restitution(ContactClass contact, double closing, double elastic_below,
                                    std::int64_t& rescues) const {
-  const double law = law_.restitution_at ? law_.restitution_at(contact, closing)
-                                         : law_.restitution[static_cast<std::size_t>(contact)];
+  const double law = law_.restitution_of(contact, closing);
   if (closing >= elastic_below || law >= 1) return law;
   ++rescues;
   return 1;
@@ -109,20 +117,45 @@ bool Impacts<Scene>::rubs(double closing, double elastic_below, int i, int j) {
 
 /// Friction between two grains; returns what it takes, J.
 template <class Scene>
-double Impacts<Scene>::rub_pair(int i, int j, MeetingPair& pair, double reduced, double impulse) {
+double Impacts<Scene>::rub_pair(int i, int j, MeetingPair& pair, const NormalImpact& normal_impact) {
   const Vec3 normal = vec(pair.r) / pair.distance, apart = vec(pair.b.v) - vec(pair.a.v);
   const double ma = scene_.grains.mass(i), mb = scene_.grains.mass(j);
   const double ra = scene_.grains.radius(i), rb = scene_.grains.radius(j);
   Vec3 &spin_a = spin_[static_cast<std::size_t>(i)], &spin_b = spin_[static_cast<std::size_t>(j)];
   Vec3 slip = apart - (rb * spin_b + ra * spin_a).cross(normal);
   slip -= slip.dot(normal) * normal;
-  const Friction friction = friction_impulse(slip, Vec3::Constant(reduced / 3.5), law_.friction[0],
-                                             law_.tangential_restitution, impulse);
+  const Vec3 felt = Vec3::Constant(normal_impact.reduced_mass / 3.5);
+  if (law_.rolling_resistance[0] > 0)
+    return roll_pair(i, j, pair, {.slip = -slip, .normal = normal, .mass = felt}, normal_impact);
+  const Friction friction = friction_impulse(slip, felt, law_.friction[0], law_, normal_impact);
   add(pair.a.v, -friction.impulse / ma);
   add(pair.b.v, friction.impulse / mb);
   spin_a += spin_change(normal, ra, ma, -friction.impulse);
   spin_b += spin_change(-normal, rb, mb, friction.impulse);
   return friction.loss;
+}
+
+/// Friction and rolling resistance of two grains; returns what they take, J.
+template <class Scene>
+double Impacts<Scene>::roll_pair(int i, int j, MeetingPair& pair, const RollingContact& contact,
+                                 const NormalImpact& normal_impact) {
+  const double ma = scene_.grains.mass(i), mb = scene_.grains.mass(j);
+  const double ra = scene_.grains.radius(i), rb = scene_.grains.radius(j);
+  const double a = inertia_of(ma, ra), b = inertia_of(mb, rb);
+  Vec3 &spin_a = spin_[static_cast<std::size_t>(i)], &spin_b = spin_[static_cast<std::size_t>(j)];
+  RollingContact rolling = contact;
+  rolling.turning = spin_a - spin_b;
+  rolling.turning -= rolling.turning.dot(contact.normal) * contact.normal;
+  rolling.inertia = a * b / (a + b);
+  rolling.coupling = ra / a - rb / b;
+  rolling.friction = law_.friction[0];
+  rolling.rolling = law_.rolling_resistance[0] * ra * rb / (ra + rb);
+  const RollingImpact impact = rolling_impact(rolling, law_, normal_impact);
+  add(pair.a.v, impact.impulse / ma);
+  add(pair.b.v, -impact.impulse / mb);
+  spin_a += spin_change(contact.normal, ra, ma, impact.impulse) + impact.turning / a;
+  spin_b += spin_change(-contact.normal, rb, mb, -impact.impulse) - impact.turning / b;
+  return impact.loss;
 }
 
 template <class Scene>
@@ -136,7 +169,8 @@ void Impacts<Scene>::pair(int i, int j) {
   const double impulse = reduced * (1 + e) * closing;
   double loss = reduced / 2 * (1 - e * e) * closing * closing;
   if constexpr (Scene::driven) {
-    if (law_.friction[0] > 0 && rubs(closing, limit, i, j)) loss += rub_pair(i, j, pair, reduced, impulse);
+    if (touches_roughly(0) && rubs(closing, limit, i, j))
+      loss += rub_pair(i, j, pair, {reduced, closing, e, impulse});
     if (wells_.act()) wells_.note_touch(HeldBonds::of_pair(i, j), reduced * e * closing, i, j);
   }
   accounts_.impact(ContactClass::grain_grain, loss);
@@ -161,13 +195,32 @@ void Impacts<Scene>::press_by_the_swing() {
 /// Friction on a wall; the grain's spin changes.
 template <class Scene>
 Friction Impacts<Scene>::rub_wall(int i, const Vec3& normal, const Vec3& slip, const Vec3& mass,
-                                  double normal_impulse) {
-  const double coefficient = law_.friction[normal.x() != 0 ? 1 : 2];
-  const Friction friction =
-      friction_impulse(slip, mass, coefficient, law_.tangential_restitution, normal_impulse);
+                                  const NormalImpact& normal_impact) {
+  const std::size_t kind = normal.x() != 0 ? 1 : 2;
+  if (law_.rolling_resistance[kind] > 0)
+    return roll_on_wall(i, {.slip = slip, .normal = normal, .mass = mass}, normal_impact);
+  const Friction friction = friction_impulse(slip, mass, law_.friction[kind], law_, normal_impact);
   spin_[static_cast<std::size_t>(i)] +=
       spin_change(normal, scene_.grains.radius(i), scene_.grains.mass(i), friction.impulse);
   return friction;
+}
+
+/// Friction and rolling resistance of a wall; the grain's spin changes.
+template <class Scene>
+Friction Impacts<Scene>::roll_on_wall(int i, const RollingContact& contact,
+                                      const NormalImpact& normal_impact) {
+  const std::size_t kind = contact.normal.x() != 0 ? 1 : 2;
+  const double radius = scene_.grains.radius(i), mass = scene_.grains.mass(i);
+  Vec3& spin = spin_[static_cast<std::size_t>(i)];
+  RollingContact rolling = contact;
+  rolling.turning = spin - spin.dot(contact.normal) * contact.normal;
+  rolling.inertia = inertia_of(mass, radius);
+  rolling.coupling = radius / rolling.inertia;
+  rolling.friction = law_.friction[kind];
+  rolling.rolling = law_.rolling_resistance[kind] * radius;
+  const RollingImpact impact = rolling_impact(rolling, law_, normal_impact);
+  spin += spin_change(contact.normal, radius, mass, impact.impulse) + impact.turning / rolling.inertia;
+  return {impact.impulse, impact.loss};
 }
 
 template <class Scene>
@@ -189,12 +242,13 @@ void Impacts<Scene>::end_wall(int i, int side) {
   double loss = reduced / 2 * (1 - e * e) * closing * closing;
   if constexpr (driven) {
     Vec3 on_grain(-side * impulse, 0, 0);
-    if (law_.friction[1] > 0 && rubs(closing, limit, i)) {
+    if (touches_roughly(1) && rubs(closing, limit, i)) {
       const Vec3 normal(side, 0, 0), moving = scene_.wall_velocity();
       Vec3 slip = vec(flight.v) + surface_velocity(i, normal);
       slip -= Vec3(0, moving.y(), moving.z());
       slip.x() = 0;
-      const Friction friction = rub_wall(i, normal, slip, Vec3::Constant(m / 3.5), impulse);
+      const Friction friction =
+          rub_wall(i, normal, slip, Vec3::Constant(m / 3.5), {reduced, closing, e, impulse});
       add(flight.v, friction.impulse / m);
       loss += friction.loss;
       on_grain += friction.impulse;
@@ -243,14 +297,14 @@ void Impacts<Scene>::moving_side_wall(int i, int axis, int side) {
   const double m = scene_.grains.mass(i), impulse = m * (1 + e) * closing;
   double loss = m / 2 * (1 - e * e) * closing * closing, jump = 0;
   Vec3 on_grain = Vec3::Zero();
-  if (law_.friction[2] > 0 && rubs(closing, limit, i)) {
+  if (touches_roughly(2) && rubs(closing, limit, i)) {
     Vec3 normal = Vec3::Zero();
     normal[axis] = side;
     Vec3 slip = vec(flight.v) - wall + surface_velocity(i, normal);
     slip[axis] = 0;
     Vec3 mass = Vec3::Constant(m / 3.5);
     if (scene_.has_spring) mass.x() = 1 / (3.5 / m + 1 / scene_.box.mass());
-    const Friction friction = rub_wall(i, normal, slip, mass, impulse);
+    const Friction friction = rub_wall(i, normal, slip, mass, {m, closing, e, impulse});
     loss += friction.loss;
     on_grain = friction.impulse;
     if (scene_.has_spring) jump = -friction.impulse.x() / scene_.box.mass();

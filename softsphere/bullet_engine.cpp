@@ -26,8 +26,8 @@ void expect_modelled(const Setup& setup, const Physics& physics) {
     found.push_back({place_of(setup, "bullet.time_step"), "bullet.time_step", "must be above zero",
                      "0.1 ms suits the paper's damper"});
   const ContactLaw& law = physics.contact;
-  const bool special_contacts =
-      law.restitution_at || law.has_friction() || law.restitution[1] != law.restitution[2];
+  const bool special_contacts = law.restitution_at || law.side_wall_restitution_at || law.has_friction() ||
+                                law.restitution[1] != law.restitution[2];
   if (setup.bullet.defaults && (special_contacts || has_forces_beside_spring(physics)))
     found.push_back({place_of(setup, "bullet.defaults"), "bullet.defaults",
                      "does not go with effects (it shows Bullet untouched)", "set it to false"});

@@ -100,9 +100,8 @@ class AccountingSolver : public btSequentialImpulseConstraintSolver {
   void set_law(const Impact& impact, btManifoldPoint& point) const {
     const auto kind = static_cast<std::size_t>(impact.kind);
     const double closing = -impact.relative_velocity.dot(point.m_normalWorldOnB);
-    point.m_combinedRestitution = law_.restitution_at && closing > 0
-                                      ? law_.restitution_at(impact.kind, closing)
-                                      : law_.restitution[kind];
+    point.m_combinedRestitution =
+        closing > 0 ? law_.restitution_of(impact.kind, closing) : law_.restitution[kind];
     point.m_combinedFriction = law_.friction[kind];
   }
 

@@ -54,11 +54,6 @@ double part_of_step_before_leaving(double before, double now) {
   return before > 0 ? before / (before - now) : 0.0;
 }
 
-double restitution_of(const ContactLaw& law, ContactClass kind, double speed) {
-  if (law.restitution_at) return law.restitution_at(kind, std::max(speed, 0.0));
-  return law.restitution[static_cast<std::size_t>(kind)];
-}
-
 double reduced_mass_of(const ContactModel& model, const Bodies& bodies, const Contact& contact) {
   const double m = bodies.mass(contact.i);
   switch (contact.kind) {
@@ -152,7 +147,7 @@ class Merge {
   void begin_touch(double rate, Contact& contact) {
     contact.touching = true;
     contact.closing_speed = std::max(rate, 0.0);
-    contact.spring = spring_dashpot(restitution_of(model_.law, contact.kind, contact.closing_speed),
+    contact.spring = spring_dashpot(model_.law.restitution_of(contact.kind, contact.closing_speed),
                                     contact.reduced_mass, model_.contact_time);
     contact.dashpot = 2 * part_of_step_inside(contact.overlap, rate, step_);
     contact.stretch.setZero();
@@ -230,9 +225,10 @@ void settle_contacts(std::vector<Contact>& contacts) {
 double stored_energy(const ContactModel& model, const Contact& contact) {
   double energy = 0;
   if (contact.touching) {
-    energy += model.law.stored_energy ? model.law.stored_energy(contact.kind, contact.overlap,
-                                                                contact.closing_speed, contact.reduced_mass)
-                                      : contact.spring.stiffness * contact.overlap * contact.overlap / 2;
+    energy += model.law.pushes(contact.kind)
+                  ? model.law.stored_energy(contact.kind, contact.overlap, contact.closing_speed,
+                                            contact.reduced_mass)
+                  : contact.spring.stiffness * contact.overlap * contact.overlap / 2;
     if (rubs(model, contact)) energy += energy_of_stretch(model, contact);
   }
   if (const double reach = model.law.reach(contact.kind); reach > 0 && contact.overlap > -reach)

@@ -30,6 +30,7 @@ struct Contact {
   double normal_force = 0;               ///< N, on i along the normal
   double elastic_force = 0;              ///< N, the share of overlap alone in it
   Vec3 tangential_force = Vec3::Zero();  ///< N, on i
+  Vec3 rolling_torque = Vec3::Zero();    ///< N m, on i; on j the opposite
   bool sliding = false;                  ///< the tangential force is at its limit
 };
 

@@ -15,12 +15,14 @@ double tangential_decay(const ContactModel& model) {
 
 double tangential_stiffness(const ContactModel& model, const Contact& contact) {
   const double decay = tangential_decay(model);
-  return 2.0 / 7 * (contact.spring.stiffness + contact.reduced_mass * decay * decay);
+  const double as_stiff = model.law.stiffness_ratio / ContactLaw::turning_ratio;
+  return ContactLaw::turning_ratio *
+         (as_stiff * contact.spring.stiffness + contact.reduced_mass * decay * decay);
 }
 
 /// What the dashpot makes of the slip, with its weight in the coming half kick, N.
 Vec3 dashpot_force(const ContactModel& model, const Bodies& bodies, const Contact& contact) {
-  const double damping = 2 * (2.0 / 7) * contact.reduced_mass * tangential_decay(model);
+  const double damping = 2 * ContactLaw::turning_ratio * contact.reduced_mass * tangential_decay(model);
   if (damping == 0) return Vec3::Zero();
   return -contact.dashpot * damping * slip_velocity(bodies, contact);
 }

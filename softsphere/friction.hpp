@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Coulomb friction with spins: a tangential spring of 2/7 of the normal one, which slides at mu times the
-// normal spring's force (after Cundall and Strack 1979). Solid spheres turn their slip round in the contact
-// time by it, as tangential restitution 1 wants; for less a dashpot stands beside it, and the spring is as
-// much stiffer as keeps that time (S. Luding, Granular Matter 10, 235 (2008), for how a spring with a dashpot
+// Coulomb friction with spins: a tangential spring of the law's ratio to the normal one, which slides at mu
+// times the normal spring's force (after Cundall and Strack 1979). By a ratio of 2/7 solid spheres turn their
+// slip round in the contact time, as tangential restitution 1 wants; by another the slip u of a contact that
+// never slides becomes u cos(pi sqrt(3.5 ratio (1 + (ln(e)/pi)^2))), e the normal restitution. For a smaller
+// tangential restitution a dashpot stands beside it, and the spring is as much stiffer as keeps that time (S.
+// Luding, Granular Matter 10, 235 (2008), for how a spring with a dashpot
 // slides). Why the spring's force alone: the dashpot jumps at touch and pulls at the end, which a sliding
 // limit would see, while over the whole contact its impulse is zero. So what slides throughout takes exactly
 // mu times the normal impulse, and with equal periods what sticks sticks throughout: slip ratios are those of

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "friction.hpp"
+#include "rolling.hpp"
 
 namespace shakedown {
 
@@ -26,6 +27,7 @@ class HalfKick {
         contacts_(run.contacts),
         space_(run.space),
         friction_(model_.law.has_friction()),
+        rolling_(model_.law.resists_rolling()),
         everywhere_(acts_on_every_grain(grain_forces_)),
         box_is_held_(model_.box_mass == 0) {}
 
@@ -84,7 +86,7 @@ class HalfKick {
     const double rate = (bodies_.velocity_of(contact.j) - bodies_.velocity_of(contact.i)).dot(contact.normal);
     const double overlap = contact.touching ? contact.overlap : 0.0;
     double viscous;
-    if (model_.law.push) {
+    if (model_.law.pushes(contact.kind)) {
       const auto push = [&](double at_rate) {
         return model_.law.push(contact.kind, overlap, at_rate, contact.closing_speed, contact.reduced_mass);
       };
@@ -107,6 +109,11 @@ class HalfKick {
       const Vec3 twist = -contact.normal.cross(contact.tangential_force);
       add(space_.torque, contact.i, lever_of_first(bodies_, contact) * twist);
       add(space_.torque, contact.j, lever_of_second(bodies_, contact) * twist);
+    }
+    if (rolling_) {
+      contact.rolling_torque = rolling_torque(model_, bodies_, contact, space_.spin_before, half_step_);
+      add(space_.torque, contact.i, contact.rolling_torque);
+      add(space_.torque, contact.j, -contact.rolling_torque);
     }
     add(space_.force, contact.i, force);
     add(space_.force, contact.j, -force);
@@ -133,6 +140,7 @@ class HalfKick {
       power += contact.tangential_force.dot(relative - rolling.cross(contact.normal));
       let_slide(model_, bodies_, contact);
     }
+    if (rolling_) power += contact.rolling_torque.dot(mean_spin(contact.i) - mean_spin(contact.j));
     accounts.contact_work[static_cast<std::size_t>(contact.kind)] += half_step_ * power;
     if (box_is_held_ && contact.j == bodies_.box())
       accounts.outer_impulse +=
@@ -194,7 +202,7 @@ class HalfKick {
   Bodies& bodies_;
   std::vector<Contact>& contacts_;
   KickSpace& space_;
-  bool friction_, everywhere_, box_is_held_;
+  bool friction_, rolling_, everywhere_, box_is_held_;
 };
 
 void make_room(const Bodies& bodies, const GrainForces& forces, KickSpace& space) {

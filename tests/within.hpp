@@ -1,15 +1,55 @@
 // SPDX-License-Identifier: MIT
-// A comparison whose tolerance is measured: it stands beside the error that was seen, and is at most twenty
-// times as large. A larger one would let a mistake pass.
+// Comparisons of numbers whose tolerance is measured: it stands beside the error that was seen, and is at
+// most twenty times as large, which is checked when the test is compiled. A larger one would let a mistake
+// pass.
+//
+// * A tolerance relative to a scale is written as a ratio: WITHIN(value / scale, expected / scale, 1e-9,
+// 2e-10).
+// * Where nothing but rounding was seen, `seen` is at least one unit in the last place of the numbers
+// compared,
+//   2.2e-16 of them: another processor or compiler may round elsewhere.
+// * Where a number is drawn and its error differs from seed to seed, `seen` is its standard error.
+// * A reading that is rounded, as a paper's "approximately 0.15", has half of its last digit as `seen`.
 #pragma once
 #include <gtest/gtest.h>
 
-/// Does not compile when the tolerance is no such one.
+/// Does not compile when the tolerance is more than twenty times the error that was seen.
 consteval double checked_tolerance(double tolerance, double seen) {
   if (!(tolerance > 0 && tolerance <= 20 * seen)) throw "a tolerance is at most 20 times the error seen";
   return tolerance;
 }
 
-/// |value - expected| <= tolerance; `seen` is the largest error seen when the test was written.
-#define WITHIN(value, expected, tolerance, seen) \
-  EXPECT_NEAR(value, expected, checked_tolerance(tolerance, seen))
+/// The two together, for tables of cases.
+struct Tolerance {
+  double size;
+  consteval Tolerance(double tolerance, double seen) : size(checked_tolerance(tolerance, seen)) {}
+};
+
+/// |value - expected| <= tolerance; `seen` is the largest error seen when the test was written. The two may
+/// be a Tolerance, where cases differ: WITHIN(value, expected, exact ? Tolerance(1e-12, 6e-14) : rough).
+#define WITHIN(value, expected, ...) EXPECT_NEAR(value, expected, Tolerance(__VA_ARGS__).size)
+#define ASSERT_WITHIN(value, expected, ...) ASSERT_NEAR(value, expected, Tolerance(__VA_ARGS__).size)
+
+/// How many standard errors a drawn number may be off; does not compile when it is more than five.
+consteval double checked_errors(double errors) {
+  if (!(errors > 0 && errors <= 5)) throw "a number is at most five standard errors off";
+  return errors;
+}
+
+inline testing::AssertionResult within_errors(const char* value_text, const char* expected_text, const char*,
+                                              const char* error_text, const char*, double value,
+                                              double expected, double errors, double error, double seen) {
+  if (!(error > 0 && error <= 2 * seen))
+    return testing::AssertionFailure() << error_text << " is " << error << ": the standard error seen is "
+                                       << seen << ", and at most twice that is allowed";
+  const double off = (value - expected) / error;
+  if (off >= -errors && off <= errors) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << value_text << " is " << value << ", " << expected_text << " is "
+                                     << expected << ": " << off << " standard errors of " << error
+                                     << " off, more than " << errors;
+}
+
+/// |value - expected| <= errors * error, where the standard error is computed, often by what is tested: it is
+/// at most twice the one `seen`, so that no test passes because an error grew.
+#define WITHIN_ERRORS(value, expected, errors, error, seen) \
+  EXPECT_PRED_FORMAT5(within_errors, value, expected, checked_errors(errors), error, seen)

@@ -24,9 +24,11 @@ namespace shakedown {
 
 namespace {
 
-/// How bad a misfit is, in words, by the error over what noise and run-to-run spread make.
-std::string_view severity(double ratio) {
-  if (ratio < 1.3) return "within the spread";
+/// How bad the misfit of a run is, in words.
+std::string_view severity(const RunComparison& run) {
+  const double ratio = run.error_box / run.floor_box;
+  if (std::isnan(run.chance_box) ? ratio < 1.3 : run.chance_box > features_rejected)
+    return "within the spread";
   if (ratio < 2) return "slight";
   return ratio < 5 ? "clear" : "gross";
 }
@@ -83,7 +85,7 @@ std::string compared_text(const Compared& compared) {
   for (const RunComparison& run : fit.runs)
     text += fmt::format("  {:<16} {:>11.3f} {:>9.3f} {:>14} {:>9}  {}\n", run.run, run.error_box * 1e3,
                         run.floor_box * 1e3, of_centre(run, run.error_centre),
-                        of_centre(run, run.floor_centre), severity(run.error_box / run.floor_box));
+                        of_centre(run, run.floor_centre), severity(run));
   const bool has_ensembles = !last.swing;
   if (has_ensembles)
     text += fmt::format("  whole: p = {:.3f} ({:.2f} times the misfit of the model's own runs)\n",

@@ -268,6 +268,47 @@ void describe(const SelectionProblem& p, const Selection& selection,
   audit.explained = 1 - selection.fit.chi2 / p.problem.impulse().squaredNorm();
 }
 
+/// Of this set, where no set's own noise is counted.
+double log_odds_over_nothing(const std::vector<BalanceHypothesis>& sets, const BalanceHypothesis& one) {
+  const auto same = std::find_if(sets.begin(), sets.end(), [&](const BalanceHypothesis& other) {
+    return std::equal(other.chosen.begin(), other.chosen.end(), one.chosen.begin(), one.chosen.end(),
+                      [](const ChosenTerm& a, const ChosenTerm& b) {
+                        return a.term == b.term && a.frequency == b.frequency;
+                      });
+  });
+  return same == sets.end() ? one.gain / 2 : same->log_odds;
+}
+
+/// Something was found, or the balance is not in order, or the track wanders more than tracks usually do.
+bool is_in_doubt(const SelectionProblem& p, const Selection& selection, const MomentumOptions& options,
+                 double usual) {
+  return selection.chosen.size() > 1 || !(balance_of(selection.fit).p_value >= options.accept_p) ||
+         p.problem.wander().deviation > usual;
+}
+
+/// Forces in no list beside the best set of known strengths.
+struct FormulasTried {
+  FormulaFit fit;
+  double cost_of_known = 0;
+  bool is_better = false;
+};
+
+/// A track that wanders more than tracks do takes up any force: formulas are tried beside the usual one. A
+/// formula that leaves the balance rejected or foretells nothing is no better than known forces that do.
+FormulasTried formulas_beside(SelectionProblem p, const BalanceHypothesis& known, double usual) {
+  p.problem.set_wander({std::min(usual, p.problem.wander().deviation), p.problem.wander().time});
+  p.problem.set_covariance({});
+  const double cost_of_known = cost_of(p, fit_terms(p, known.chosen));
+  FormulasTried tried{fit_formulas(std::move(p)), cost_of_known};
+  const FormulaFit& fit = tried.fit;
+  tried.is_better =
+      !fit.formulas.empty() && fit.cost < cost_of_known - price_of_the_unlisted - 2 * adds_the_unlisted &&
+      balance_of(fit.selection.fit).p_value > balance_rejected &&
+      !imitates_known(fit.problem, fit.selection.chosen) &&
+      chi2_foretold(fit.problem, fit.selection.chosen) < chi2_foretold(fit.problem, known.chosen) - as_good;
+  return tried;
+}
+
 /// With frequency and nuisances alone, or with what the setup says of the frequency.
 BalanceFit without_effects(const SelectionProblem& p, bool free_frequency) {
   return balance_of(
@@ -305,34 +346,22 @@ MomentumAudit linear_audit(const Measurement& measurement, std::span<const Effec
   const std::vector<BalanceHypothesis> sets = with_own_noise(p, weighed->sets);
   Selection selection = fit_terms(p, sets.front().chosen);
   audit.sets = sets_in_words(p, sets, known);
+  audit.log_odds = log_odds_over_nothing(weighed->sets, sets.front());
   audit.alternatives = alternatives_of(p, sets, balance.frequency(), known);
   for (const int term : terms_seen(p)) audit.seen.push_back(p.known[static_cast<std::size_t>(term)].key());
   describe_frequency(selection, balance.frequency(), audit);
   const double usual = usual_wander * balance.noise();
-  const bool in_doubt = selection.chosen.size() > 1 ||
-                        !(balance_of(selection.fit).p_value >= options.accept_p) ||
-                        p.problem.wander().deviation > usual;
-  if (options.formulas && in_doubt && !(options.out_of_time && options.out_of_time())) {
-    // A track that wanders more than tracks do takes up any force: formulas are tried beside the usual one.
-    SelectionProblem q = p;
-    q.problem.set_wander({std::min(usual, p.problem.wander().deviation), p.problem.wander().time});
-    q.problem.set_covariance({});
-    const double cost_of_known = cost_of(q, fit_terms(q, sets.front().chosen));
-    FormulaFit formulas = fit_formulas(q);
-    // A formula that leaves the balance rejected or foretells nothing is no better than known forces that do.
-    audit.unlisted = !formulas.formulas.empty() &&
-                     formulas.cost < cost_of_known - price_of_the_unlisted - 2 * adds_the_unlisted &&
-                     balance_of(formulas.selection.fit).p_value > balance_rejected &&
-                     !imitates_known(formulas.problem, formulas.selection.chosen) &&
-                     chi2_foretold(formulas.problem, formulas.selection.chosen) <
-                         chi2_foretold(formulas.problem, sets.front().chosen) - as_good;
+  if (options.formulas && is_in_doubt(p, selection, options, usual) &&
+      !(options.out_of_time && options.out_of_time())) {
+    FormulasTried tried = formulas_beside(p, sets.front(), usual);
+    audit.unlisted = tried.is_better;
     if (audit.unlisted || !(balance_of(selection.fit).p_value >= options.accept_p))
-      audit.curves = std::move(formulas.curves);
+      audit.curves = std::move(tried.fit.curves);
     if (audit.unlisted) {
-      audit.unlisted_log_odds = (cost_of_known - price_of_the_unlisted - formulas.cost) / 2;
-      audit.formulas = std::move(formulas.formulas);
-      p = std::move(formulas.problem);
-      selection = std::move(formulas.selection);
+      audit.unlisted_log_odds = (tried.cost_of_known - price_of_the_unlisted - tried.fit.cost) / 2;
+      audit.formulas = std::move(tried.fit.formulas);
+      p = std::move(tried.fit.problem);
+      selection = std::move(tried.fit.selection);
     }
   }
   describe(p, selection, sets, known, audit);

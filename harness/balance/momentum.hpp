@@ -113,6 +113,7 @@ struct MomentumAudit {
   std::vector<std::string> seen;                 ///< keys of all strengths that leave a trace in the balance
   std::vector<BalanceAlternative> alternatives;  ///< most probable first
   std::vector<WeighedSet> sets;                  ///< most probable first, those that hold 99 % together
+  double log_odds = 0;                           ///< ln of the first one's probability over that of nothing
   std::vector<NuisanceFound> nuisances;
   Wander wander;           ///< of the track, as the balance shows it
   double white_noise = 0;  ///< m, of a frame, the largest of all runs

@@ -6,6 +6,7 @@
 
 #include "candidates.hpp"
 #include "errors.hpp"
+#include "grain_count.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "last_fit.hpp"
@@ -116,6 +117,19 @@ std::string fewer_grains(const Setup& user, const FittedValue& value) {
   return "N = " + std::to_string(user.grains.count / 2) +
          ": tells the two restitutions apart, which these runs know only together (" + value.key + " +- " +
          write_number(std::round(value.error * 1e3) / 1e3) + ")";
+}
+
+/// A grain too many or too few moves as much mass as a bias of the camera or a heavier blade seems to.
+void advise_to_count(const Setup& user, DiagnosisTools& tools, Diagnosis& d) {
+  const int difference =
+      miscount_in_question(grain_counts(tools.measurement(), tools.known(), d.momentum), d.momentum);
+  if (difference == 0) return;
+  const std::string instead =
+      std::to_string(user.grains.count + difference) + " instead of " + std::to_string(user.grains.count);
+  std::string as_well;
+  for (const FoundTerm& term : d.momentum.terms) as_well += (as_well.empty() ? "" : " + ") + term.effect;
+  d.next_experiments.push_back("count the grains again: " + instead + " close the momentum balance " +
+                               (as_well.empty() ? "better" : "as well as " + as_well));
 }
 
 void advise_by_words(const Setup& user, const DiagnosisState& final, bool refitted, Diagnosis& d) {
@@ -275,6 +289,7 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   complete_ranking(d);
   settle_hypotheses(d, findings);
   d.sentence = sentence_of(d, tools.known());
+  advise_to_count(user, tools, d);
   advise_by_words(user, final, refitted, d);
   advise_by_simulation(final, tools, d);
 }

@@ -54,7 +54,12 @@ extern const EffectRecord grain_cohesion{
     .claims = "attraction of grains",
     .engines = {{"hard", {Fidelity::exact}},
                 {"soft",
-                 {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
+                 {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}},
+                {"lammps",
+                 {Fidelity::to_stated_error,
+                  "pair_style table beside granular, fix addforce at the walls; begins and ends at whole "
+                  "steps, so that the well of one passage is too deep or too shallow by up to the way of a "
+                  "step over the range, right on the average"}}},
     // What matters to moving grains is force times range, and to resting ones the force. Dry and electrified
     // grains attract each other over their roughness, some hundredths of a millimetre; a bridge of liquid
     // reaches to about the cube root of its volume (G. Lian, C. Thornton and M. J. Adams, J. Colloid

@@ -101,7 +101,11 @@ extern const EffectRecord user_force{
           {Fidelity::to_stated_error,
            "on the box: motion dense to 1e-13 of the release displacement; on grains: formulas of t alone, "
            "else --engine soft"}},
-         {"soft", {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}}},
+         {"soft", {Fidelity::to_stated_error, "second order in the time step; the ledger closes to 1e-9"}},
+         {"lammps",
+          {Fidelity::to_stated_error,
+           "a variable: second order in the step in x and t, first in v; no ! and no rarer functions, and "
+           "both branches of a condition must have a value"}}},
     .search = {.not_searched = "A formula has no strength of its own; where no effect of the list fits, a "
                                "diagnosis offers formulas."},
     .apply = &apply_user_force,

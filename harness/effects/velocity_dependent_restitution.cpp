@@ -61,6 +61,14 @@ void apply_viscoelastic(const EffectChoice& choice, Physics& physics) {
   };
 }
 
+/// No contact of LAMMPS remembers the speed at which it began.
+Capability capability_of_restitution(const EffectChoice& choice, std::string_view engine, Capability general) {
+  if (engine != "lammps" || choice.text("law") == "viscoelastic") return general;
+  return {Fidelity::not_modelled,
+          "LAMMPS has no restitution that falls as a power of the speed; take law = \"viscoelastic\", or "
+          "--engine hard or soft"};
+}
+
 void apply_velocity_dependent_restitution(const EffectChoice& choice, int, Physics& physics) {
   choice.text("law") == "power" ? apply_power(choice, physics) : apply_viscoelastic(choice, physics);
 }
@@ -113,9 +121,14 @@ extern const EffectRecord velocity_dependent_restitution{
                  {Fidelity::to_stated_error,
                   "power: linear spring-dashpot of the restitution at the closing speed; viscoelastic: "
                   "Hertz's force "
-                  "itself, first order in the time step"}}},
+                  "itself, first order in the time step"}},
+                {"lammps",
+                 {Fidelity::to_stated_error,
+                  "viscoelastic only: hertz with damping viscoelastic and limit_damping, first order in the "
+                  "time step"}}},
     .search = {.strengths = {{.parameters = "exponent", .strongest = 0.5}}, .hides_in_restitution = true},
     .apply = &apply_velocity_dependent_restitution,
-    .applied_last = true};
+    .applied_last = true,
+    .capability_of = &capability_of_restitution};
 
 }  // namespace shakedown::effect

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "feature_covariance.hpp"
-#include "random.hpp"
 #include "robust_statistics.hpp"
 
 namespace shakedown {
@@ -28,6 +27,8 @@ FitRound::FitRound(const std::vector<MeasuredFeatures>& measured, const std::vec
                  measured[r]);
     Whitened w{Eigen::LLT<Eigen::MatrixXd>(covariance), {}, covariance.diagonal().cwiseSqrt()};
     w.model = w.root.matrixL().solve(emulators_[r].coefficients.transpose());
+    if (measured[r].own.cols() > 0) w.own = w.root.solve(measured[r].own);
+    w.codes = std::pow(options.model_error * measured[r].setup.release.displacement, 2);
     w.chaos =
         w.root.matrixL().solve(unseen(r).transpose()).squaredNorm() / static_cast<double>(unseen(r).rows());
     Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(covariance.rows(), covariance.cols());
@@ -69,45 +70,78 @@ Eigen::VectorXd FitRound::model(std::size_t r, const Eigen::VectorXd& z) const {
   return emulators_[r].coefficients.transpose() * regression_terms(knobs_, z);
 }
 
-void FitRound::calibrate(const Eigen::VectorXd& z, double observed, Refit& result) const {
-  std::vector<double> sums;
-  const std::vector<Cell> cells = cells_of(measured_);
-  Eigen::MatrixXd cell_rows(pseudo_experiments, static_cast<Eigen::Index>(cells.size()));
-  std::vector<Eigen::VectorXd> spreads, residuals(measured_.size());
-  for (const Whitened& w : whitened_) spreads.push_back(w.spread);
-  int worse = 0;
+Eigen::VectorXd FitRound::drawn(std::size_t r, const Eigen::VectorXd& z, Random& random) const {
+  const auto row = static_cast<Eigen::Index>(random.uniform() * static_cast<double>(unseen(r).rows()));
+  Eigen::VectorXd value = model(r, z) + unseen(r).row(row).transpose();
+  for (Eigen::Index f = 0; f < value.size(); ++f)
+    value[f] += measured_[r].plan.features[static_cast<std::size_t>(f)].noise * random.normal();
+  for (Eigen::Index own = 0; own < measured_[r].own.cols(); ++own)
+    value += measured_[r].own.col(own) * random.normal();
+  return value;
+}
+
+PseudoExperiments FitRound::made_by_the_model(const Eigen::VectorXd& z,
+                                              const std::vector<Cell>& cells) const {
+  PseudoExperiments made{{},
+                         Eigen::MatrixXd(pseudo_experiments, std::ssize(cells)),
+                         std::vector(measured_.size(), Eigen::ArrayX2d(pseudo_experiments, 2))};
+  std::vector<Eigen::VectorXd> values(measured_.size()), residuals(measured_.size());
   for (int e = 0; e < pseudo_experiments; ++e) {
     Random random(23, static_cast<std::uint64_t>(e), Stream::bootstrap);
-    std::vector<Eigen::VectorXd> values;
-    for (std::size_t r = 0; r < measured_.size(); ++r) {
-      const auto row = static_cast<Eigen::Index>(random.uniform() * static_cast<double>(unseen(r).rows()));
-      Eigen::VectorXd value = model(r, z) + unseen(r).row(row).transpose();
-      for (Eigen::Index f = 0; f < value.size(); ++f)
-        value[f] += measured_[r].plan.features[static_cast<std::size_t>(f)].noise * random.normal();
-      for (Eigen::Index own = 0; own < measured_[r].own.cols(); ++own)
-        value += measured_[r].own.col(own) * random.normal();
-      values.push_back(std::move(value));
-    }
+    for (std::size_t r = 0; r < measured_.size(); ++r) values[r] = drawn(r, z, random);
     const Objective pseudo = objective_of(values, false);
     const Eigen::VectorXd refitted = minimum_of(pseudo, 2.5, 1, z).z;
-    const double least = pseudo.chi2(refitted);
-    for (std::size_t r = 0; r < measured_.size(); ++r) residuals[r] = values[r] - model(r, refitted);
-    cell_rows.row(e) = cell_sums(cells, residuals, spreads).transpose();
-    sums.push_back(least);
-    worse += least >= observed;
+    made.sums.push_back(pseudo.chi2(refitted));
+    for (std::size_t r = 0; r < measured_.size(); ++r) {
+      residuals[r] = values[r] - model(r, refitted);
+      made.squares[r].row(e) = mean_squares(measured_[r].plan, without_own(r, residuals[r]));
+    }
+    made.cell_rows.row(e) = cell_sums(cells, residuals, spreads()).transpose();
   }
+  return made;
+}
+
+std::vector<Eigen::VectorXd> FitRound::spreads() const {
+  std::vector<Eigen::VectorXd> list;
+  for (const Whitened& w : whitened_) list.push_back(w.spread);
+  return list;
+}
+
+void FitRound::calibrate(const Eigen::VectorXd& z, double observed, Refit& result) const {
+  const std::vector<Cell> cells = cells_of(measured_);
+  PseudoExperiments made = made_by_the_model(z, cells);
+  std::vector<double>& sums = made.sums;
   // A comparison with what is no number counts as neither: no p-value is made of it.
   const bool finite = std::isfinite(observed) &&
                       std::all_of(sums.begin(), sums.end(), [](double sum) { return std::isfinite(sum); });
   if (finite) std::sort(sums.begin(), sums.end());
-  result.p_value = finite ? (1.0 + worse) / (1.0 + pseudo_experiments) : std::nan("");
+  const auto worse = std::count_if(sums.begin(), sums.end(), [&](double sum) { return sum >= observed; });
+  result.p_value = finite ? (1.0 + static_cast<double>(worse)) / (1.0 + pseudo_experiments) : std::nan("");
   result.degrees = sums[sums.size() / 2];
   result.scatter = observed / result.degrees;
   const Eigen::Map<const Eigen::ArrayXd> all(sums.data(), std::ssize(sums));
   const double mean = all.mean(), effective = 2 * mean * mean / (all - mean).square().mean();
   result.far_p_value = std::min(result.p_value, chi_squared_tail(observed * effective / mean, effective));
-  for (std::size_t r = 0; r < measured_.size(); ++r) residuals[r] = measured_[r].values - model(r, z);
-  result.cells = judge_cells(cells, residuals, spreads, cell_rows);
+  std::vector<Eigen::VectorXd> residuals;
+  for (std::size_t r = 0; r < measured_.size(); ++r) residuals.push_back(measured_[r].values - model(r, z));
+  result.cells = judge_cells(cells, residuals, spreads(), made.cell_rows);
+  for (std::size_t r = 0; r < result.runs.size(); ++r) set_floors(r, z, made.squares[r], result.runs[r]);
+}
+
+void FitRound::set_floors(std::size_t r, const Eigen::VectorXd& z, const Eigen::ArrayX2d& squares,
+                          RunComparison& run) const {
+  // The model's mean is as uncertain as its simulations make it; a recording is of another code.
+  const Eigen::VectorXd phi = regression_terms(knobs_, z);
+  const double wider = 1 + phi.dot(emulators_[r].inverse_normal * phi);
+  const Eigen::ArrayX2d errors = (wider * squares + whitened_[r].codes).sqrt();
+  const auto chance = [&](Eigen::Index observable, double error) {
+    return static_cast<double>((errors.col(observable) >= error).count()) / pseudo_experiments;
+  };
+  const auto floor = [&](Eigen::Index observable) {
+    return std::sqrt(errors.col(observable).square().mean());
+  };
+  run.floor_box = floor(0), run.chance_box = chance(0, run.error_box);
+  if (run.floor_centre > 0) run.floor_centre = floor(1), run.chance_centre = chance(1, run.error_centre);
 }
 
 void FitRound::hold_out(Refit& result, const std::vector<JudgingRule>& rules) const {
@@ -224,12 +258,31 @@ std::vector<Eigen::MatrixXd> FitRound::for_means(double model_error) const {
 }
 
 RunComparison FitRound::comparison(std::size_t r, const Eigen::VectorXd& z) const {
-  RunComparison c{measured_[r].run, 0, 0, 0, 0, 0, measured_[r].values - model(r, z), whitened_[r].spread};
+  RunComparison c;
+  c.run = measured_[r].run;
+  c.residual = measured_[r].values - model(r, z);
+  c.spread = whitened_[r].spread;
   const Eigen::VectorXd phi = regression_terms(knobs_, z);
   c.chi2 = whitened_[r].root.matrixL().solve(c.residual).squaredNorm() /
            (1 + whitened_[r].chaos / whitened_[r].expected * phi.dot(emulators_[r].inverse_normal * phi));
-  set_errors(c, measured_[r].plan);
+  set_errors(c, measured_[r].plan, without_own(r, c.residual));
   return c;
+}
+
+Eigen::VectorXd FitRound::without_own(std::size_t r, const Eigen::VectorXd& residual) const {
+  const Eigen::MatrixXd& own = measured_[r].own;
+  if (own.cols() == 0) return residual;
+  return residual - own * (whitened_[r].own.transpose() * residual);
+}
+
+Eigen::Array2d FitRound::mean_squares(const FeaturePlan& plan, const Eigen::VectorXd& left) {
+  Eigen::Array2d sum = Eigen::Array2d::Zero(), count = Eigen::Array2d::Zero();
+  for (Eigen::Index f = 0; f < left.size(); ++f) {
+    const auto observable = static_cast<Eigen::Index>(plan.features[static_cast<std::size_t>(f)].observable);
+    sum[observable] += left[f] * left[f];
+    ++count[observable];
+  }
+  return sum / count.max(1);
 }
 
 std::vector<Validation> FitRound::validation(const RunComparison& run, std::size_t r,
@@ -237,14 +290,12 @@ std::vector<Validation> FitRound::validation(const RunComparison& run, std::size
                                              const Eigen::MatrixXd& covariance) const {
   const Eigen::MatrixXd slopes = emulators_[r].coefficients.transpose() * slopes_at(z);
   const std::vector<Feature>& features = measured_[r].plan.features;
-  // What the run has of its own (an origin that nobody stated) is known as far as the run itself tells it.
-  Eigen::VectorXd left = run.residual, of_own = Eigen::VectorXd::Zero(left.size());
+  const Eigen::VectorXd left = without_own(r, run.residual);
+  Eigen::VectorXd of_own = Eigen::VectorXd::Zero(left.size());
   const Eigen::MatrixXd& own = measured_[r].own;
   if (own.cols() > 0) {
-    const Eigen::MatrixXd weights = whitened_[r].root.solve(own);
     const Eigen::MatrixXd still_open =
-        Eigen::MatrixXd::Identity(own.cols(), own.cols()) - own.transpose() * weights;
-    left -= own * (weights.transpose() * run.residual);
+        Eigen::MatrixXd::Identity(own.cols(), own.cols()) - own.transpose() * whitened_[r].own;
     of_own = (own * still_open).cwiseProduct(own).rowwise().sum().cwiseMax(0);
   }
   std::vector<Validation> rows;

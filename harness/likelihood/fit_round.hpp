@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "objective.hpp"
+#include "random.hpp"
 #include "refit.hpp"
 
 namespace shakedown {
@@ -20,7 +21,16 @@ struct Whitened {
   Eigen::VectorXd spread;
   double chaos =
       0;  ///< mean square of a simulation's whitened chaos, from simulations that the covariance has not seen
-  double expected = 0;  ///< of the whitened sum: chaos and camera noise
+  double expected = 0;    ///< of the whitened sum: chaos and camera noise
+  Eigen::MatrixXd own{};  ///< covariance^-1 times MeasuredFeatures::own
+  double codes = 0;       ///< m^2, variance of what two codes of one physics differ by
+};
+
+/// What recordings that the model itself makes leave when the model is fitted to them.
+struct PseudoExperiments {
+  std::vector<double> sums;              ///< chi2 of each
+  Eigen::MatrixXd cell_rows;             ///< experiments x cells (failure_cells.hpp)
+  std::vector<Eigen::ArrayX2d> squares;  ///< m^2, of each run: experiments x (box, centre), mean squares
 };
 
 /// By which covariance a run's residual is judged.
@@ -45,7 +55,8 @@ class FitRound {
   Eigen::VectorXd model(std::size_t r, const Eigen::VectorXd& z) const;
 
   /// The smallest sum over pseudo-experiments: the model at z, a simulation that the covariance has not seen
-  /// for each run, and camera noise.
+  /// for each run, and camera noise. Their errors are the floors of the runs in `result`, which comparison()
+  /// has made.
   void calibrate(const Eigen::VectorXd& z, double observed, Refit& result) const;
 
   /// Predicts each box length from the others, with the same simulations.
@@ -81,6 +92,22 @@ class FitRound {
 
  private:
   std::vector<Eigen::VectorXd> measured_values() const;
+
+  std::vector<Eigen::VectorXd> spreads() const;
+
+  /// Features of a run that the model at z makes: a simulation that the covariance has not seen, filmed.
+  Eigen::VectorXd drawn(std::size_t r, const Eigen::VectorXd& z, Random& random) const;
+  PseudoExperiments made_by_the_model(const Eigen::VectorXd& z, const std::vector<Cell>& cells) const;
+  /// From the mean squares of box and centre that pseudo-experiments leave.
+  void set_floors(std::size_t r, const Eigen::VectorXd& z, const Eigen::ArrayX2d& squares,
+                  RunComparison& run) const;
+
+  /// A residual less what the run has of its own (release, clock, an origin that nobody stated, the track's
+  /// wander), as far as the run itself tells it.
+  Eigen::VectorXd without_own(std::size_t r, const Eigen::VectorXd& residual) const;
+
+  /// Mean squares (m^2) over the features of box and centre of a run.
+  static Eigen::Array2d mean_squares(const FeaturePlan& plan, const Eigen::VectorXd& left);
 
   /// `measured`: allows for the emulator's own error, which values that it has made itself do not have.
   Objective objective_of(const std::vector<Eigen::VectorXd>& values, bool measured,

@@ -35,13 +35,13 @@ void set_value(const Knob& knob, double at, FittedValue& value) {
 
 void judge_at(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z, Refit& result) {
   result.chi2 = round.objective().chi2(z);
-  round.calibrate(z, result.chi2, result);
   result.runs.clear();
   const Eigen::MatrixXd covariance = round.covariance_at(z, reach);
   for (std::size_t r = 0; r < runs; ++r) {
     result.runs.push_back(round.comparison(r, z));
     result.runs.back().validation = round.validation(result.runs.back(), r, z, covariance);
   }
+  round.calibrate(z, result.chi2, result);
 }
 
 /// The emulator promised much more than its solution keeps.
@@ -256,11 +256,11 @@ Refit refit_by_rounds(const std::vector<MeasuredFeatures>& measured, std::vector
 
 }  // namespace
 
-void set_errors(RunComparison& run, const FeaturePlan& plan) {
+void set_errors(RunComparison& run, const FeaturePlan& plan, const Eigen::VectorXd& left) {
   std::array<double, 2> squares{}, spread{}, count{};
   for (Eigen::Index f = 0; f < run.residual.size(); ++f) {
     const auto observable = static_cast<std::size_t>(plan.features[static_cast<std::size_t>(f)].observable);
-    squares[observable] += run.residual[f] * run.residual[f];
+    squares[observable] += left[f] * left[f];
     spread[observable] += run.spread[f] * run.spread[f];
     ++count[observable];
   }

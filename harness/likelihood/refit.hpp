@@ -22,16 +22,23 @@ struct FittedValue {
 /// How one measured run compares with the model at the fit.
 struct RunComparison {
   std::string run;
-  double error_box = 0, error_centre = 0;  ///< m, rms of measured less mean of the model
-  double floor_box = 0, floor_centre = 0;  ///< m, what noise and chaos from run to run make
+  /// m, rms of measured less mean of the model, with what the run has of its own (release, clock, the track's
+  /// wander) where the run itself puts it.
+  double error_box = 0, error_centre = 0;
+  /// m, the same of recordings that the model itself makes, refitted: rms over pseudo-experiments. Of a run
+  /// that was only foretold, by the covariance.
+  double floor_box = 0, floor_centre = 0;
+  /// Share of these recordings that leave as much as was measured; NaN where there are none.
+  double chance_box = std::numeric_limits<double>::quiet_NaN(), chance_centre = chance_box;
   double chi2 = 0;
   Eigen::VectorXd residual;              ///< m, each feature
   Eigen::VectorXd spread;                ///< m, its expected standard deviation
   std::vector<Validation> validation{};  ///< of each observable; empty where it was only foretold
 };
 
-/// Fills in errors and floors, rms over the features of each observable, from residual and spread.
-void set_errors(RunComparison& run, const FeaturePlan& plan);
+/// Fills in errors and floors, rms over the features of each observable, from what is left (m, of each
+/// feature) and the spread.
+void set_errors(RunComparison& run, const FeaturePlan& plan, const Eigen::VectorXd& left);
 
 /// For the judgement: box and centre of all runs, then the rows of their validation.
 std::vector<Difference> differences_of(const std::vector<RunComparison>& runs);

@@ -77,7 +77,7 @@ RunComparison foretold(const MeasuredFeatures& measured, const std::vector<Knob>
   run.residual = measured.values - emulator.coefficients.row(0).transpose();
   run.spread = whole.diagonal().cwiseSqrt();
   run.chi2 = run.residual.dot(whole.ldlt().solve(run.residual));
-  set_errors(run, measured.plan);
+  set_errors(run, measured.plan, run.residual);
   return run;
 }
 

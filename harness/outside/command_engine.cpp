@@ -39,7 +39,7 @@ class CommandEngine final : public Engine {
     const auto started = std::chrono::steady_clock::now();
     const Physics physics = physics_of(setup);
     const State initial = initial_state(setup, options.run);
-    const WorkFolder folder(kept_folder(options.run));
+    const WorkFolder folder(kept_folder(std::filesystem::path(words_[0]).filename().string(), options.run));
     folder.write("setup.json", command_question(setup, physics, initial, options.run));
     std::error_code ignored;
     std::filesystem::remove(folder / "motion.csv", ignored);  // of an earlier run that was kept
@@ -73,7 +73,7 @@ class CommandEngine final : public Engine {
             "choose another engine with --engine, or a setup that it models"}});
     throw PhysicsError(
         fmt::format("engine '{}': the command {}; standard error: {}\n"
-                    "SHAKEDOWN_KEEP=DIR keeps its files.",
+                    "--keep DIR keeps its files.",
                     name_, in_words(end), said.empty() ? "empty" : printable(said)));
   }
 

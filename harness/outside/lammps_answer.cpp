@@ -22,8 +22,7 @@ constexpr std::size_t columns_before_accounts = 5;
 [[noreturn]] void fail(const WorkFolder& folder, const char* file, const std::string& problem) {
   throw PhysicsError(
       fmt::format("engine 'lammps': {}: {}. Use a shorter soft.contact_time or more soft.steps_per_contact; "
-                  "SHAKEDOWN_KEEP=DIR in the environment "
-                  "keeps the files.",
+                  "--keep DIR keeps the files.",
                   (folder / file).filename().string(), problem));
 }
 

@@ -8,6 +8,7 @@
 
 #include "child_program.hpp"
 #include "lammps_answer.hpp"
+#include "lammps_contacts.hpp"
 #include "lammps_script.hpp"
 #include "work_folder.hpp"
 
@@ -72,9 +73,10 @@ class LammpsEngine final : public Engine {
     const Physics physics = physics_of(setup);
     const State initial = initial_state(setup, options.run);
     const LammpsScript script = lammps_script(setup, physics, initial);
-    const WorkFolder folder(kept_folder(options.run));
+    const WorkFolder folder(kept_folder("lammps", options.run));
     folder.write(lammps_script_file, script.text);
     folder.write(lammps_bodies_file, script.bodies);
+    if (!script.table.empty()) folder.write(lammps_table_file, script.table);
     execute(program, folder, lammps_steps(setup), options);
     Trajectory trajectory = lammps_answer(folder, setup, physics, initial, script);
     trajectory.wall_seconds =
@@ -99,7 +101,7 @@ class LammpsEngine final : public Engine {
       throw PhysicsError(
           fmt::format("engine 'lammps': {} {} at t = {:.6g} s; {}\nUse a shorter soft.contact_time where "
                       "bodies are lost; "
-                      "SHAKEDOWN_KEEP=DIR in the environment keeps the script.",
+                      "--keep DIR keeps the script.",
                       program, in_words(end), lammps_time_so_far(folder, steps), complaint(folder)));
   }
 };

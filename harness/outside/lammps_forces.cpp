@@ -7,6 +7,8 @@
 #include <map>
 #include <numbers>
 
+#include "lammps_formula.hpp"
+
 namespace shakedown {
 
 namespace {
@@ -33,6 +35,7 @@ class Forces {
         accelerate(share.strength, "", share.effect);
       for (const GrainForces::HarmonicVector& wave : physics_.grains.harmonics)
         accelerate(wave.amplitude, sine(wave.frequency, wave.phase), wave.effect);
+      push_grains();
     }
     for (const auto& [effect, formula] : powers_) forces_.powers.push_back({formula, effect});
     return std::move(forces_);
@@ -73,9 +76,43 @@ class Forces {
     const EffectChoice& choice = setup_.effects[static_cast<std::size_t>(effect)];
     if (choice.record->name == "blade_quadratic_drag")
       return fmt::format("-{}*v_box_v*abs(v_box_v)", choice.number("drag"));
+    if (choice.record->name == "user_force") return formula_of(choice, {"v_box_x", "v_box_v", "(step*dt)"});
+    if (choice.record->name == "pendulum")
+      return fmt::format("{0}*(v_box_x-{1}*sin(v_box_x/{1}))", physics_.stiffness, choice.number("length"));
+    if (choice.record->name == "second_mode")
+      return fmt::format("({})*exp(-{}*step*dt)*{}", physics_.box_mass * choice.number("amplitude"),
+                         choice.number("rate"), sine(choice.number("frequency"), choice.number("phase")));
     EXPECT(choice.record->name == "spring_quadratic");
     return fmt::format("({})*v_box_x^2",
                        -physics_.stiffness * choice.number("coefficient") / choice.number("reference"));
+  }
+
+  static std::string formula_of(const EffectChoice& choice, const LammpsNames& names) {
+    try {
+      return lammps_formula(choice.text("force"), choice.constants("constants"), names);
+    } catch (const LammpsFormulaProblem& problem) {
+      throw InputError(
+          {{choice.place, "user_force.force", "cannot be told to engine 'lammps': " + problem.text,
+            "write it with + - * / ^, comparisons, sin, cos, exp, sqrt, abs, tanh, min, max, "
+            "or use --engine hard or soft"}});
+    }
+  }
+
+  /// Formulas on the grains: each at its own place and speed, along x.
+  void push_grains() {
+    for (const FreeForce& force : physics_.grains.free) {
+      const EffectChoice& choice = setup_.effects[static_cast<std::size_t>(force.effect)];
+      const int n = ++count_;
+      forces_.on_grains.push_back(
+          fmt::format("variable        formula_{} atom {}", n, formula_of(choice, {"x", "vx", "(step*dt)"})));
+      forces_.on_grains.push_back(fmt::format(
+          "fix             formula_{0} grains addforce v_formula_{0} 0 0   # {1}", n, choice.record->label));
+      forces_.on_grains.push_back(
+          fmt::format("variable        formula_power_{0} atom v_formula_{0}*vx\n"
+                      "compute         formula_{0} grains reduce sum v_formula_power_{0}",
+                      n));
+      does_work(fmt::format("c_formula_{}", n), force.effect);
+    }
   }
 
   void accelerate(const Vec3& acceleration, const std::string& wave, int effect) {

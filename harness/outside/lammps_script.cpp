@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "lammps_accounts.hpp"
+#include "lammps_contacts.hpp"
 #include "lammps_forces.hpp"
-#include "spring_dashpot.hpp"
 
 namespace shakedown {
 
@@ -36,7 +36,7 @@ class Writer {
     accounts_ = lammps_accounts({physics_.contact.has_friction(), grains_ > 0, setup_.grains.diameter / 2},
                                 forces_, text_);
     output();
-    return {std::move(text_), bodies(), std::move(accounts_)};
+    return {std::move(text_), bodies(), std::move(table_), std::move(accounts_)};
   }
 
  private:
@@ -77,36 +77,16 @@ class Writer {
     }
   }
 
-  double reduced_mass(ContactClass kind) const {
-    const double m = initial_.mass.front(), box = physics_.box_mass;
-    if (kind == ContactClass::grain_grain) return m / 2;
-    return kind == ContactClass::end_wall && !held_ ? m * box / (m + box) : m;
-  }
-
-  /// "hooke k gamma damping velocity tangential ..."
-  std::string law(ContactClass kind) const {
-    const auto index = static_cast<std::size_t>(kind);
-    const SpringDashpot contact =
-        spring_dashpot(physics_.contact.restitution[index], reduced_mass(kind), setup_.soft.contact_time);
-    std::string words = fmt::format("hooke {} {} damping velocity ", contact.stiffness, contact.damping);
-    const double friction = physics_.contact.friction[index];
-    if (friction == 0) return words + "tangential linear_nohistory 0 0";
-    return words + fmt::format("tangential linear_history {} 0 {}", 2.0 / 7 * contact.stiffness, friction);
-  }
-
   void contacts() {
+    const LammpsContacts words(setup_, physics_, initial_, held_);
+    table_ = words.table();
     const double length = setup_.box.length / 2;
     const auto [y, z] = setup_.box.width;
     const std::string move = held_ ? "" : " move v_shift NULL NULL",
                       slide = held_ || !physics_.contact.has_friction() ? "" : move;
-    say("\n# Contacts: spring (N/m) and dashpot (N s/m) of a duration of {} s and the restitution {}. "
-        "`velocity`: the dashpot is not multiplied by a mass.",
-        setup_.soft.contact_time, physics_.contact.restitution[0]);
-    if (physics_.contact.has_friction())
-      say("# Friction: a tangential spring of 2/7 of the normal one, which slides at mu times the normal "
-          "force.");
-    say("pair_style      granular");
-    say("pair_coeff      * * {}", law(ContactClass::grain_grain));
+    say("");
+    for (const std::string& remark : words.remarks()) say("{}", remark);
+    for (const std::string& line : words.pairs()) say("{}", line);
     say("neighbor        {} bin", 0.2 * setup_.grains.diameter);
     say("neigh_modify    delay 0 every 1 check yes exclude type 1 2   # no grain touches the point that is "
         "the box");
@@ -124,14 +104,21 @@ class Writer {
         "differences are the share of each kind of contact.");
     say("fix             sum_pairs grains store/force");
     say("fix             w_ends grains wall/gran/region granular {} region ends",
-        law(ContactClass::end_wall));
+        words.law(ContactClass::end_wall));
+    pull(words, 0);
     say("fix             sum_ends grains store/force");
     say("fix             w_y grains wall/gran/region granular {} region sides_y",
-        law(ContactClass::side_wall));
+        words.law(ContactClass::side_wall));
+    pull(words, 1);
     if (physics_.contact.has_friction()) say("fix             sum_y grains store/force");
     say("fix             w_z grains wall/gran/region granular {} region sides_z",
-        law(ContactClass::side_wall));
+        words.law(ContactClass::side_wall));
+    pull(words, 2);
     say("fix             sum_all grains store/force");
+  }
+
+  void pull(const LammpsContacts& words, int axis) {
+    for (const std::string& line : words.walls_pull(axis)) say("{}", line);
   }
 
   void box() {
@@ -230,7 +217,7 @@ class Writer {
   int grains_;
   LammpsForces forces_;
   std::vector<LammpsAccount> accounts_;
-  std::string text_;
+  std::string text_, table_;
 };
 
 }  // namespace

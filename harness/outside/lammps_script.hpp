@@ -34,6 +34,7 @@ struct LammpsAccount {
 struct LammpsScript {
   std::string text;    ///< in.lammps
   std::string bodies;  ///< bodies.data
+  std::string table;   ///< attraction.table; empty: there is none
   /// Columns of motion.csv after step, x_box (m), v_box (m/s), centre of the grains (m), their kinetic energy
   /// with spin (J): of each account the mean over the steps of the sample and the value at the last one, W.
   std::vector<LammpsAccount> accounts;

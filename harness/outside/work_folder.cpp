@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <mutex>
 #include <system_error>
 
 #include "errors.hpp"
@@ -43,10 +45,26 @@ void WorkFolder::write(const std::string& name, std::string_view contents) const
                     "). Free space, or set TMPDIR to another folder.");
 }
 
-std::filesystem::path kept_folder(int run) {
-  const char* folder = std::getenv("SHAKEDOWN_KEEP");
-  if (folder == nullptr || *folder == '\0') return {};
-  return std::filesystem::path(folder) / ("run_" + std::to_string(run));
+namespace {
+
+std::filesystem::path asked_for;
+std::mutex names_in_use;
+
+}  // namespace
+
+void keep_outside_files(const std::filesystem::path& folder) { asked_for = folder; }
+
+std::filesystem::path kept_folder(const std::string& program, int run) {
+  const char* variable = std::getenv("SHAKEDOWN_KEEP");
+  std::filesystem::path folder = asked_for;
+  if (folder.empty() && variable != nullptr) folder = variable;
+  if (folder.empty()) return {};
+  folder = folder / program / ("run_" + std::to_string(run));
+  static std::map<std::filesystem::path, int> used;
+  const std::scoped_lock lock(names_in_use);
+  const int before = used[folder]++;
+  if (before > 0) folder += "_" + std::to_string(before + 1);
+  return folder;
 }
 
 std::string contents_of(const std::filesystem::path& file) {

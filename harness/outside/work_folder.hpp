@@ -27,8 +27,14 @@ class WorkFolder {
   bool temporary_ = false;
 };
 
-/// The folder that the environment variable SHAKEDOWN_KEEP asks for, for this run: "DIR/run_0"; empty: none.
-std::filesystem::path kept_folder(int run);
+/// From now on the files of outside programs stay in this folder, made when it is missing; empty: as the
+/// environment variable SHAKEDOWN_KEEP says, which names one too. Called before any run begins.
+void keep_outside_files(const std::filesystem::path& folder);
+
+/// Where the files of this run are to stay: "DIR/lammps/run_0", `program` without a path. A second run of
+/// that name in this process (of another setup) gets "run_0_2", so that none is written over. Empty: nowhere.
+/// Thread-safe.
+std::filesystem::path kept_folder(const std::string& program, int run);
 
 /// The whole file; empty when there is none.
 std::string contents_of(const std::filesystem::path& file);

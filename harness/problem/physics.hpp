@@ -52,6 +52,15 @@ struct ContactLaw {
   /// Restitution at closing speed v > 0 (m/s) at first touch; empty: the constant above. The hard engine's
   /// view (rebound).
   std::function<double(ContactClass, double closing_speed)> restitution_at;
+  /// The side walls' own restitution at closing speed v (m/s), whatever the law of the other contacts, also
+  /// of `push`; empty: theirs.
+  std::function<double(double closing_speed)> side_wall_restitution_at;
+  /// What the above give at this closing speed (m/s).
+  double restitution_of(ContactClass kind, double closing_speed) const {
+    if (kind == ContactClass::side_wall && side_wall_restitution_at)
+      return side_wall_restitution_at(closing_speed);
+    return restitution_at ? restitution_at(kind, closing_speed) : restitution[static_cast<std::size_t>(kind)];
+  }
   /// Soft engine's own normal force (push), N, repulsive positive, from overlap > 0 (m), its rate (m/s) and
   /// the closing speed at first touch; empty: linear spring-dashpot that gives the restitution above at that
   /// speed.
@@ -61,10 +70,26 @@ struct ContactLaw {
   /// Elastic energy stored by `push` at this overlap, J.
   std::function<double(ContactClass, double overlap, double closing_speed, double reduced_mass)>
       stored_energy;
+  /// Whether `push` is the normal force of this kind of contact.
+  bool pushes(ContactClass kind) const {
+    return push && !(kind == ContactClass::side_wall && side_wall_restitution_at);
+  }
 
   std::array<double, contact_classes> friction{0, 0, 0};  ///< Coulomb coefficient
   double tangential_restitution = 1;  ///< slip reversed times this where friction suffices
+  /// Tangential spring over the normal one. With 2/7 the slip of solid spheres has turned round when the
+  /// contact ends.
+  double stiffness_ratio = turning_ratio;
+  static constexpr double turning_ratio = 2.0 / 7;
   bool has_friction() const { return friction[0] > 0 || friction[1] > 0 || friction[2] > 0; }
+
+  /// Torque against the relative rolling over reduced radius times normal force. Grains roll where there is
+  /// friction: without it nothing turns them.
+  std::array<double, contact_classes> rolling_resistance{0, 0, 0};
+  bool resists_rolling() const {
+    return has_friction() &&
+           (rolling_resistance[0] > 0 || rolling_resistance[1] > 0 || rolling_resistance[2] > 0);
+  }
 
   double attraction_force = 0;     ///< N, constant attraction up to a gap of
   double attraction_range = 0;     ///< m

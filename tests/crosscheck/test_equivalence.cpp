@@ -6,15 +6,17 @@
 #include <cmath>
 
 #include "distributions.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
 TEST(Equivalence, WelchsIntervalByHand) {
   // a + b = 0.02 + 0.08 = 0.1, degrees of freedom 0.01 / (0.0004/4 + 0.0064/9) = 12.3288
   const Equivalence found = equivalence_of({1.0, std::sqrt(0.1), 5}, {0.7, std::sqrt(0.8), 10}, 5);
-  EXPECT_NEAR(found.standard_error, std::sqrt(0.1), 1e-12);
-  EXPECT_NEAR((found.high - found.low) / 2, student_95(0.01 / (0.0001 + 0.0064 / 9)) * std::sqrt(0.1), 1e-9);
-  EXPECT_NEAR(found.difference, 0.3, 1e-12);
+  WITHIN(found.standard_error, std::sqrt(0.1), 1e-15, 7.1e-17);
+  WITHIN((found.high - found.low) / 2, student_95(0.01 / (0.0001 + 0.0064 / 9)) * std::sqrt(0.1), 9e-15,
+         4.5e-16);
+  WITHIN(found.difference, 0.3, 1e-15, 6.7e-17);
 }
 
 TEST(Equivalence, CloseMeansAndLittleSpreadAreEquivalent) {

@@ -7,6 +7,7 @@
 
 #include "decay_baselines.hpp"
 #include "engines.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -64,9 +65,9 @@ TEST(LinearDecay, BaselinesReadBackAsWritten) {
   const std::vector<DecayBaseline> read = read_decay_baselines(file);
   const DecayBaseline* found = find_baseline(read, "hard", 0.065);
   ASSERT_NE(found, nullptr);
-  EXPECT_NEAR(found->slope.low, baseline.slope.low, 1e-12);
-  EXPECT_NEAR(found->curvature.high, baseline.curvature.high, 1e-12);
-  EXPECT_NEAR(found->slope_found.mean, -0.018, 1e-12);
+  WITHIN(found->slope.low, baseline.slope.low, 1e-12, 2.5e-13);
+  WITHIN(found->curvature.high, baseline.curvature.high, 1e-12, 4.9e-13);
+  WITHIN(found->slope_found.mean, -0.018, 8e-17, 4e-18);
   EXPECT_EQ(found->slope_found.n, 16);
   EXPECT_EQ(found->version, "0.1.0");
   EXPECT_EQ(find_baseline(read, "soft", 0.065), nullptr);

@@ -16,6 +16,7 @@
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
 #include "value_reading.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -370,11 +371,12 @@ TEST(RecordList, PolydisperseGrainsKeepTheirTotalMass) {
   for (std::size_t i = 0; i < one.size(); ++i) {
     mass += one.mass[i];
     spread += std::pow(one.radius[i] / 0.005 - 1, 2);
-    EXPECT_NEAR(one.mass[i] / std::pow(one.radius[i], 3), one.mass[0] / std::pow(one.radius[0], 3), 1e-6);
+    WITHIN(one.mass[i] / std::pow(one.radius[i], 3), one.mass[0] / std::pow(one.radius[0], 3), 3e-10,
+           1.5e-11);
     EXPECT_LE(std::abs(one.radius[i] / 0.005 - 1), 0.125);
   }
-  EXPECT_NEAR(mass, 37 * 4.04e-3, 1e-15);
-  EXPECT_NEAR(std::sqrt(spread / 37), 0.05, 0.015);
+  WITHIN(mass, 37 * 4.04e-3, 6e-16, 3.4e-17);
+  WITHIN(std::sqrt(spread / 37), 0.05, 0.015, 0.0058);  // standard error
   EXPECT_NE(one.radius[0], other.radius[0]);
 }
 

@@ -8,6 +8,7 @@
 #include "random.hpp"
 #include "setup_file.hpp"
 #include "viscoelastic_contact.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -47,7 +48,8 @@ Impact impact(const Physics& physics, ContactClass kind, double speed, double ma
 TEST(ViscoelasticContact, FollowsThePublishedSeriesForSmallLosses) {
   for (const double b : {1e-4, 3e-4, 1e-3}) {
     const double series = 1 - 1.15344 * b + 0.79826 * b * b;  // Ramirez et al. 1999, their C1 and C2
-    EXPECT_NEAR(solved_viscoelastic_restitution(b), series, 6 * b * b * b + 1e-5 * b) << b;
+    const double left_out = 6 * b * b * b + 1e-5 * b;
+    WITHIN((solved_viscoelastic_restitution(b) - series) / left_out, 0, 1, 0.86) << b;
   }
   EXPECT_EQ(solved_viscoelastic_restitution(0), 1);
 }
@@ -56,10 +58,10 @@ TEST(ViscoelasticContact, TableFollowsTheIntegration) {
   Random random(1, 0, Stream::other);
   for (int i = 0; i < 300; ++i) {
     const double b = 36 * std::pow(random.uniform(), 3);
-    EXPECT_NEAR(viscoelastic_restitution(b), solved_viscoelastic_restitution(b), 1e-10) << b;
+    WITHIN(viscoelastic_restitution(b), solved_viscoelastic_restitution(b), 1e-10, 1e-11) << b;
   }
   for (const double restitution : {0.999, 0.9, 0.75, 0.3, 0.01})
-    EXPECT_NEAR(viscoelastic_restitution(viscoelastic_damping(restitution)), restitution, 1e-14);
+    WITHIN(viscoelastic_restitution(viscoelastic_damping(restitution)), restitution, 6e-15, 3.4e-16);
 }
 
 TEST(VelocityDependentRestitution, PowerLaw) {
@@ -80,13 +82,13 @@ TEST(VelocityDependentRestitution, PowerLaw) {
 
 TEST(VelocityDependentRestitution, ViscoelasticLawHoldsTheSetupsValueAtTheReferenceSpeed) {
   const Physics physics = physics_with({{effect + "law", "viscoelastic"}});
-  EXPECT_NEAR(physics.contact.restitution_at(ContactClass::grain_grain, 0.3), 0.75, 1e-14);
-  EXPECT_NEAR(physics.contact.restitution_at(ContactClass::side_wall, 0.3), 0.76, 1e-14);
+  WITHIN(physics.contact.restitution_at(ContactClass::grain_grain, 0.3), 0.75, 4e-15, 2.3e-16);
+  WITHIN(physics.contact.restitution_at(ContactClass::side_wall, 0.3), 0.76, 6e-15, 3.4e-16);
   EXPECT_EQ(physics.contact.restitution_at(ContactClass::grain_grain, 0), 1);
   // 1 - eps goes as v^(1/5) where losses are small.
   const double slow = 1 - physics.contact.restitution_at(ContactClass::grain_grain, 0.3e-10);
   const double slower = 1 - physics.contact.restitution_at(ContactClass::grain_grain, 0.3e-15);
-  EXPECT_NEAR(std::log10(slow / slower) / 5, 0.2, 1e-3);
+  WITHIN(std::log10(slow / slower) / 5, 0.2, 1e-3, 1.5e-4);
 }
 
 TEST(VelocityDependentRestitution, BothViewsOfTheViscoelasticLawAgree) {
@@ -94,15 +96,15 @@ TEST(VelocityDependentRestitution, BothViewsOfTheViscoelasticLawAgree) {
   for (const double speed : {0.01, 0.3, 1.2})
     for (const double mass : {2.02e-3, 4.04e-3}) {
       const Impact seen = impact(physics, ContactClass::grain_grain, speed, mass);
-      EXPECT_NEAR(seen.restitution, physics.contact.restitution_at(ContactClass::grain_grain, speed), 1e-6)
+      WITHIN(seen.restitution, physics.contact.restitution_at(ContactClass::grain_grain, speed), 1e-6, 5e-8)
           << speed;
-      EXPECT_NEAR(seen.energy_error, 0, 1e-6) << speed;
+      WITHIN(seen.energy_error, 0, 5e-8, 2.9e-9) << speed;
     }
 }
 
 TEST(VelocityDependentRestitution, AnElasticViscoelasticContactLastsTheContactTimeAtTheReferenceSpeed) {
   const Physics physics = physics_with({{effect + "law", "viscoelastic"}, {"restitution.grain_grain", "1"}});
   const Impact seen = impact(physics, ContactClass::grain_grain, 0.3, 2.02e-3);
-  EXPECT_NEAR(seen.duration, physics.soft_contact_time, 1e-3 * physics.soft_contact_time);
-  EXPECT_NEAR(seen.restitution, 1, 1e-7);
+  WITHIN(seen.duration / physics.soft_contact_time, 1, 1e-3, 5.1e-5);
+  WITHIN(seen.restitution, 1, 4e-11, 2.2e-12);
 }

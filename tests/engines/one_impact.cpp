@@ -208,7 +208,7 @@ Motion by_rigid_bodies(const Encounter& it) {
   return pushed(it, needed.norm() <= allowed ? needed : Vec3(needed * (allowed / needed.norm())));
 }
 
-double by_tangential_spring(const Encounter& it, double tangential_stiffness) {
+double by_tangential_spring(const Encounter& it) {
   const Vec3 slipping = it.slip();
   const double before = slipping.norm(), duration = it.contact_time, mass = it.reduced_mass();
   if (before == 0 || it.friction == 0) return 1;
@@ -217,7 +217,7 @@ double by_tangential_spring(const Encounter& it, double tangential_stiffness) {
   const double stiffness = mass * (rate * rate + decay * decay);
   const double across = -std::log(std::max(it.tangential_restitution, 1e-4)) / duration;
   const double dashpot = 4.0 / 7 * mass * across,
-               spring = tangential_stiffness * (stiffness + mass * across * across);
+               spring = it.stiffness_ratio * stiffness + 2.0 / 7 * mass * across * across;
   constexpr int steps = 10000;
   const double step = duration / steps;
   double slip = before, stretch = 0;
@@ -258,7 +258,14 @@ Setup setup_of(const Encounter& it) {
     friction.values.insert_or_assign("grain_grain", it.friction);
     friction.values.insert_or_assign("grain_wall", it.friction);
     friction.values.insert_or_assign("tangential_restitution", it.tangential_restitution);
+    friction.values.insert_or_assign("stiffness_ratio", it.stiffness_ratio);
     setup.effects.push_back(friction);
+  }
+  if (it.rolling_resistance > 0) {
+    EffectChoice rolling = with_defaults(*find_effect("grain_rolling_resistance"));
+    rolling.values.insert_or_assign("grain_grain", it.rolling_resistance);
+    rolling.values.insert_or_assign("grain_wall", it.rolling_resistance);
+    setup.effects.push_back(rolling);
   }
   if (it.hertz_stiffness > 0) {
     EffectChoice hertz{&hertz_law(), {}, {}};

@@ -28,7 +28,8 @@ struct Encounter {
   Vec3 velocity = Vec3::Zero();  ///< of the sphere relative to its partner
   Vec3 spin = Vec3::Zero(), other_spin = Vec3::Zero();
   double restitution = 0.75;  ///< that was asked
-  double friction = 0, tangential_restitution = 1;
+  double friction = 0, tangential_restitution = 1, stiffness_ratio = ContactLaw::turning_ratio;
+  double rolling_resistance = 0;
   double contact_time = 3e-4;  ///< of the soft engine
   double steps_per_contact = 50;
   double phase = 0.37;         ///< share of a step that is over at first touch
@@ -61,9 +62,8 @@ Motion pushed(const Encounter& encounter, const Vec3& across);
 /// the normal impulse where that is less (O. R. Walton and R. L. Braun, J. Rheol. 30, 949 (1986)).
 Motion by_rigid_bodies(const Encounter& encounter);
 /// Slip after the impact over slip before, by the soft engine's law as documented (softsphere/friction.hpp)
-/// for a contact too short to turn: integrated here in many small steps, with no code of the engine. The
-/// engine has a tangential spring of 2/7 of the normal one, elastic bodies one of 2 (1 - nu) / (2 - nu).
-double by_tangential_spring(const Encounter& encounter, double tangential_stiffness = 2.0 / 7);
+/// for a contact too short to turn: integrated here in many small steps, with no code of the engines.
+double by_tangential_spring(const Encounter& encounter);
 /// The motion with this much of the slip left.
 Motion with_slip_left(const Encounter& encounter, double share);
 

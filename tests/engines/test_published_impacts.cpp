@@ -79,8 +79,7 @@ TEST(PublishedImpact, SlidesAtTheAnglesOfChungAndOoi) {
   }
 }
 
-/// From 49 degrees on what Kharaz, Gorham and Salman measured left 1 to 2 degrees farther out. Below 32 no
-/// engine of ours makes what they saw; a tangential spring as stiff as that of elastic bodies would.
+/// From 49 degrees on what Kharaz, Gorham and Salman measured left 1 to 2 degrees farther out.
 TEST(PublishedImpact, SlidesAtTheAnglesOfKharazWhereNothingSticks) {
   for (const auto& figure : published::measured_angles) {
     const Encounter it = oblique_impact(figure.degrees);
@@ -89,9 +88,30 @@ TEST(PublishedImpact, SlidesAtTheAnglesOfKharazWhereNothingSticks) {
       if (figure.degrees < 32.5) continue;
       WITHIN(rebound(engine, it, 1).contact_degrees, figure.contact_degrees, 3, 2.0) << engine;
     }
-    const double elastic = by_tangential_spring(it, 2 * (1 - 0.23) / (2 - 0.23));
-    if (figure.degrees > 32.5) continue;
-    WITHIN(rebound_of(it, with_slip_left(it, elastic)).contact_degrees, figure.contact_degrees, 2, 0.98);
+  }
+}
+
+/// Below 32 degrees surfaces give way sideways. With the tangential spring of elastic bodies of alumina
+/// (Poisson's ratio 0.23) hard and soft leave as what was measured, with nothing fitted; with that of 2/7
+/// they are 5.6 degrees off (root of the mean square).
+TEST(PublishedImpact, LeavesAtTheAnglesOfKharazWithTheSpringOfElasticBodies) {
+  for (const char* engine : {"hard", "soft"}) {
+    double squares = 0, rigid_squares = 0;
+    int angles = 0;
+    for (const auto& figure : published::measured_angles) {
+      Encounter it = oblique_impact(figure.degrees);
+      if (figure.degrees > 32.5) continue;
+      const double rigid = rebound(engine, it, 1).contact_degrees - figure.contact_degrees;
+      it.stiffness_ratio = 2 * (1 - 0.23) / (2 - 0.23);
+      SCOPED_TRACE(figure.degrees);
+      const double seen = rebound(engine, it, 1).contact_degrees;
+      WITHIN(seen, figure.contact_degrees, 2, 0.98) << engine;
+      squares += std::pow(seen - figure.contact_degrees, 2);
+      rigid_squares += rigid * rigid;
+      ++angles;
+    }
+    WITHIN(std::sqrt(squares / angles), 0.7, 0.2, 0.025) << engine;
+    WITHIN(std::sqrt(rigid_squares / angles), 5.6, 0.3, 0.021) << engine;
   }
 }
 
@@ -128,7 +148,7 @@ TEST(PublishedImpact, SpinsSlideOnPlanesAndLargeSpheres) {
       WITHIN(on_plane, on_sphere, 2e-4, 2.2e-5);
       if (figure.degrees < 65) continue;
       WITHIN(on_plane, figure.alloy, 0.02, 0.008);
-      WITHIN(on_plane, figure.nylon, 0.02, 0.008);
+      WITHIN(on_plane, figure.nylon, 0.02, 8.3e-3);
       WITHIN(on_sphere, figure.on_large_sphere, 0.02, 0.004);
     }
   }
@@ -142,7 +162,7 @@ TEST(PublishedImpact, TwinsWhoseSurfacesGoTogetherKeepTheirSpins) {
       const Motion after = impact_by(engine, it).motion;
       WITHIN((after.spin - it.spin).norm(), 0, 4e-13, 4.3e-14) << engine;
       WITHIN((after.other_spin - it.other_spin).norm(), 0, 4e-13, 4.3e-14) << engine;
-      WITHIN(after.velocity.dot(place_of(it.partner).tangent), 0, 2e-16, 1.2e-17) << engine;
+      WITHIN(after.velocity.dot(place_of(it.partner).tangent), 0, 2e-16, 1.4e-17) << engine;
     }
 }
 
@@ -156,7 +176,7 @@ TEST(PublishedImpact, BouncesToTheHeightsOfMfix) {
       WITHIN(peak_by("hard", ball), peak_by_impacts(ball).height, 5e-14, 3.8e-15);
       for (const double stiffness : {5e4, 5e5, 5e6}) {
         ball.stiffness = stiffness;
-        WITHIN(peak_by("soft", ball), peak_by_spring(ball).height, 2e-5, 6.3e-6) << stiffness;
+        WITHIN(peak_by("soft", ball), peak_by_spring(ball).height, 2e-5, 6.4e-6) << stiffness;
       }
     }
 }

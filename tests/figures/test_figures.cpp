@@ -11,6 +11,7 @@
 #include "output_file.hpp"
 #include "result_figures.hpp"
 #include "scratch_folder.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 using nlohmann::json;
@@ -133,10 +134,10 @@ TEST_F(Figures, NumbersLieWhereTheAxesSay) {
   const std::vector<const Mark*> models = marks_of(drawing, "model"), dots = marks_of(drawing, "measured");
   ASSERT_EQ(models.size(), 1u);
   const std::vector<DrawnPoint>& model = models[0]->points;
-  EXPECT_NEAR(time.at(model.front().x), 0, 1e-9);
-  EXPECT_NEAR(place.at(model.front().y), 101, 1e-9);
-  EXPECT_NEAR(time.at(model.back().x), 4, 1e-9);
-  EXPECT_NEAR(place.at(model.back().y), 100 * std::cos(24.0) + 1, 1e-9);
+  WITHIN(time.at(model.front().x), 0, 1e-14, 8.9e-16);
+  WITHIN(place.at(model.front().y), 101, 4e-13, 2.3e-14);
+  WITHIN(time.at(model.back().x), 4, 1e-14, 8.9e-16);
+  WITHIN(place.at(model.back().y), 100 * std::cos(24.0) + 1, 1e-13, 9.7e-15);
   // Smooth between the points: of a swing of 100 mm in steps of 0.6 rad.
   double most = 0;
   for (const DrawnPoint& point : model)
@@ -144,7 +145,7 @@ TEST_F(Figures, NumbersLieWhereTheAxesSay) {
   EXPECT_LT(most, 8);  // 3.6 mm seen, at the ends
   ASSERT_EQ(dots.size(), 1u);
   ASSERT_EQ(dots[0]->points.size(), 40u);  // one was not measured
-  EXPECT_NEAR(place.at(dots[0]->points[3].y), 100 * std::cos(1.8), 1e-9);
+  WITHIN(place.at(dots[0]->points[3].y), 100 * std::cos(1.8), 3e-13, 1.8e-14);
   EXPECT_TRUE(says(drawing, "time since release, s"));
   EXPECT_TRUE(says(drawing, "position of the box, mm"));
 }
@@ -152,8 +153,8 @@ TEST_F(Figures, NumbersLieWhereTheAxesSay) {
 TEST_F(Figures, AreAsWideAsAJournalsColumnOrPage) {
   const Figure two = figure(compared(), "residuals");
   const Drawing column = drawn(two, Width::column), page = drawn(two, Width::page);
-  EXPECT_NEAR(column.width, 85 / 25.4 * 72, 1e-9);
-  EXPECT_NEAR(page.width, 180 / 25.4 * 72, 1e-9);
+  WITHIN(column.width, 85 / 25.4 * 72, 1e-12, 5.4e-14);
+  WITHIN(page.width, 180 / 25.4 * 72, 2e-12, 1.2e-13);
   EXPECT_LT(page.height, 0.7 * column.height);  // beside each other
   for (const Drawing& drawing : {column, page})
     for (const Mark& mark : drawing.marks)
@@ -172,16 +173,16 @@ TEST_F(Figures, BarsAreAsLongAsTheirNumbers) {
   const Scale percent = scale_of(chances, "x_tick", false);
   const std::vector<const Mark*> bars = marks_of(chances, "bar");
   ASSERT_EQ(bars.size(), 2u);  // one in two hundred and less is left out
-  EXPECT_NEAR(percent.at(bars[0]->points[1].x), 70, 1e-9);
-  EXPECT_NEAR(percent.at(bars[1]->points[1].x), 29.6, 1e-9);
+  WITHIN(percent.at(bars[0]->points[1].x), 70, 3e-13, 1.6e-14);
+  WITHIN(percent.at(bars[1]->points[1].x), 29.6, 1e-13, 6.6e-15);
   EXPECT_TRUE(says(chances, "something in no list"));
   EXPECT_TRUE(says(chances, "not told apart"));
 
   const Drawing ladder = drawn(figure(diagnosed(), "ladder"), Width::column);
   const Scale error = scale_of(ladder, "x_tick", false);
-  EXPECT_NEAR(error.at(marks_of(ladder, "bar")[0]->points[1].x), 8, 1e-9);
-  EXPECT_NEAR(error.at(marks_of(ladder, "second")[0]->points[1].x), 2, 1e-9);
-  EXPECT_NEAR(error.at(marks_of(ladder, "floor")[0]->points[0].x), 0.9, 1e-9);
+  WITHIN(error.at(marks_of(ladder, "bar")[0]->points[1].x), 8, 3e-14, 1.8e-15);
+  WITHIN(error.at(marks_of(ladder, "second")[0]->points[1].x), 2, 9e-15, 4.5e-16);
+  WITHIN(error.at(marks_of(ladder, "floor")[0]->points[0].x), 0.9, 4e-15, 2e-16);
   EXPECT_TRUE(says(ladder, "error of the box, mm (rms)"));
 }
 
@@ -189,14 +190,14 @@ TEST_F(Figures, PeaksHaveTheirLineAndTheirExponential) {
   const Drawing drawing = drawn(figure(simulated()), Width::column);
   const Scale time = scale_of(drawing, "x_tick", false), height = scale_of(drawing, "y_tick", true);
   const std::vector<DrawnPoint>& peaks = marks_of(drawing, "measured")[0]->points;
-  EXPECT_NEAR(height.at(peaks[2].y), 84, 1e-9);
+  WITHIN(height.at(peaks[2].y), 84, 5e-13, 2.9e-14);
   const DrawnPoint end = marks_of(drawing, "model")[0]->points.back();
-  EXPECT_NEAR(time.at(end.x), 7.5, 1e-9);
-  EXPECT_NEAR(height.at(end.y), 44, 1e-9);
+  WITHIN(time.at(end.x), 7.5, 3e-14, 1.7e-15);
+  WITHIN(height.at(end.y), 44, 5e-13, 2.9e-14);
   const Drawing energy = drawn(figure(simulated(), "energy"), Width::column);
   EXPECT_TRUE(says(energy, "share of the energy at release, %"));
   const Scale percent = scale_of(energy, "x_tick", false);
-  EXPECT_NEAR(percent.at(marks_of(energy, "bar").back()->points[1].x), 5, 1e-9);
+  WITHIN(percent.at(marks_of(energy, "bar").back()->points[1].x), 5, 2e-14, 1.2e-15);
 }
 
 TEST_F(Figures, FilesAreWhole) {

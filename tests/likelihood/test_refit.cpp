@@ -2,6 +2,7 @@
 // The refit and its calibration on a stand-in for the hard engine whose chaos is known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -15,6 +16,7 @@
 #include "refit.hpp"
 #include "scratch_folder.hpp"
 #include "setup_file.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -84,6 +86,41 @@ TEST(Refit, FindsHiddenValuesInsideItsIntervals) {
     }
   }
   EXPECT_GE(inside, all - 4);  // 95 % intervals: one of 18 outside expected
+}
+
+/// Root mean square of error over floor, of the box and of the centre: chaos of two shapes has a skew
+/// distribution, whose median is less.
+std::array<double, 2> times_floor_of(const std::vector<RunComparison>& runs) {
+  std::array<double, 2> squares{};
+  for (const RunComparison& run : runs) {
+    squares[0] += std::pow(run.error_box / run.floor_box, 2) / static_cast<double>(runs.size());
+    squares[1] += std::pow(run.error_centre / run.floor_centre, 2) / static_cast<double>(runs.size());
+  }
+  return {std::sqrt(squares[0]), std::sqrt(squares[1])};
+}
+
+TEST(Refit, FloorIsWhatRecordingsOfTheModelItselfLeave) {
+  const DampedOscillation engine;
+  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  RefitOptions quick;
+  quick.count = 96;
+  std::vector<RunComparison> given, fitted;
+  for (int run = 0; run < 12; ++run) {
+    std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), run);
+    // The clock is known to 5 ms beforehand, and its run tells it to some tenths of one.
+    for (MeasuredFeatures& m : measured) {
+      m.own.resize(m.values.size(), 1);
+      for (Eigen::Index f = 0; f < m.values.size(); ++f)
+        m.own(f, 0) = 5e-3 * 0.77 * std::sin(7.73 * m.plan.features[static_cast<std::size_t>(f)].time);
+    }
+    for (const RunComparison& one : refit(measured, {}, workshop, quick).runs) given.push_back(one);
+    for (const RunComparison& one : refit(measured, theta, workshop, quick).runs) fitted.push_back(one);
+  }
+  for (const std::vector<RunComparison>& runs : {given, fitted}) {
+    for (const double times : times_floor_of(runs)) WITHIN(times, 1, 0.2, 0.06);
+    EXPECT_LE(std::count_if(runs.begin(), runs.end(), [](const auto& one) { return one.chance_box < 0.05; }),
+              5);  // of 24 one is expected; more than five happen once in 700
+  }
 }
 
 TEST(Refit, RejectsWhatRefittingCannotExplainAndAcceptsTheEffect) {

@@ -7,6 +7,7 @@
 
 #include "measurement.hpp"
 #include "random.hpp"
+#include "within.hpp"
 
 namespace shakedown {
 namespace {
@@ -18,7 +19,6 @@ MeasuredRun recorded(double rate, double noise, double r, std::uint64_t seed, do
   MeasuredRun run;
   run.name = "run";
   run.box_length = length;
-  run.box_uncertainty = noise;
   double error = noise * random.normal(), grain_error = 2.5 * noise * random.normal();
   for (int i = 0; i < static_cast<int>(20 * rate); ++i) {
     const double t = i / rate, phase = std::fmod(t * 2.1, 1.0);
@@ -40,10 +40,10 @@ Measurement measured(const Experiment& experiment) {
 TEST(Audit, FindsWhiteNoise) {
   for (const double rate : {250.0, 500.0}) {
     const RunAudit audit = audit_run(recorded(rate, 2e-4, 0, 1));
-    EXPECT_NEAR(audit.box.standard_deviation, 2e-4, 0.08 * 2e-4) << rate;
+    WITHIN(audit.box.standard_deviation / 2e-4, 1, 0.08, 0.04) << rate;
     EXPECT_EQ(audit.box.correlation[0], 0);
     EXPECT_EQ(audit.box.outliers, 0);
-    EXPECT_NEAR(audit.frame_interval, 1 / rate, 1e-12);
+    WITHIN(audit.frame_interval, 1 / rate, 7e-14, 3.6e-15);  // rounding of 20 s
   }
 }
 
@@ -55,8 +55,8 @@ TEST(Audit, GrainsTrackedInEveryFourthFrameAreKeptAndTheirNoiseFound) {
   const auto kept =
       std::count_if(audit.x_com.begin(), audit.x_com.end(), [](double x) { return std::isfinite(x); });
   EXPECT_GE(kept, 2495);  // of 2500
-  EXPECT_NEAR(audit.com.standard_deviation, 5e-4, 0.1 * 5e-4);
-  EXPECT_NEAR(audit.box.standard_deviation, 2e-4, 0.08 * 2e-4);
+  WITHIN(audit.com.standard_deviation / 5e-4, 1, 0.1, 0.095);
+  WITHIN(audit.box.standard_deviation / 2e-4, 1, 0.08, 0.04);
 }
 
 TEST(Audit, FewFramesAreNotCalledWrong) {
@@ -80,14 +80,14 @@ TEST(Audit, TheLayerOfOtherGrainsHasItsOwnThickness) {
   experiment.runs.push_back(recorded(500, 2e-4, 0, 11));
   experiment.runs.back().box_length = std::nan("");
   EXPECT_DOUBLE_EQ(measured(experiment).plateau.slope, alone);
-  EXPECT_NEAR(alone, 0.5, 5e-4);
+  WITHIN(alone, 0.5, 5e-4, 3.1e-5);
 }
 
 TEST(Audit, FindsTheColour) {
   for (const double r : {-0.3, 0.2, 0.5}) {
     const RunAudit audit = audit_run(recorded(500, 2e-4, r, 2));
-    EXPECT_NEAR(audit.box.correlation[0], r, 0.03);
-    EXPECT_NEAR(audit.box.standard_deviation, 2e-4, 0.1 * 2e-4);
+    WITHIN(audit.box.correlation[0], r, 0.03, 0.02);
+    WITHIN(audit.box.standard_deviation / 2e-4, 1, 0.1, 0.04);
   }
 }
 
@@ -99,8 +99,8 @@ TEST(Audit, TakesOutOutliersOnly) {
     if (random.uniform() < 0.02)
       x += (random.uniform() < 0.5 ? -1 : 1) * (0.003 + 0.02 * random.uniform()), ++wrong;
   const RunAudit audit = audit_run(run);
-  EXPECT_NEAR(audit.box.outliers, wrong, 0.05 * wrong);
-  EXPECT_NEAR(audit.box.standard_deviation, 2e-4, 0.1 * 2e-4);
+  WITHIN(audit.box.outliers, wrong, 5, 0.5);
+  WITHIN(audit.box.standard_deviation / 2e-4, 1, 0.1, 0.04);
 }
 
 /// The second frame of each pair lies where the line through its neighbour and the frame before points, so
@@ -137,7 +137,7 @@ TEST(Audit, OutliersTooSmallToBeSeenCountAsNoise) {
     if (std::isfinite(audit.x_box[i])) squares += std::pow(audit.x_box[i] - right[i], 2), ++frames;
   const double truth = std::hypot(2e-4, std::sqrt(squares / frames));
   std::printf("found %.4g mm, true %.4g mm\n", 1e3 * audit.box.standard_deviation, 1e3 * truth);
-  EXPECT_NEAR(audit.box.standard_deviation, truth, 0.1 * truth);
+  WITHIN(audit.box.standard_deviation / truth, 1, 0.1, 0.04);
 }
 
 TEST(Audit, CountsGaps) {
@@ -147,20 +147,20 @@ TEST(Audit, CountsGaps) {
     series->erase(series->begin() + 2000, series->begin() + 2005);
   const RunAudit audit = audit_run(run);
   EXPECT_EQ(audit.box.missing, 15);
-  EXPECT_NEAR(audit.box.longest_gap, 0.02, 1e-9);
+  WITHIN(audit.box.longest_gap, 0.02, 3e-16, 1.8e-17);
   EXPECT_EQ(audit.com.missing, 5);
 }
 
 TEST(Audit, ReleaseOfTheBox) {
   const RunAudit audit = audit_run(recorded(500, 2e-4, 0, 6));
-  EXPECT_NEAR(audit.release.displacement, 0.1095, 5 * audit.release.displacement_error);
+  WITHIN_ERRORS(audit.release.displacement, 0.1095, 5, audit.release.displacement_error, 1e-4);
 }
 
 TEST(Audit, PixelSteps) {
   MeasuredRun run = recorded(500, 1e-5, 0, 7);
   for (double& x : run.x_box) x = std::round(x / 1e-3) * 1e-3;
   const RunAudit audit = audit_run(run);
-  EXPECT_NEAR(audit.box.quantum, 1e-3, 1e-6);
+  WITHIN(audit.box.quantum, 1e-3, 2e-16, 1.4e-17);  // rounding of 0.1 m
   EXPECT_EQ(audit_run(recorded(500, 2e-4, 0, 8)).box.quantum, 0);
 }
 
@@ -171,8 +171,7 @@ TEST(Audit, PlateauSlopeTellsABias) {
     for (const double length : {0.04, 0.065, 0.085, 0.104})
       experiment.runs.push_back(recorded(500, 2e-4, 0, seed++, bias, length));
     const Measurement result = measured(experiment);
-    EXPECT_NEAR(result.plateau.slope, (1 - bias) / 2, 4 * result.plateau.error);
-    EXPECT_LT(result.plateau.error, 0.01);
+    WITHIN_ERRORS(result.plateau.slope, (1 - bias) / 2, 4, result.plateau.error, 0.004);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "measured_file.hpp"
 #include "measurement.hpp"
 #include "scratch_folder.hpp"
+#include "within.hpp"
 
 namespace shakedown {
 namespace {
@@ -62,7 +63,7 @@ TEST_F(ExperimentFile, SeveralRunsWithTheirOwnKeys) {
   EXPECT_DOUBLE_EQ(a.box_uncertainty, 2e-4);
   EXPECT_DOUBLE_EQ(a.com_uncertainty, 5e-4);
   EXPECT_FALSE(b.has_com());
-  EXPECT_NEAR(b.frame_rate, 250, 1e-9);
+  WITHIN(b.frame_rate, 250, 1e-12, 5.6e-14);
   const shakedown::Setup setup = setup_of_run(shakedown::Setup{}, b, all_effects());
   EXPECT_DOUBLE_EQ(setup.box.length, 0.065);
   EXPECT_EQ(setup.grains.count, 0);
@@ -122,8 +123,8 @@ TEST_F(ExperimentFile, TracksOfLongTables) {
       "[column.grain_centre]\nfrom = \"POSITION_X\"\ntrack = [1, 2]\n[[run]]\nfile = \"spots.csv\"\n");
   const MeasuredRun& run = experiment.runs[0];
   ASSERT_EQ(run.time.size(), 6u);
-  EXPECT_NEAR(run.x_box[0], 0.1075, 1e-12);
-  EXPECT_NEAR(run.x_com[0], 0.1195, 1e-12);
+  WITHIN(run.x_box[0], 0.1075, 4e-16, 2.4e-17);
+  WITHIN(run.x_com[0], 0.1195, 5e-16, 2.7e-17);
   EXPECT_TRUE(std::isnan(run.x_com[4]));  // one of its two tracks is lost there
   EXPECT_TRUE(std::isnan(run.box_length));
 }
@@ -183,11 +184,11 @@ TEST_F(ExperimentFile, PixelsFramesOriginAndDirection) {
   const MeasuredRun& run = experiment.runs[0];
   // the frame before the release is no part of the motion
   ASSERT_EQ(run.lead_in.time.size(), 1u);
-  EXPECT_NEAR(run.lead_in.x_box[0], -0.1075, 1e-12);
-  EXPECT_NEAR(run.lead_in.time[0], -0.02, 1e-12);
-  EXPECT_NEAR(run.x_box[0], -0.10672692, 1e-12);
-  EXPECT_NEAR(run.time[0], 0, 1e-12);
-  EXPECT_NEAR(run.box_uncertainty, 1e-4, 1e-15);
+  WITHIN(run.lead_in.x_box[0], -0.1075, 4e-16, 2.4e-17);
+  WITHIN(run.lead_in.time[0], -0.02, 9e-17, 4.5e-18);
+  WITHIN(run.x_box[0], -0.10672692, 5e-16, 2.8e-17);
+  EXPECT_EQ(run.time[0], 0);
+  WITHIN(run.box_uncertainty, 1e-4, 4e-19, 2.3e-20);
 }
 
 TEST_F(ExperimentFile, WrittenSeriesAreReadBack) {

@@ -6,6 +6,7 @@
 #include "experiment_file.hpp"
 #include "import_tables.hpp"
 #include "scratch_folder.hpp"
+#include "within.hpp"
 
 namespace shakedown {
 namespace {
@@ -64,9 +65,9 @@ TEST_F(ImportedText, WhatIsToldOnTheCommandLineNeedsNoEditor) {
   const Experiment experiment = parse_experiment(told.experiment, "experiment.toml", folder_.path());
   EXPECT_EQ(experiment.title, "a, b");
   ASSERT_EQ(experiment.runs.size(), 2u);
-  EXPECT_NEAR(experiment.runs[1].box_length, 0.065, 1e-12);
-  EXPECT_NEAR(experiment.runs[0].x_box[0], (100 - 640) * 0.25e-3, 1e-12);
-  EXPECT_NEAR(experiment.runs[0].time[1], 1.0 / 240, 1e-12);
+  WITHIN(experiment.runs[1].box_length, 0.065, 3e-16, 1.5e-17);
+  WITHIN(experiment.runs[0].x_box[0], (100 - 640) * 0.25e-3, 6e-16, 3e-17);
+  WITHIN(experiment.runs[0].time[1], 1.0 / 240, 1e-17, 9.3e-19);
   options.frame_rate = "240";
   EXPECT_THROW(import_tables({folder_ / "a.csv"}, folder_.path(), options), InputError);
 }

@@ -9,6 +9,7 @@
 
 #include "audit.hpp"
 #include "recorded_swing.hpp"
+#include "within.hpp"
 
 namespace shakedown {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 struct NoiseCase {
   std::string name;
   Recorder how;
-  double within = 0.1;  ///< of the true noise
+  Tolerance within{0.1, 0.08};  ///< of the true noise
 };
 
 std::vector<NoiseCase> noise_cases() {
@@ -26,7 +27,7 @@ std::vector<NoiseCase> noise_cases() {
     cases.push_back({"white " + at, {.rate = rate}});
     cases.push_back({"small " + at, {.rate = rate, .white = 5e-5}});
     // Errors of rounding follow the speed, so that they are not quite white.
-    cases.push_back({"rounded " + at, {.rate = rate, .white = 1e-5, .step = 5e-4}, 0.12});
+    cases.push_back({"rounded " + at, {.rate = rate, .white = 1e-5, .step = 5e-4}, {0.12, 0.097}});
     cases.push_back(
         {"jittering clock, known " + at, {.rate = rate, .jitter = 0.05 / rate, .jitter_known = true}});
     cases.push_back({"jittering clock, unknown " + at, {.rate = rate, .jitter = 2e-4}});
@@ -36,7 +37,7 @@ std::vector<NoiseCase> noise_cases() {
     cases.push_back({"at rest for three quarters " + at, {.rate = rate, .duration = 40, .stops_after = 10}});
     cases.push_back({"rounded, at rest for three quarters " + at,
                      {.rate = rate, .duration = 40, .white = 1e-5, .step = 5e-4, .stops_after = 10},
-                     0.14});
+                     {0.14, 0.05}});
   }
   for (const double rate : {250.0, 500.0, 1000.0})
     cases.push_back(
@@ -51,7 +52,7 @@ TEST(Noise, IsFoundWhateverTheCamera) {
     const double ratio = audit.box.standard_deviation / swing.noise;
     std::printf("%-45s true %.4f mm, found over true %.3f, order %d\n", one.name.c_str(), swing.noise * 1e3,
                 ratio, audit.box.order);
-    EXPECT_NEAR(ratio, 1, one.within) << one.name;
+    WITHIN(ratio, 1, one.within) << one.name;
     EXPECT_EQ(audit.box.source, NoiseSource::frames) << one.name;
     EXPECT_LE(audit.box.outliers, 0.03 * static_cast<double>(swing.run.time.size())) << one.name;
   }
@@ -61,7 +62,7 @@ TEST(Noise, OfAnEncoderThatRestsIsAtLeastThatOfRounding) {
   constexpr double step = 1.57e-5;
   const RunAudit audit =
       audit_run(recorded_swing({.duration = 60, .white = 0, .step = step, .stops_after = 8}).run);
-  EXPECT_NEAR(audit.box.quantum, step, 0.02 * step);
+  WITHIN(audit.box.quantum / step, 1, 2e-11, 1e-12);  // rounding of 0.1 m
   EXPECT_GE(audit.box.standard_deviation, 0.99 * step / std::sqrt(12.0));
   EXPECT_LE(audit.box.standard_deviation, 1.2 * step / std::sqrt(12.0));
   EXPECT_EQ(audit.box.outliers, 0);
@@ -100,8 +101,8 @@ TEST(Noise, WanderIsFoundAtRest) {
     size += audit.box.wander / repeats, memory += audit.box.wander_time / repeats;
   }
   std::printf("wander %.4f mm of 0.3, memory %.3f s of 0.4\n", size * 1e3, memory);
-  EXPECT_NEAR(size, 3e-4, 0.1 * 3e-4);
-  EXPECT_NEAR(memory, 0.4, 1.0 * 0.4);
+  WITHIN(size / 3e-4, 1, 0.1, 0.052);
+  WITHIN(memory / 0.4, 1, 0.8, 0.61);
 }
 
 TEST(Noise, WanderIsNotSeenWhereThereIsNoneAndUntoldWithoutRest) {
@@ -119,8 +120,8 @@ TEST(Noise, OverTimeIsToldInRows) {
     if (swing.run.time[i] < 6) swing.run.x_box[i] += 4e-4 * random.normal();
   const std::vector<NoiseAt> rows = audit_run(swing.run).box.over_time;
   ASSERT_GE(rows.size(), 8u);
-  EXPECT_NEAR(rows.front().deviation, std::hypot(2e-4, 4e-4), 6e-5);  // seen: 2e-5
-  EXPECT_NEAR(rows.back().deviation, 2e-4, 3e-5);
+  WITHIN(rows.front().deviation, std::hypot(2e-4, 4e-4), 6e-5, 2e-5);
+  WITHIN(rows.back().deviation, 2e-4, 3e-5, 2.1e-5);
 }
 
 TEST(Release, IsFoundAfterALeadIn) {
@@ -128,10 +129,11 @@ TEST(Release, IsFoundAfterALeadIn) {
     for (const double lead_in : {0.3, 1.0}) {
       const RunAudit audit = audit_run(recorded_swing({.rate = rate, .lead_in = lead_in}).run);
       const ReleaseFound& release = audit.release;
-      EXPECT_NEAR(release.start, lead_in, std::max(0.01, 2.5 / rate)) << rate;
-      EXPECT_NEAR(release.lead_in, lead_in, std::max(0.01, 2.5 / rate)) << rate;
-      EXPECT_NEAR(release.displacement, 0.1075, 3e-4) << rate;
-      EXPECT_NEAR(release.centre, 0, 5e-4) << rate;
+      const double frames = std::min(rate, 250.0);  // a second
+      WITHIN((release.start - lead_in) * frames, 0, 2.5, 2) << rate;
+      WITHIN((release.lead_in - lead_in) * frames, 0, 2.5, 2) << rate;
+      WITHIN(release.displacement, 0.1075, 3e-4, 9.1e-5) << rate;
+      WITHIN(release.centre, 0, 5e-4, 3.9e-5) << rate;
     }
 }
 
@@ -145,16 +147,16 @@ TEST(Release, OfARecordThatBeginsInTheMotionIsItsFirstFrame) {
     const RunAudit audit = audit_run(run);
     EXPECT_EQ(audit.release.lead_in, 0) << from;
     EXPECT_DOUBLE_EQ(audit.release.start, run.time.front()) << from;
-    EXPECT_NEAR(audit.release.displacement, shakedown::swing(run.time.front()), 1e-3) << from;
+    WITHIN(audit.release.displacement, shakedown::swing(run.time.front()), 1e-3, 2e-4) << from;
     const double speed =
         (shakedown::swing(run.time.front() + 1e-4) - shakedown::swing(run.time.front())) / 1e-4;
-    EXPECT_NEAR(audit.release.velocity, speed, 0.06) << from;
+    WITHIN(audit.release.velocity, speed, 0.06, 0.014) << from;
   }
 }
 
 TEST(Release, RestIsWhereTheBoxEnds) {
   const RunAudit audit = audit_run(recorded_swing({.duration = 30}).run);
-  EXPECT_NEAR(audit.release.rest, 0, 1e-4);
+  WITHIN(audit.release.rest, 0, 7e-5, 3.5e-6);
   EXPECT_TRUE(std::isnan(audit_run(recorded_swing({.duration = 8}).run).release.rest));
 }
 

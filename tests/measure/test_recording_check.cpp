@@ -11,6 +11,7 @@
 #include "random.hpp"
 #include "recording_check.hpp"
 #include "rough_motion.hpp"
+#include "within.hpp"
 
 namespace shakedown {
 namespace {
@@ -88,11 +89,11 @@ TEST(RecordingCheck, LeavesAGoodRecordingInPeace) {
 TEST(RecordingCheck, SeesRoughNumbers) {
   const MeasuredRun run = recorded("a", 0.04);
   const RoughMotion motion = rough_motion(run.time, run.x_box);
-  EXPECT_NEAR(motion.frequency, 1.1, 0.01);     // from turning points between frames
-  EXPECT_NEAR(motion.amplitude, 0.1065, 1e-3);  // half a swing later 3.6 mm less
-  EXPECT_NEAR(motion.centre, 0, 5e-4);
-  EXPECT_NEAR(motion.noise, 2e-4, 2e-5);
-  EXPECT_NEAR(motion.unbroken, 1, 1e-9);
+  WITHIN(motion.frequency, 1.1, 0.01, 1.1e-3);     // from turning points between frames
+  WITHIN(motion.amplitude, 0.1065, 1e-3, 5.6e-4);  // half a swing later 3.6 mm less
+  WITHIN(motion.centre, 0, 8e-5, 4.1e-6);
+  WITHIN(motion.noise, 2e-4, 2e-5, 5.3e-6);
+  WITHIN(motion.unbroken, 1, 2e-12, 1.2e-13);
 }
 
 TEST(RecordingCheck, PowersOfTenAreNamedWithTheUnit) {
@@ -183,8 +184,8 @@ TEST(RecordingCheck, LateStartsAndLeadInsAreNamed) {
   EXPECT_EQ(said_of(put_right).impossible, "");
   ASSERT_EQ(put_right.notes.size(), 3u);
   expect_parts(put_right.notes[0], {"a: the box is held for 0.", "let go at 0.", "release_time = \"0."});
-  EXPECT_NEAR(static_cast<double>(put_right.runs[0].lead_in.time.size()), 150, 2);
-  EXPECT_NEAR(put_right.runs[0].time.front(), 0, 4e-3);
+  WITHIN(static_cast<double>(put_right.runs[0].lead_in.time.size()), 150, 2, 0.5);
+  WITHIN(put_right.runs[0].time.front(), 0, 4e-3, 1.8e-3);
   Experiment late = three_runs();
   for (MeasuredRun& run : late.runs) {
     run.time.resize(run.time.size() - 25);

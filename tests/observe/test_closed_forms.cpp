@@ -8,6 +8,7 @@
 #include "friction_oscillator.hpp"
 #include "observables.hpp"
 #include "sampled.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 using std::numbers::pi;
@@ -39,11 +40,11 @@ TEST(ClosedForms, FrictionDampedOscillatorHasExactPeaksSlopeAndFrequency) {
   // The friction's jump of 2F/M at each peak limits the cubic pieces to (F/M) h^2 / 8 there: 4e-8 m.
   for (int n = 1; n <= 8; ++n) {
     const Peak& peak = seen.peaks[static_cast<std::size_t>(n - 1)];
-    EXPECT_NEAR(peak.position, paper_like.extremum(n).position, 2e-8) << n;  // m
-    EXPECT_NEAR(peak.time, n * half, 2e-5) << n;                             // s
+    WITHIN(peak.position, paper_like.extremum(n).position, 2e-8, 6.1e-9) << n;  // m
+    WITHIN(peak.time, n * half, 2e-5, 7.8e-6) << n;                             // s
   }
-  EXPECT_NEAR(seen.slope, -drop / half, 1e-7);  // m/s
-  EXPECT_NEAR(seen.frequency, 4.5 / (seen.zero_crossings[9] - seen.zero_crossings[0]), 0);
+  WITHIN(seen.slope, -drop / half, 1e-7, 9.5e-9);  // m/s
+  EXPECT_EQ(seen.frequency, 4.5 / (seen.zero_crossings[9] - seen.zero_crossings[0]));
   // The crossings drift towards the peaks as the amplitude falls: half period n crosses at acos(-c_n / (x_n -
   // c_n)).
   const auto crossing = [&](int n) {
@@ -51,8 +52,8 @@ TEST(ClosedForms, FrictionDampedOscillatorHasExactPeaksSlopeAndFrequency) {
                  swing = std::abs(paper_like.extremum(n).position) - slip;
     return half * (n + std::acos(-slip / swing) / pi);
   };
-  EXPECT_NEAR(seen.frequency, 4.5 / (crossing(9) - crossing(0)), 1e-8);  // Hz
-  EXPECT_NEAR(seen.decay.curvature, 0, 4e-8);                            // m/s^2
+  WITHIN(seen.frequency, 4.5 / (crossing(9) - crossing(0)), 5e-13, 2.8e-14);  // Hz
+  WITHIN(seen.decay.curvature, 0, 4e-8, 2.7e-9);                              // m/s^2
   EXPECT_LT(seen.decay.linear.rms, 2e-7);
   EXPECT_GT(seen.decay.exponential.rms, 1e-3);
 }
@@ -62,17 +63,17 @@ TEST(ClosedForms, ViscousOscillatorHasExactRateAndDampingRatio) {
   const Trajectory trajectory = sampled(
       10, 500, [&](double t) { return viscous.position(t); }, [&](double t) { return viscous.velocity(t); });
   const Observables seen = observe(trajectory, shakedown::Setup{});
-  EXPECT_NEAR(seen.frequency, 1.06, 1e-9);
-  EXPECT_NEAR(seen.decay.exponential.rate, viscous.rate, 1e-7);  // 1/s
-  EXPECT_NEAR(seen.decay.exponential.amplitude, viscous.amplitude, 1e-8);
+  WITHIN(seen.frequency, 1.06, 7e-12, 3.8e-13);
+  WITHIN(seen.decay.exponential.rate, viscous.rate, 3e-9, 1.9e-10);  // 1/s
+  WITHIN(seen.decay.exponential.amplitude, viscous.amplitude, 1e-9, 6e-11);
   EXPECT_LT(seen.decay.exponential.rms, 1e-9);
   EXPECT_GT(seen.decay.curvature, 10 * seen.decay.curvature_error);
   const double ratio = viscous.rate / std::hypot(viscous.rate, viscous.angular);
   for (const HalfPeriodDamping& damping : seen.damping) {
-    EXPECT_NEAR(damping.equivalent_ratio, ratio, 1e-8);
-    EXPECT_NEAR(damping.loss_per_cycle, 1 - std::exp(-4 * pi * viscous.rate / viscous.angular), 1e-7);
+    WITHIN(damping.equivalent_ratio, ratio, 2e-10, 1.2e-11);
+    WITHIN(damping.loss_per_cycle, 1 - std::exp(-4 * pi * viscous.rate / viscous.angular), 1e-9, 8.4e-11);
   }
-  EXPECT_NEAR(seen.damping[0].amplitude, (0.1075 + std::abs(seen.peaks[0].position)) / 2, 1e-15);
+  WITHIN(seen.damping[0].amplitude, (0.1075 + std::abs(seen.peaks[0].position)) / 2, 4e-16, 2.3e-17);
 }
 
 TEST(ClosedForms, PeaksBetweenSamplesAreGoodToAMicrometre) {
@@ -85,7 +86,7 @@ TEST(ClosedForms, PeaksBetweenSamplesAreGoodToAMicrometre) {
         observe(with_velocity ? sampled(20, 60, position, velocity) : sampled(20, 60, position, {}),
                 shakedown::Setup{});
     ASSERT_GE(seen.peaks.size(), 39u);
-    for (const Peak& peak : seen.peaks) EXPECT_NEAR(std::abs(peak.position), 0.1, 1e-6);  // m
+    for (const Peak& peak : seen.peaks) WITHIN(std::abs(peak.position), 0.1, 1e-6, 3.2e-7);  // m
   }
 }
 
@@ -102,7 +103,7 @@ TEST(ClosedForms, DoubleExtremaAndWigglesAtZeroCountOnce) {
   ASSERT_EQ(seen.peaks.size(), 15u);
   for (std::size_t n = 1; n < seen.peaks.size(); ++n)
     EXPECT_LT(seen.peaks[n].position * seen.peaks[n - 1].position, 0);
-  EXPECT_NEAR(seen.frequency, 1.0, 0.01);
+  WITHIN(seen.frequency, 1.0, 0.01, 1.6e-3);
 }
 
 TEST(ClosedForms, WhatARunDoesNotHaveIsAbsent) {

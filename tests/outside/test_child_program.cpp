@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "errors.hpp"
+#include "outside_errors.hpp"
 #include "scratch_folder.hpp"
 #include "work_folder.hpp"
 
@@ -91,6 +92,24 @@ TEST(WorkFolder, IsGoneUnlessItIsKept) {
   const ScratchFolder scratch;
   { const WorkFolder folder(scratch / "kept"); }
   EXPECT_TRUE(std::filesystem::exists(scratch / "kept"));
+}
+
+TEST(KeptFolder, IsThatOfTheOptionBeforeThatOfTheEnvironment) {
+  const Named named("SHAKEDOWN_KEEP", "/somewhere");
+  EXPECT_EQ(kept_folder("lammps", 3), "/somewhere/lammps/run_3");
+  keep_outside_files("/elsewhere");
+  EXPECT_EQ(kept_folder("lammps", 3), "/elsewhere/lammps/run_3");
+  keep_outside_files("");
+  const Named unnamed("SHAKEDOWN_KEEP", "");
+  EXPECT_EQ(kept_folder("lammps", 3), "");
+}
+
+TEST(KeptFolder, IsNotGivenTwice) {
+  const Named named("SHAKEDOWN_KEEP", "/a_folder");
+  EXPECT_EQ(kept_folder("damper.py", 0), "/a_folder/damper.py/run_0");
+  EXPECT_EQ(kept_folder("damper.py", 1), "/a_folder/damper.py/run_1");
+  EXPECT_EQ(kept_folder("damper.py", 0), "/a_folder/damper.py/run_0_2");
+  EXPECT_EQ(kept_folder("damper.py", 0), "/a_folder/damper.py/run_0_3");
 }
 
 }  // namespace

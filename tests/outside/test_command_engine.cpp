@@ -48,9 +48,10 @@ TEST(Command, IsAskedInSI) {
   setup.grains.count = 1;
   setup.release.initial_grains = grains.path();
   const std::string kept = (folder / "kept").string();
+  const std::string kept_run = kept + "/program/run_2";
   const Named named("SHAKEDOWN_KEEP", kept);
   EXPECT_THROW(engine->run(setup, {2, {}}), PhysicsError);
-  const auto asked = nlohmann::json::parse(contents_of(kept + "/run_2/setup.json"));
+  const auto asked = nlohmann::json::parse(contents_of(kept_run + "/setup.json"));
   EXPECT_EQ(asked["format"], 1);
   EXPECT_EQ(asked["run"], 2);
   EXPECT_EQ(asked["rows"], 1);
@@ -59,7 +60,7 @@ TEST(Command, IsAskedInSI) {
   ASSERT_EQ(asked["effects"].size(), 1u);  // the camera is not the engine's business
   EXPECT_EQ(asked["effects"][0]["name"], "grain_friction");
   EXPECT_EQ(asked["effects"][0]["parameters"]["grain_grain"], 0.2);
-  EXPECT_EQ(contents_of(kept + "/run_2/output.txt"), "--option\n");
+  EXPECT_EQ(contents_of(kept_run + "/output.txt"), "--option\n");
 }
 
 TEST(Command, MayTellEnergiesOrNot) {

@@ -57,25 +57,38 @@ TEST_P(LammpsBoxEffects, AreThoseOfTheSoftEngine) {
   EXPECT_LT(largest_difference(run, other), GetParam().place);
 }
 
-INSTANTIATE_TEST_SUITE_P(OnTheBox, LammpsBoxEffects,
-                         testing::Values(
-                             // seen: 5.7e-6, 9.3e-7
-                             OnTheBox{"blade_quadratic_drag", {{"drag", 0.2}}, 1e-5, 1e-5},
-                             // seen: 2.2e-8, 0
-                             OnTheBox{"spring_cubic", {{"coefficient", 0.2}}, 4e-7, 1e-15},
-                             // seen: 2.1e-8, 5.7e-9
-                             OnTheBox{"spring_quadratic", {{"coefficient", 0.2}}, 4e-7, 1e-7},
-                             // seen: 8.5e-6, 6.8e-7
-                             OnTheBox{"clamp_dry_friction", {{"force", 0.1}}, 4e-5, 5e-6},
-                             // seen: 1.9e-8, 2.7e-9
-                             OnTheBox{
-                                 "constant_acceleration", {{"acceleration", Vec3(0.3, 0, 0)}}, 3e-7, 5e-8},
-                             // seen: 2.0e-8, 1.7e-9
-                             OnTheBox{"oscillating_acceleration",
-                                      {{"amplitude", Vec3(0.3, 0, 0)}, {"frequency", 2.0}, {"phase", 0.4}},
-                                      3e-7,
-                                      3e-8}),
-                         [](const auto& one) { return std::string(one.param.effect); });
+INSTANTIATE_TEST_SUITE_P(
+    OnTheBox, LammpsBoxEffects,
+    testing::Values(
+        // seen: 5.7e-6, 9.3e-7
+        OnTheBox{"blade_quadratic_drag", {{"drag", 0.2}}, 1e-5, 1e-5},
+        // seen: 2.2e-8, 0
+        OnTheBox{"spring_cubic", {{"coefficient", 0.2}}, 4e-7, 1e-15},
+        // seen: 2.1e-8, 5.7e-9
+        OnTheBox{"spring_quadratic", {{"coefficient", 0.2}}, 4e-7, 1e-7},
+        // seen: 8.5e-6, 6.8e-7
+        OnTheBox{"clamp_dry_friction", {{"force", 0.1}}, 4e-5, 5e-6},
+        // seen: 1.9e-8, 5.2e-10
+        OnTheBox{"pendulum", {{"length", 0.3}}, 3e-7, 1e-8},
+        // seen: 2.7e-8, 3.3e-10
+        OnTheBox{"second_mode",
+                 {{"amplitude", 2.0}, {"frequency", 9.0}, {"rate", 3.0}, {"phase", 0.3}},
+                 5e-7,
+                 6e-9},
+        // seen: 5.7e-7, 4.5e-8
+        OnTheBox{"user_force",
+                 {{"force", std::string("-c*v*exp(-((x-x0)/w)^2) + 0.05*sin(7*t)")},
+                  {"constants", std::map<std::string, double>{{"c", 0.4}, {"x0", 0.045}, {"w", 0.012}}}},
+                 1e-5,
+                 8e-7},
+        // seen: 1.9e-8, 2.7e-9
+        OnTheBox{"constant_acceleration", {{"acceleration", Vec3(0.3, 0, 0)}}, 3e-7, 5e-8},
+        // seen: 2.0e-8, 1.7e-9
+        OnTheBox{"oscillating_acceleration",
+                 {{"amplitude", Vec3(0.3, 0, 0)}, {"frequency", 2.0}, {"phase", 0.4}},
+                 3e-7,
+                 3e-8}),
+    [](const auto& one) { return std::string(one.param.effect); });
 
 /// Friction that is smooth cannot hold the box: it creeps.
 TEST_F(LammpsEmptyBox, CreepsWhereItShouldStick) {

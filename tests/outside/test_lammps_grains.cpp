@@ -102,6 +102,18 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector<PlacedGrain>{{Vec3(-radius - 1e-3, 0, 0), Vec3(0.5, 0.4, 0)},
                                              {Vec3(radius + 1e-3, 4e-4, 0), Vec3(0, 0, 0)}}));
 
+/// A tangential spring of its own ratio, where most of the contact sticks.
+TEST_F(LammpsGrains, GiveWaySidewaysAsInTheSoftEngine) {
+  shakedown::Setup setup = impact_of(0.01);
+  add_effect(setup, "grain_friction", {{"grain_grain", 0.5}, {"grain_wall", 0.5}, {"stiffness_ratio", 0.82}});
+  const std::vector<PlacedGrain> grains{{Vec3(0.05 - radius - 1e-3, 0, 0), Vec3(0.5, 0.1, 0.1)}};
+  const Trajectory run = run_with(*lammps, setup, grains), other = run_with(*soft, setup, grains);
+  setup.effects.back().values["stiffness_ratio"] = ContactLaw::turning_ratio;
+  const Trajectory turned = run_with(*soft, setup, grains);
+  WITHIN((run.end_state.spin[0] - other.end_state.spin[0]).norm(), 0, 3, 0.3);
+  EXPECT_GT((turned.end_state.spin[0] - other.end_state.spin[0]).norm(), 5);
+}
+
 TEST_F(LammpsGrains, FallAndAreDraggedAsInTheSoftEngine) {
   shakedown::Setup setup = impact_of(0.05);
   setup.soft.steps_per_contact = 20;
@@ -113,6 +125,19 @@ TEST_F(LammpsGrains, FallAndAreDraggedAsInTheSoftEngine) {
   EXPECT_NEAR(run.end_state.v_box, other.end_state.v_box, 7e-7);                      // seen: 3.9e-8
   for (std::size_t i = 0; i < 2; ++i)
     EXPECT_NEAR(run.ledger.effect_loss.at(i), other.ledger.effect_loss.at(i), 5e-8) << i;  // seen: 2.8e-9
+}
+
+TEST_F(LammpsGrains, AreDrivenByAFormulaAsInTheSoftEngine) {
+  shakedown::Setup setup = impact_of(0.05);
+  add_effect(setup, "user_force",
+             {{"on", std::string("grains")}, {"force", std::string("-0.3*x - 0.01*v + 2e-3*sin(40*t)")}});
+  const std::vector<PlacedGrain> grains{{Vec3(0.01, 0, 0), Vec3(0.3, 0.1, -0.2)},
+                                        {Vec3(-0.02, 0.02, 0), Vec3(-0.1, 0.1, 0)}};
+  const Trajectory run = run_with(*lammps, setup, grains), other = run_with(*soft, setup, grains);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_LT((run.end_state.velocity[i] - other.end_state.velocity[i]).norm(), 5e-6) << i;  // seen: 3.5e-7
+  EXPECT_EQ(run.end_state.v_box, 0);
+  EXPECT_NEAR(run.ledger.effect_loss.at(0), other.ledger.effect_loss.at(0), 3e-9);  // seen: 1.5e-10
 }
 
 TEST_F(LammpsGrains, BeginAsEveryEngineDoes) {

@@ -14,11 +14,19 @@ TEST(LammpsRefuses, EffectsThatItHasNoWordsFor) {
   shakedown::Setup setup;
   add_effect(setup, "grain_polydispersity", {{"relative_deviation", 0.05}});
   add_effect(setup, "grain_friction", {{"grain_grain", 0.2}, {"tangential_restitution", 0.5}});
-  add_effect(setup, "pendulum", {});
+  add_effect(setup, "blade_arc", {});
   const std::string text = message_of<InputError>([&] { make_lammps_engine()->run(setup); });
   for (const char* part :
        {"grain_polydispersity: is not modelled by engine 'lammps'", "for grains of one size",
-        "grain_friction: is not modelled", "tangential_restitution 1", "pendulum: is not modelled"})
+        "grain_friction: is not modelled", "tangential_restitution 1", "blade_arc: is not modelled"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+}
+
+TEST(LammpsRefuses, AFormulaThatItHasNoWordsFor) {
+  shakedown::Setup setup = empty_box(1);
+  add_effect(setup, "user_force", {{"force", std::string("1e-3*atanh(x)")}});
+  const std::string text = message_of<InputError>([&] { make_lammps_engine()->run(setup); });
+  for (const char* part : {"user_force.force", "'atanh' has no words in LAMMPS", "--engine hard or soft"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
 }
 
@@ -70,10 +78,10 @@ TEST_F(WithLammps, FilesAreKeptOnRequestAndRunAgain) {
   const Named named("SHAKEDOWN_KEEP", kept);
   lammps->run(empty_box(0.1), {4, {}});
   for (const char* name : {"in.lammps", "bodies.data", "motion.csv", "end.csv", "output.txt", "error.txt"})
-    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(kept) / "run_4" / name)) << name;
-  EXPECT_NE(
-      contents_of(std::filesystem::path(kept) / "run_4" / "in.lammps").find("# A granular damper for LAMMPS"),
-      std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(kept) / "lammps" / "run_4" / name)) << name;
+  EXPECT_NE(contents_of(std::filesystem::path(kept) / "lammps" / "run_4" / "in.lammps")
+                .find("# A granular damper for LAMMPS"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Contacts and the attraction beside them in the words of LAMMPS: grains of one size, walls of one kind.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "initial_state.hpp"
+#include "physics.hpp"
+
+namespace shakedown {
+
+class LammpsContacts {
+ public:
+  /// `held`: the box does not move. There are grains.
+  LammpsContacts(const Setup& setup, const Physics& physics, const State& initial, bool held);
+
+  /// "hooke k gamma damping velocity tangential ...", of pair_coeff and fix wall/gran/region.
+  std::string law(ContactClass kind) const;
+  /// What the laws are, for people: lines of the script.
+  std::vector<std::string> remarks() const;
+  /// pair_style and pair_coeff.
+  std::vector<std::string> pairs() const;
+  /// The file of pair_style table that `pairs` names; empty without attraction.
+  std::string table() const;
+  /// Lines that pull grains to the two walls across `axis`, 0 to 2; none where walls do not attract.
+  std::vector<std::string> walls_pull(int axis) const;
+
+ private:
+  double reduced_mass(ContactClass kind) const;
+  std::string normal(ContactClass kind) const;
+  std::string hertz(ContactClass kind) const;
+
+  const Setup& setup_;
+  const Physics& physics_;
+  double mass_, radius_;
+  bool held_;
+};
+
+/// The name of the file.
+constexpr const char* lammps_table_file = "attraction.table";
+
+}  // namespace shakedown
