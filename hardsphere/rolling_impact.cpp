@@ -7,7 +7,7 @@ namespace shakedown {
 
 namespace {
 
-constexpr int steps = 200;
+constexpr int steps_of_rolling = 200;
 
 /// Times are in contact times over pi, so that forces are impulses; turning as the velocity across the normal
 /// that it gives a surface at unit distance.
@@ -26,7 +26,7 @@ class Integration {
 
   RollingImpact run() {
     const Vec3 slip_before = slip_, turning_before = turning_;
-    for (int k = 0; k < steps; ++k) advance((k + 0.5) * step);
+    for (int k = 0; k < steps_of_rolling; ++k) advance((k + 0.5) * step);
     RollingImpact result;
     result.impulse = impulse_;
     result.turning = contact_.normal.cross(torque_);
@@ -35,7 +35,7 @@ class Integration {
   }
 
  private:
-  static constexpr double step = std::numbers::pi / steps;
+  static constexpr double step = std::numbers::pi / steps_of_rolling;
 
   void advance(double time) {
     const double pressed = press_ * std::exp(-decay_ * time) * std::sin(time);

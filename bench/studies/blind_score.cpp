@@ -27,7 +27,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 using Kept = BlindFigure::Verdict;
-using Table = ScoreTable;
 
 Count count(const std::vector<OpenedCase>& cases, const std::function<bool(const OpenedCase&)>& counted,
             const std::function<bool(const OpenedCase&)>& hit) {
@@ -77,7 +76,7 @@ Count parameters_covered(const std::vector<OpenedCase>& cases, const char* key, 
   return covered;
 }
 
-void nulls(const std::vector<OpenedCase>& cases, Table& table) {
+void nulls(const std::vector<OpenedCase>& cases, ScoreTable& table) {
   table.at_most("false alarms: something missing where nothing is hidden",
                 count(cases, of_kind(BlindKind::null),
                       [](const OpenedCase& one) { return one.lost || one.judgement.detected; }),
@@ -103,7 +102,7 @@ void nulls(const std::vector<OpenedCase>& cases, Table& table) {
       count(cases, of_kind(BlindKind::parameters), [](const OpenedCase& one) { return one.exact(); }));
 }
 
-void singles(const std::vector<OpenedCase>& cases, Table& table) {
+void singles(const std::vector<OpenedCase>& cases, ScoreTable& table) {
   const auto family = [](const OpenedCase& one) { return one.first_suspects_family_is_right(); };
   const auto exact = [](const OpenedCase& one) { return one.exact(); };
   table.at_least("first suspect's class, signal to noise 12 and more",
@@ -119,7 +118,7 @@ void singles(const std::vector<OpenedCase>& cases, Table& table) {
   table.beside("first suspect's class, signal to noise 3", count(cases, singles_at(0, 4.5), family));
 }
 
-void widths(const std::vector<OpenedCase>& cases, Table& table) {
+void widths(const std::vector<OpenedCase>& cases, ScoreTable& table) {
   table.between("intervals of the strengths hold the truth (named exactly)", strengths_covered(cases), 0.90,
                 0.98);
   for (const char* key : {"restitution.grain_grain", "restitution.grain_wall", "spring.frequency"}) {
@@ -135,7 +134,7 @@ void widths(const std::vector<OpenedCase>& cases, Table& table) {
   table.at_least("final error of the box within 1.2 of its floor", fallen, 0.90);
 }
 
-void inventions(const std::vector<OpenedCase>& cases, Table& table) {
+void inventions(const std::vector<OpenedCase>& cases, ScoreTable& table) {
   table.at_most("camera artefacts called physics",
                 count(cases, of_kind(BlindKind::camera),
                       [](const OpenedCase& one) { return one.lost || one.names_physics(); }),
@@ -161,7 +160,7 @@ void inventions(const std::vector<OpenedCase>& cases, Table& table) {
       0.85);
 }
 
-void films(const std::vector<OpenedCase>& cases, Table& table) {
+void films(const std::vector<OpenedCase>& cases, ScoreTable& table) {
   const auto of_films = of_kind(BlindKind::films);
   table.at_most(
       "films by cameras as they are: physics invented",
@@ -177,7 +176,7 @@ void films(const std::vector<OpenedCase>& cases, Table& table) {
                    [](const OpenedCase& one) { return one.exact(); }));
 }
 
-void dampers(const std::vector<OpenedCase>& cases, Table& table) {
+void dampers(const std::vector<OpenedCase>& cases, ScoreTable& table) {
   const auto exact = [](const OpenedCase& one) { return one.exact(); };
   table.beside(
       "other dampers: named exactly, signal to noise 12 and more",
@@ -191,7 +190,7 @@ void dampers(const std::vector<OpenedCase>& cases, Table& table) {
           exact));
 }
 
-void twins(const std::vector<OpenedCase>& cases, Table& table) {
+void twins(const std::vector<OpenedCase>& cases, ScoreTable& table) {
   const auto detected = [](const OpenedCase& one) {
     return one.kind == BlindKind::twins && !one.lost && one.judgement.detected;
   };
@@ -215,7 +214,7 @@ void twins(const std::vector<OpenedCase>& cases, Table& table) {
 }
 
 /// Guesses scored on the same cases: an effect at random, always the effect hidden most often.
-void baselines(const std::vector<OpenedCase>& cases, Table& table) {
+void baselines(const std::vector<OpenedCase>& cases, ScoreTable& table) {
   std::set<std::string> all;
   for (const Hideable& hideable : hideable_effects()) all.insert(std::string(hideable.effect->name));
   const std::vector<std::string> list(all.begin(), all.end());
@@ -266,7 +265,7 @@ std::string line_of(const OpenedCase& one) {
                      one.error_over_floor ? fmt::format("{:.2f}", *one.error_over_floor) : "-", one.seconds);
 }
 
-void seconds(const std::vector<OpenedCase>& cases, Table& table) {
+void seconds(const std::vector<OpenedCase>& cases, ScoreTable& table) {
   std::vector<double> all;
   for (const OpenedCase& one : cases)
     if (!one.lost) all.push_back(one.seconds);
@@ -310,7 +309,7 @@ BlindScore score_blind_suite(const fs::path& folder, const TrialTools& tools, co
     for (const std::string& program : one.programs) ++score.programs[program];
   }
   score.seen = told_to_ledger(ledger, key, score.answered == score.planned);
-  Table table;
+  ScoreTable table;
   nulls(cases, table);
   singles(cases, table);
   widths(cases, table);

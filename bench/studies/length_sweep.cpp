@@ -9,7 +9,7 @@ namespace shakedown {
 
 namespace {
 constexpr double cycles_of_run = 60 * 1.23;
-}
+}  // namespace
 
 LengthSweep sweep_lengths(const Engine& engine, const Setup& base, const std::vector<double>& lengths,
                           const RunsWanted& wanted) {

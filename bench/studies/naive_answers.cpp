@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "naive_answers.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "camera_features.hpp"
+#include "least_squares.hpp"
 #include "linear_model.hpp"
 #include "parameter_knobs.hpp"
 #include "refit.hpp"
@@ -42,7 +42,7 @@ double left_by(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
   const Eigen::VectorXd values = weights.asDiagonal() * residual;
   if (columns.cols() == 0) return values.squaredNorm();
   const Eigen::MatrixXd weighted = weights.asDiagonal() * columns;
-  return (values - weighted * weighted.colPivHouseholderQr().solve(values)).squaredNorm();
+  return (values - weighted * least_squares_coefficients(weighted, values)).squaredNorm();
 }
 
 struct Best {

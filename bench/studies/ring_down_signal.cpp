@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "ring_down_signal.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "film.hpp"
+#include "least_squares.hpp"
 #include "physics.hpp"
 
 namespace shakedown {
@@ -95,7 +95,7 @@ std::vector<double> signals_of(const Setup& truth, const std::vector<std::string
   for (Eigen::Index e = 0; e < static_cast<Eigen::Index>(keys.size()); ++e) {
     Eigen::MatrixXd others(n, columns.cols() - 1);
     others << columns.leftCols(e), columns.rightCols(columns.cols() - 1 - e);
-    signals.push_back((columns.col(e) - others * others.colPivHouseholderQr().solve(columns.col(e))).norm());
+    signals.push_back((columns.col(e) - others * least_squares_coefficients(others, columns.col(e))).norm());
   }
   return signals;
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "least_squares.hpp"
+
 namespace shakedown {
 
 BandFactor::BandFactor(const Eigen::MatrixXd& covariance) {
@@ -173,11 +175,9 @@ Regression regress(const Eigen::VectorXd& impulse, const Eigen::MatrixXd& column
   // normal equations.
   const Eigen::VectorXd length = columns.colwise().norm().cwiseMax(1e-300).transpose();
   const Eigen::MatrixXd scaled = columns * length.cwiseInverse().asDiagonal();
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(scaled);
-  fit.strength = solver.solve(impulse);
+  fit.strength = shortest_coefficients(scaled, impulse);
   fit.residual = impulse - scaled * fit.strength;
-  const Eigen::MatrixXd inverse =
-      (scaled.transpose() * scaled).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd inverse = pseudo_inverse(scaled.transpose() * scaled);
   fit.strength = fit.strength.cwiseQuotient(length);
   fit.covariance = length.cwiseInverse().asDiagonal() * inverse * length.cwiseInverse().asDiagonal();
   fit.error = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "momentum_run.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "camera.hpp"
 #include "experiment_file.hpp"
 #include "known_effects.hpp"
+#include "least_squares.hpp"
 
 namespace shakedown {
 
@@ -181,7 +181,7 @@ LocalCubic local_cubic(int half) {
   Eigen::MatrixXd powers(n, 4);
   for (int i = 0; i < n; ++i)
     for (int p = 0; p < 4; ++p) powers(i, p) = std::pow(static_cast<double>(i - half) / half, p);
-  const Eigen::MatrixXd fit = powers.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::MatrixXd fit = least_squares_weights(powers);
   return {fit.row(0).transpose(), fit.row(1).transpose() / half};
 }
 

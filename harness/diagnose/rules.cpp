@@ -6,11 +6,11 @@
 namespace shakedown {
 
 std::span<const Rule> diagnosis_rules() {
-  using namespace rules;
-  static constexpr std::array all{adds_effect,         answer_set,    expected_effects, something_else,
-                                  emulator_noise,      doubtful,      holds_well,       holds,
-                                  rules::codes_differ, stands_out,    explains,         most_effects,
-                                  most_tried,          for_the_search};
+  static constexpr std::array all{rules::adds_effect,    rules::answer_set,     rules::expected_effects,
+                                  rules::something_else, rules::emulator_noise, rules::doubtful,
+                                  rules::holds_well,     rules::holds,          rules::codes_differ,
+                                  rules::stands_out,     rules::explains,       rules::most_effects,
+                                  rules::most_tried,     rules::for_the_search};
   return all;
 }
 

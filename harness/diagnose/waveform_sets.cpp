@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "waveform_sets.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "least_squares.hpp"
 #include "rules.hpp"
 
 namespace shakedown {
@@ -124,7 +124,7 @@ double WaveformSets::dropped(const WaveformFit& whole, unsigned set) const {
   if (!out.empty()) {
     const Eigen::VectorXd gone = whole.value(out);
     const Eigen::MatrixXd covariance = whole.covariance(out, out);
-    const Eigen::VectorXd pull = covariance.completeOrthogonalDecomposition().solve(gone);
+    const Eigen::VectorXd pull = shortest_coefficients(covariance, gone);
     rise = gone.dot(pull);
     value -= whole.covariance(Eigen::all, out) * pull;
   }

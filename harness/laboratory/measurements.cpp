@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "experiment_file.hpp"
@@ -11,6 +10,7 @@
 #include "in_order.hpp"
 #include "measured_file.hpp"
 #include "measurement.hpp"
+#include "nothing.hpp"
 #include "quantity.hpp"
 #include "random.hpp"
 #include "toml_document.hpp"
@@ -18,8 +18,6 @@
 namespace shakedown {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 double rounded(double value, double step) { return std::round(value / step) * step; }
 
@@ -45,9 +43,9 @@ class Tracker {
 };
 
 /// A slow error of tracking that forgets itself, frame by frame.
-class Wander {
+class WanderOfTrack {
  public:
-  Wander(const RecordingSettings& settings, std::uint64_t seed, std::uint64_t run)
+  WanderOfTrack(const RecordingSettings& settings, std::uint64_t seed, std::uint64_t run)
       : size_(settings.wander),
         kept_(std::exp(-1 / (settings.frame_rate * settings.wander_time))),
         random_(seed, run, Stream::wander),
@@ -70,7 +68,7 @@ class Wander {
 
 /// Frames before the release, which a clock that is behind would give a negative time, are not recorded.
 void record(const Recording& seen, const RecordingSettings& settings, bool has_grains, Tracker tracker,
-            Wander wander, MeasuredRun& run) {
+            WanderOfTrack wander, MeasuredRun& run) {
   for (std::size_t i = 0; i < seen.time.size(); ++i) {
     tracker.next_frame();
     const double box = tracker.position(seen.x_box[i] + wander.box(), settings.box_noise);
@@ -211,7 +209,7 @@ Experiment make_measurements(const Setup& truth, const std::vector<PlannedRun>& 
         const Frames frames = frames_of(recording, laboratory.seed, i, trajectory);
         record(filmed(camera_of(setups[i], recording), frames, trajectory), recording,
                setups[i].grains.count > 0, Tracker(recording, laboratory.seed, i),
-               Wander(recording, laboratory.seed, i), experiment.runs[i]);
+               WanderOfTrack(recording, laboratory.seed, i), experiment.runs[i]);
         return [&laboratory, r, count] {
           if (laboratory.progress) laboratory.progress(static_cast<double>(r + 1) / count);
         };

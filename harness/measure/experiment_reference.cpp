@@ -79,7 +79,7 @@ Json schema_of(const ExperimentKey& key, const Json& column, const Json& known) 
   return json;
 }
 
-Json properties_of(Table table, const Json& column, const Json& known) {
+Json properties_of(Where table, const Json& column, const Json& known) {
   Json properties = Json::object();
   for (const ExperimentKey& key : experiment_keys())
     if (key.table == table) properties[std::string(key.name)] = schema_of(key, column, known);
@@ -134,7 +134,7 @@ std::string experiment_schema() {
 
 std::string experiment_keys_markdown() {
   std::string text;
-  for (const Table table : tables) {
+  for (const Where table : tables) {
     const std::string_view name = written_name(table);
     text += (text.empty() ? "" : "\n") +
             (name.empty() ? std::string("Of the file:\n") : "`" + std::string(name) + "`:\n") +

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "release_found.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "least_squares.hpp"
 #include "nothing.hpp"
 #include "robust_statistics.hpp"
 #include "slow_wander.hpp"
@@ -61,7 +61,7 @@ void extrapolate_start(const std::vector<double>& time, const std::vector<double
   Eigen::MatrixXd columns(rows, 2);
   columns << Eigen::VectorXd::Ones(rows), Eigen::Map<Eigen::VectorXd>(t.data(), rows);
   const Eigen::VectorXd values = Eigen::Map<Eigen::VectorXd>(root.data(), rows);
-  const Eigen::VectorXd line = columns.colPivHouseholderQr().solve(values);
+  const Eigen::VectorXd line = least_squares_coefficients(columns, values);
   if (!(line[0] > 0 && line[1] > 0)) return;
   found.start = std::max(time.front(), time[first] - line[0] / line[1]);
   found.start_error = (values - columns * line).norm() / std::sqrt(static_cast<double>(rows)) / line[1];
@@ -126,8 +126,7 @@ void fit_start(const std::vector<double>& time, const std::vector<double>& x, co
   }
   const Eigen::VectorXd length = columns.colwise().norm().transpose();
   const Eigen::MatrixXd scaled = columns * length.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd inverse =
-      (scaled.transpose() * scaled).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd inverse = pseudo_inverse(scaled.transpose() * scaled);
   const Eigen::VectorXd fit = (inverse * (scaled.transpose() * values)).cwiseQuotient(length);
   found.displacement = fit[0];
   found.displacement_error = deviation * std::sqrt(inverse(0, 0)) / length[0];

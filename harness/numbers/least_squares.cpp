@@ -29,4 +29,22 @@ LeastSquares least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd
   return fit;
 }
 
+Eigen::VectorXd least_squares_coefficients(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values) {
+  EXPECT(columns.rows() == values.size());
+  return columns.colPivHouseholderQr().solve(values);
+}
+
+Eigen::MatrixXd least_squares_weights(const Eigen::MatrixXd& columns) {
+  return columns.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(columns.rows(), columns.rows()));
+}
+
+Eigen::VectorXd shortest_coefficients(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values) {
+  EXPECT(columns.rows() == values.size());
+  return columns.completeOrthogonalDecomposition().solve(values);
+}
+
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
+  return matrix.completeOrthogonalDecomposition().pseudoInverse();
+}
+
 }  // namespace shakedown

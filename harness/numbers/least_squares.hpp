@@ -15,4 +15,17 @@ struct LeastSquares {
 /// columns. For values of different errors divide each row and value by its error first.
 LeastSquares least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
 
+/// The coefficients alone.
+Eigen::VectorXd least_squares_coefficients(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
+
+/// What gives them when multiplied with any values: a row a column, a column a row.
+Eigen::MatrixXd least_squares_weights(const Eigen::MatrixXd& columns);
+
+/// Of all coefficients that fit best the shortest, where columns depend on each other (complete orthogonal
+/// decomposition).
+Eigen::VectorXd shortest_coefficients(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
+
+/// The inverse of a matrix that may have none: that of Moore and Penrose.
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix);
+
 }  // namespace shakedown

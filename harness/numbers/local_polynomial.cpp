@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "local_polynomial.hpp"
 
-#include <Eigen/QR>
-
 #include "expect.hpp"
+#include "least_squares.hpp"
 
 namespace shakedown {
 
@@ -14,8 +13,7 @@ Eigen::MatrixXd local_polynomial(const Eigen::VectorXd& offsets, int degree) {
   Eigen::MatrixXd powers(offsets.size(), degree + 1);
   powers.col(0).setOnes();
   for (int k = 1; k <= degree; ++k) powers.col(k) = powers.col(k - 1).cwiseProduct(offsets / unit);
-  Eigen::MatrixXd weights =
-      powers.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(offsets.size(), offsets.size()));
+  Eigen::MatrixXd weights = least_squares_weights(powers);
   double scale = 1;
   for (int k = 1; k <= degree; ++k) weights.row(k) /= scale *= unit;
   return weights;

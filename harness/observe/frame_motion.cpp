@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "frame_motion.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <numbers>
 #include <optional>
+
+#include "least_squares.hpp"
 
 namespace shakedown {
 
@@ -60,7 +61,7 @@ std::optional<LocalSwing> local_swing(const Frames& frames, double about, double
     columns.row(row) << 1, std::cos(phase) - 1, std::sin(phase);
     values[row] = frames.x[static_cast<std::size_t>(first - frames.time.begin() + row)];
   }
-  const Eigen::Vector3d fit = columns.colPivHouseholderQr().solve(values);
+  const Eigen::Vector3d fit = least_squares_coefficients(columns, values);
   return LocalSwing{about, w, fit[0] - fit[1], fit[1], fit[2]};
 }
 

@@ -2,11 +2,12 @@
 #include "moved_in_time.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
+
+#include "least_squares.hpp"
 
 namespace shakedown {
 
@@ -37,7 +38,7 @@ Eigen::Matrix3Xd cubic_weights(const Eigen::ArrayXd& time, Solve way) {
     powers.col(power) = (powers.col(power - 1).array() * time / reach).matrix();
   Eigen::MatrixXd fit;
   if (way == Solve::by_rotations) {
-    fit = powers.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(n, n));
+    fit = least_squares_weights(powers);
   } else {
     using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
     const Small squares = powers.transpose() * powers;

@@ -8,7 +8,7 @@ namespace shakedown {
 
 namespace {
 constexpr char key_joint = '&';
-}
+}  // namespace
 
 std::string unit_of_key(std::string_view key, std::span<const EffectRecord* const> known) {
   key = key.substr(0, key.find(key_joint));

@@ -17,7 +17,7 @@ namespace shakedown {
 namespace {
 
 /// One of the two things that a camera follows, in measured runs and in the model's.
-struct Observable {
+struct ShownMotion {
   const char* name;
   std::vector<double> MeasuredAgainstModel::*measured;
   double MeasuredAgainstModel::*noise;
@@ -25,18 +25,18 @@ struct Observable {
   std::vector<double> MeasuredAgainstModel::*residual;
   std::vector<double> MeasuredAgainstModel::*given_residual;
 };
-constexpr Observable box{"box",
-                         &MeasuredAgainstModel::box,
-                         &MeasuredAgainstModel::box_noise,
-                         &ModelMotion::box,
-                         &MeasuredAgainstModel::box_residual,
-                         &MeasuredAgainstModel::given_box_residual};
-constexpr Observable centre{"centre of the grains",
-                            &MeasuredAgainstModel::centre,
-                            &MeasuredAgainstModel::centre_noise,
-                            &ModelMotion::centre,
-                            &MeasuredAgainstModel::centre_residual,
-                            &MeasuredAgainstModel::given_centre_residual};
+constexpr ShownMotion box{"box",
+                          &MeasuredAgainstModel::box,
+                          &MeasuredAgainstModel::box_noise,
+                          &ModelMotion::box,
+                          &MeasuredAgainstModel::box_residual,
+                          &MeasuredAgainstModel::given_box_residual};
+constexpr ShownMotion centre{"centre of the grains",
+                             &MeasuredAgainstModel::centre,
+                             &MeasuredAgainstModel::centre_noise,
+                             &ModelMotion::centre,
+                             &MeasuredAgainstModel::centre_residual,
+                             &MeasuredAgainstModel::given_centre_residual};
 
 bool has_given(const MeasuredAgainstModel& run) { return run.as_given.runs > 0; }
 const char* final_name(const MeasuredAgainstModel& run) { return has_given(run) ? "final model" : "model"; }
@@ -56,7 +56,7 @@ bool has_numbers(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-ReportPlot position_plot(const MeasuredAgainstModel& run, const Observable& of, const char* title) {
+ReportPlot position_plot(const MeasuredAgainstModel& run, const ShownMotion& of, const char* title) {
   const EnsembleCurve& model = run.final_model.*of.model;
   ReportPlot plot = time_plot(title, "position, mm", run.run, run.time);
   plot.curves = band("two standard deviations of a run", off(model, -2, 1e3), off(model, 2, 1e3));
@@ -80,7 +80,7 @@ ReportPlot residual_plot(const MeasuredAgainstModel& run) {
 }
 
 /// Measured less model: what the eye cannot see beside a swing of 100 mm.
-ReportPlot error_plot(const MeasuredAgainstModel& run, const Observable& of) {
+ReportPlot error_plot(const MeasuredAgainstModel& run, const ShownMotion& of) {
   ReportPlot plot = time_plot(fmt::format("Error of the {}", of.name), "error, mm", run.run, run.time);
   plot.caption = "Measured less mean of the model.";
   const auto less = [&](const EnsembleCurve& model) {
@@ -191,7 +191,7 @@ ReportSection failure_section(const std::vector<MeasuredAgainstModel>& runs) {
   ReportSection section;
   section.title = "Where it fails";
   const bool given = !runs.empty() && has_given(runs.front());
-  for (const Observable* of : {&box, &centre}) {
+  for (const ShownMotion* of : {&box, &centre}) {
     if (std::none_of(runs.begin(), runs.end(),
                      [&](const MeasuredAgainstModel& run) { return has_numbers(run.*of->measured); }))
       continue;

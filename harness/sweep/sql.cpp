@@ -12,7 +12,7 @@ namespace shakedown {
 
 namespace {
 constexpr int longest_wait = 120000;  // ms, for other processes that write
-}
+}  // namespace
 
 void SqlStatement::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 void Database::Close::operator()(sqlite3* handle) const { sqlite3_close(handle); }

@@ -8,11 +8,10 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include "in_order.hpp"
+#include "least_squares.hpp"
 #include "waveform_residuals.hpp"
 
 namespace shakedown {
-
-namespace {}
 
 bool WaveformLaw::operator==(const WaveformLaw& other) const {
   return term.key() == other.term.key() && term.besides == other.term.besides && is_mode == other.is_mode;
@@ -46,7 +45,7 @@ Eigen::VectorXd starting_values(const std::vector<WaveformRun>& runs, const std:
     Eigen::MatrixXd columns(std::ssize(rows), 3);
     for (std::size_t i = 0; i < rows.size(); ++i) columns.row(static_cast<Eigen::Index>(i)) = rows[i];
     const Eigen::Vector3d found =
-        columns.colPivHouseholderQr().solve(Eigen::Map<Eigen::VectorXd>(right.data(), std::ssize(right)));
+        least_squares_coefficients(columns, Eigen::Map<Eigen::VectorXd>(right.data(), std::ssize(right)));
     value.segment(3 * static_cast<Eigen::Index>(r), 3) << found[0], found[1] * two_pi * frequency, found[2];
   }
   value[3 * std::ssize(runs)] = frequency;
@@ -85,8 +84,7 @@ WaveformFit fit_waveform(const std::vector<WaveformRun>& runs, const std::vector
   const Eigen::MatrixXd correlation =
       root.cwiseInverse().asDiagonal() * normal * root.cwiseInverse().asDiagonal();
   const Eigen::VectorXd outer = residuals.scale().cwiseQuotient(root);
-  fit.covariance =
-      outer.asDiagonal() * correlation.completeOrthogonalDecomposition().pseudoInverse() * outer.asDiagonal();
+  fit.covariance = outer.asDiagonal() * pseudo_inverse(correlation) * outer.asDiagonal();
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     fit.residual.push_back(left.segment(row, residuals.used()[r]) * runs[r].noise);
@@ -183,7 +181,7 @@ Eigen::Vector2d linear_mode(const std::vector<WaveformRun>& runs, const Waveform
   const OneMore more = one_more(runs, fit, law, 2, start, options);
   Eigen::MatrixXd all(more.left.size(), more.free.cols() + 2);
   all << more.free, more.columns;
-  const Eigen::VectorXd step = -all.colPivHouseholderQr().solve(more.left);
+  const Eigen::VectorXd step = -least_squares_coefficients(all, more.left);
   return step.tail(2).cwiseProduct(more.scale);
 }
 

@@ -138,27 +138,47 @@ bool is_standard(const std::string& header) {
 
 const std::set<std::string> generated{"build_info.hpp"};
 
-/// What the unnamed namespaces of a source name at the beginning of a line (types, functions, values,
-/// aliases), with that line.
-std::map<std::string, std::string> hidden_names_of(const fs::path& file) {
-  static const std::regex type("(?:struct|class|enum class|enum|using|namespace) (\\w+).*");
+using Names = std::map<std::string, std::string>;  ///< with the line that gives each
+
+const std::regex type_named("(?:struct|class|enum class|enum|using|namespace) (\\w+).*");
+
+/// What the unnamed namespaces of a source name at the beginning of a line: types and aliases, functions,
+/// values.
+Names hidden_names_of(const fs::path& file) {
   static const std::regex value_or_function("(?:[^=({;]*[\\s*&])?(\\w+)\\s*[(={;\\[].*");
   static const std::regex further_value(", (\\w+) = ");
-  std::map<std::string, std::string> names;
+  Names names;
   std::ifstream stream(file);
   bool inside = false;
   for (std::string line; std::getline(stream, line);) {
-    if (line.starts_with("namespace {")) inside = true;
+    if (line.starts_with("namespace {")) {
+      inside = true;
+      continue;
+    }
     if (line.starts_with("}  // namespace")) inside = false;
     if (!inside || line.empty() || std::string(" }#/").find(line[0]) != std::string::npos ||
         line.starts_with("template"))
       continue;
     std::smatch match;
-    if (std::regex_match(line, match, type) || std::regex_match(line, match, value_or_function))
+    if (std::regex_match(line, match, type_named) || std::regex_match(line, match, value_or_function))
       names.emplace(match[1], line);
     if (line.starts_with("const"))
       for (std::sregex_iterator more(line.begin(), line.end(), further_value), none; more != none; ++more)
         names.emplace((*more)[1], line);
+  }
+  return names;
+}
+
+/// Types that the headers of a folder name at the beginning of a line.
+Names types_of_headers(const std::string& folder) {
+  Names names;
+  for (const fs::path& file : sources_of(folder)) {
+    if (file.extension() != ".hpp") continue;
+    std::ifstream stream(file);
+    std::smatch match;
+    for (std::string line; std::getline(stream, line);)
+      if (!line.starts_with("namespace") && !line.ends_with(";") && std::regex_match(line, match, type_named))
+        names.emplace(match[1], line);
   }
   return names;
 }
@@ -246,6 +266,23 @@ TEST(Layering, NoHiddenNameOfAFolderMeansTwoThings) {
             << fs::relative(place->second.first, PROJECT_ROOT) << " too: give one another name";
       }
   }
+}
+
+TEST(Layering, NoHiddenNameIsATypeOfAHeaderThatTheFolderOpens) {
+  std::map<std::string, Names> types;
+  for (const Layer& layer : layers()) types[layer.library] = types_of_headers(layer.folder);
+  for (const Layer& layer : layers())
+    for (const fs::path& file : sources_of(layer.folder)) {
+      if (file.extension() != ".cpp") continue;
+      for (const auto& [name, line] : hidden_names_of(file)) {
+        for (const std::string& opened : layer.opened)
+          EXPECT_FALSE(types[opened].contains(name))
+              << name << " of " << fs::relative(file, PROJECT_ROOT) << " is a type of " << opened << " too";
+        EXPECT_FALSE(types[layer.library].contains(name))
+            << name << " of " << fs::relative(file, PROJECT_ROOT) << " is a type of " << layer.library
+            << " too";
+      }
+    }
 }
 
 /// Other versions of clang-format break lines elsewhere.

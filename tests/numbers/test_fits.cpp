@@ -69,3 +69,27 @@ TEST(LeastSquares, LineWithErrorsByHand) {
   WITHIN(fit.errors[1], std::sqrt(0.18), 2e-15, 4.5e-16);
   EXPECT_TRUE(std::isnan(least_squares(columns.topRows(2), Eigen::Vector2d(1, 3)).errors[0]));
 }
+
+TEST(LeastSquares, CoefficientsAloneAndByWeightsAreTheSame) {
+  Eigen::MatrixXd columns(5, 2);
+  columns << 1, -2, 1, -1, 1, 0, 1, 1.5, 1, 4;
+  Eigen::VectorXd values(5);
+  values << 3, 1, 4, 1, 5;
+  const Eigen::VectorXd expected = least_squares(columns, values).coefficients;
+  EXPECT_EQ(least_squares_coefficients(columns, values), expected);
+  const Eigen::VectorXd weighted = least_squares_weights(columns) * values;
+  for (int i = 0; i < 2; ++i) WITHIN(weighted[i], expected[i], 5e-15, 4.5e-16);
+}
+
+TEST(LeastSquares, ShortestCoefficientsOfColumnsThatDepend) {
+  // 2 a + 4 b = 10: the shortest is along (2, 4).
+  const Eigen::MatrixXd columns{{2, 4}, {1, 2}, {3, 6}};
+  const Eigen::VectorXd found = shortest_coefficients(columns, Eigen::Vector3d(10, 5, 15));
+  WITHIN(found[0], 1, 4e-15, 4e-16);
+  WITHIN(found[1], 2, 4e-15, 4e-16);
+  const Eigen::MatrixXd inverse = pseudo_inverse(columns);
+  EXPECT_EQ(inverse.rows(), 2);
+  const Eigen::MatrixXd again = columns * inverse * columns;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 2; ++k) WITHIN(again(i, k), columns(i, k), 1e-14, 1e-15);
+}
