@@ -9,10 +9,12 @@
 // itself from a static library.
 #define SHAKEDOWN_EFFECTS(EFFECT)        \
   EFFECT(grain_friction)                 \
+  EFFECT(grain_rolling_resistance)       \
   EFFECT(velocity_dependent_restitution) \
   EFFECT(fluctuating_restitution)        \
   EFFECT(grain_cohesion)                 \
   EFFECT(side_wall_restitution)          \
+  EFFECT(side_wall_friction)             \
   EFFECT(grain_polydispersity)           \
   EFFECT(blade_viscous_damping)          \
   EFFECT(blade_quadratic_drag)           \
