@@ -383,4 +383,16 @@ std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& coun
   return cases;
 }
 
+std::vector<BlindCase> cases_within_reach(std::vector<BlindCase> cases, const Engine& laboratory) {
+  std::erase_if(cases, [&](const BlindCase& one) {
+    try {
+      refuse_what_is_not_modelled(laboratory, one.trial.hidden.truth);
+      return false;
+    } catch (const InputError&) {
+      return true;
+    }
+  });
+  return cases;
+}
+
 }  // namespace shakedown

@@ -83,4 +83,8 @@ std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& coun
                                   const SignalLaws& laws, std::uint64_t seed,
                                   std::span<const EffectRecord* const> known);
 
+/// Those that this laboratory can make: an engine that does not model an effect does not hide it. Their names
+/// stay.
+std::vector<BlindCase> cases_within_reach(std::vector<BlindCase> cases, const Engine& laboratory);
+
 }  // namespace shakedown

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <thread>
 
 #include "fnv.hpp"
@@ -35,7 +36,7 @@ std::string differences(const Json& there, const Json& here) {
        {"counts", "--cases"},
        {"signals", "--signals"},
        {"believed", "digest of SETUP"},
-       {"laboratory", "--engine"},
+       {"laboratory", "--laboratory"},
        {"budget", "--budget"},
        {"fault", "--mutation"}}};
   std::string differ;
@@ -61,8 +62,13 @@ class Suite {
   void run() {
     wait_for_the_draw();
     const Seals sealed_before = open();
-    const std::vector<BlindCase> cases =
-        draw_cases(believed_, options_.counts, design_, laws(), options_.seed, tools_.known);
+    const std::vector<BlindCase> cases = drawn(laws());
+    const int asked = std::accumulate(options_.counts.begin(), options_.counts.end(), 0),
+              left_out = asked - static_cast<int>(cases.size());
+    if (left_out > 0)
+      tell(fmt::format(
+          "{} of {} cases are left out: the laboratory, engine '{}', does not model what they hide", left_out,
+          asked, tools_.laboratory->name()));
     seal(cases, sealed_before);
     std::size_t done = 0;
     for (const BlindCase& one : cases) {
@@ -80,6 +86,12 @@ class Suite {
  private:
   void tell(const std::string& line) const {
     if (options_.told) options_.told(line);
+  }
+
+  std::vector<BlindCase> drawn(const SignalLaws& laws) const {
+    return cases_within_reach(
+        draw_cases(believed_, options_.counts, design_, laws, options_.seed, tools_.known),
+        *tools_.laboratory);
   }
 
   Json plan() const {
@@ -184,8 +196,7 @@ class Suite {
   /// Names of what these cases hide, found by drawing them once without a table of strengths.
   std::vector<std::string> needed_ids() const {
     std::vector<std::string> ids;
-    for (const BlindCase& one :
-         draw_cases(believed_, options_.counts, design_, {}, options_.seed, tools_.known))
+    for (const BlindCase& one : drawn({}))
       for (const std::string& id : one.strengths)
         if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
     std::sort(ids.begin(), ids.end());

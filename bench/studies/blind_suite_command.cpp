@@ -174,7 +174,12 @@ Command add_blind_suite_command(CLI::App& program) {
       .add_option("--ledger", a->ledger,
                   "table of seeds drawn, answered and opened (CSV), kept by the suite; \"\": none")
       ->type_name("FILE");
-  command.add_option("--engine", a->engine, "the laboratory's")->type_name("NAME")->capture_default_str();
+  command
+      .add_option("--laboratory,--engine", a->engine,
+                  "the engine that makes what is hidden; lammps or command:PROGRAM: other people's codes")
+      ->type_name("NAME")
+      ->capture_default_str();
+  add_keep_option(command);
   command.add_option("--seed", a->seed, "of the draw")->capture_default_str();
   command.add_option("--budget", a->budget, "simulations of one diagnosis at most")
       ->type_name("RUNS")

@@ -113,7 +113,12 @@ Command add_ring_down_command(CLI::App& program) {
   command.add_option("--cases", a->cases, "how many")->check(CLI::Range(1, 100000))->capture_default_str();
   command.add_option("--only", a->only, "these numbers alone, e.g. 3,17")->delimiter(',')->type_name("N,...");
   command.add_option("--seed", a->seed, "of the draw")->capture_default_str();
-  command.add_option("--engine", a->engine, "the laboratory's")->type_name("NAME")->capture_default_str();
+  command
+      .add_option("--laboratory,--engine", a->engine,
+                  "the engine that makes what is hidden; lammps or command:PROGRAM: other people's codes")
+      ->type_name("NAME")
+      ->capture_default_str();
+  add_keep_option(command);
   command
       .add_option("--out", a->out,
                   "folder for ring_downs.csv (a line a case), ring_downs.txt and every answer as it comes; "

@@ -84,6 +84,7 @@ void add_decay_options(CLI::App& command, LinearDecayArguments& arguments) {
       ->delimiter(',')
       ->type_name("NAMES")
       ->default_str("hard,soft");
+  add_keep_option(command);
   command.add_option("--lengths", arguments.lengths_mm, "lengths of the box, separated by commas")
       ->delimiter(',')
       ->check(positive_number())

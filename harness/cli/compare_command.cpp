@@ -81,6 +81,7 @@ Command add_compare_command(CLI::App& program) {
   command.add_option("--engine", arguments->engine, "hard, soft, bullet, lammps or command:PROGRAM")
       ->type_name("NAME")
       ->capture_default_str();
+  add_keep_option(command);
   add_json_option(command, arguments->json);
   command.footer(
       "Exit code 0: the model holds. 1: it fails, or that is undecided. The rule, the same for compare, "

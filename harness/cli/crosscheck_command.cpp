@@ -164,6 +164,7 @@ void add_ensemble_options(CLI::App& command, CrosscheckArguments& arguments) {
       ->allow_extra_args(false)
       ->type_name("NAMES")
       ->default_str("hard,soft");
+  add_keep_option(command);
 }
 
 void add_setup_options(CLI::App& command, CrosscheckArguments& arguments) {

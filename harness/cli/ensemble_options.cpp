@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "work_folder.hpp"
+
 namespace shakedown {
 
 CLI::Validator positive_number() {
@@ -43,6 +45,15 @@ void add_simulations_option(CLI::App& command, int& count, int fewest, const std
       ->check(CLI::Range(fewest, 100000))
       ->type_name("N")
       ->capture_default_str();
+}
+
+void add_keep_option(CLI::App& command) {
+  command
+      .add_option_function<std::string>(
+          "--keep", [](const std::string& folder) { keep_outside_files(folder); },
+          "leave what lammps or command:PROGRAM are given and answer in this folder, lammps/run_0 and so on; "
+          "without it they are removed")
+      ->type_name("DIR");
 }
 
 }  // namespace shakedown

@@ -21,4 +21,7 @@ void add_threads_option(CLI::App& command, int& threads,
 void add_simulations_option(CLI::App& command, int& count, int fewest = 16,
                             const std::string& words = "simulations of each different setup");
 
+/// --keep DIR: what programs beside ours are given and answer stays there. Of commands that take `--engine`.
+void add_keep_option(CLI::App& command);
+
 }  // namespace shakedown

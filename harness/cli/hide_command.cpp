@@ -211,6 +211,7 @@ Command add_hide_command(CLI::App& program) {
                   "the laboratory's; lammps or command:PROGRAM: other people's codes")
       ->type_name("NAME")
       ->capture_default_str();
+  add_keep_option(command);
   many("--camera", a->question.camera,
        "noise.box, noise.centre (0.2 mm, 0.5 mm), fps (500), missing, outliers (0), jump (20 mm), "
        "centre=false; a camera as it is: lens=0.5%, shutter=1ms, near=0.5%, wander=20um/0.3s, and by run "

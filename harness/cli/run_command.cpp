@@ -119,6 +119,7 @@ Command add_run_command(CLI::App& program) {
   command.add_option("--engine", arguments->engine, "one of " + names + ", or command:PROGRAM")
       ->type_name("NAME")
       ->capture_default_str();
+  add_keep_option(command);
   command
       .add_option("--out", arguments->folder,
                   "write series, summary, setup as used and provenance into this folder")

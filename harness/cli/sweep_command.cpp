@@ -235,6 +235,7 @@ Command add_sweep_command(CLI::App& program) {
   command.add_option("--engine", arguments->engine, "hard, soft, bullet, lammps or command:PROGRAM")
       ->type_name("NAME")
       ->capture_default_str();
+  add_keep_option(command);
   command
       .add_option("--out", arguments->out, "file of the results, a row a run; several processes may share it")
       ->type_name("FILE")

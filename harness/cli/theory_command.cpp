@@ -13,6 +13,7 @@
 #include "command.hpp"
 #include "engines.hpp"
 #include "ensemble.hpp"
+#include "ensemble_options.hpp"
 #include "friction_oscillator.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
@@ -177,6 +178,7 @@ Command add_theory_command(CLI::App& program) {
   command.add_option("--engine", arguments->engine, "engine of the run whose third peak is used")
       ->type_name("NAME")
       ->capture_default_str();
+  add_keep_option(command);
   command
       .add_option("--out", arguments->curve,
                   "write the friction-damped oscillator as t_s,x_box_m,v_box_m_per_s")

@@ -42,6 +42,18 @@ TEST_F(RunCommand, ItsFolderCanBeRunAgain) {
   EXPECT_EQ(contents(folder / "first/setup.toml"), contents(folder / "again/setup.toml"));
 }
 
+TEST_F(RunCommand, KeepsWhatAnotherProgramWasGivenAndAnswered) {
+  const fs::path program = folder / "at_rest";
+  std::ofstream(program) << "#!/bin/sh\nprintf 't_s,x_box_m,v_box_m_s\\n0,0.1075,0\\n' > $2\n";
+  fs::permissions(program, fs::perms::owner_all);
+  const Outcome outcome =
+      shakedown_program({"run", example("L040.toml"), "--engine", "command:" + program.string(), "--set",
+                         "grains.count=0", "--set", "run.duration=1 ms", "--keep", in_folder("kept")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(json::parse(contents(folder / "kept/at_rest/run_0/setup.json"))["rows"], 1);
+  EXPECT_TRUE(fs::exists(folder / "kept/at_rest/run_0/motion.csv"));
+}
+
 TEST_F(RunCommand, EnsemblesAreTheSameForAnyNumberOfThreads) {
   for (const std::string threads : {"1", "2"}) {
     const Outcome outcome =

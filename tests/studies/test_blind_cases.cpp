@@ -253,6 +253,28 @@ TEST(BlindCases, AreAtTheSignalsOfTheDesign) {
   EXPECT_EQ(met, 2);
 }
 
+/// A laboratory that does not model an effect hides all the others.
+TEST(BlindCases, AreThoseThatTheLaboratoryCanMake) {
+  const std::vector<BlindCase> all = drawn();
+  const auto ids_of = [](const std::vector<BlindCase>& cases) {
+    std::set<std::string> ids;
+    for (const BlindCase& one : cases) ids.insert(one.ids.begin(), one.ids.end());
+    return ids;
+  };
+  EXPECT_EQ(cases_within_reach(all, *engine_named("soft")).size(), all.size());
+  const std::vector<BlindCase> by_lammps = cases_within_reach(all, *engine_named("lammps"));
+  const std::set<std::string> hidden = ids_of(by_lammps);
+  for (const std::string made : {"grain_friction", "grain_cohesion", "force:table", "clamp_dry_friction"})
+    EXPECT_TRUE(hidden.contains(made)) << made;
+  for (const std::string not_made : {"blade_arc", "velocity_dependent_restitution"}) {
+    EXPECT_TRUE(ids_of(all).contains(not_made)) << not_made;
+    EXPECT_FALSE(hidden.contains(not_made)) << not_made;
+  }
+  std::map<std::string, const BlindCase*> named;
+  for (const BlindCase& one : all) named[one.name] = &one;
+  for (const BlindCase& one : by_lammps) EXPECT_EQ(one.ids, named.at(one.name)->ids);
+}
+
 TEST(SignalLaw, IsAPowerOfTheStrengthAndOfTheBalanceAloneInverseToTheNoise) {
   const SignalLaw contact{3, 18, 2, false}, force{0.1, 20, 1, true};
   EXPECT_NEAR(contact.signal_at(1.5, 2), 4.5, 1e-12);
