@@ -91,23 +91,19 @@ DiagnosisState concluded(const DiagnosisState& state, DiagnosisTools& tools, con
 }
 
 DiagnosisState pruned(const DiagnosisState& state, DiagnosisTools& tools,
-                      const std::vector<std::string>& from_balance) {
+                      const std::vector<std::string>& from_balance, std::size_t added) {
   if (state.missing.size() < 2) return state;
-  for (std::size_t i = 0; i + 1 < state.missing.size(); ++i) {
-    const std::string effect = state.missing[i];
-    if (std::find(from_balance.begin(), from_balance.end(), effect) != from_balance.end()) continue;
-    constexpr double beyond_doubt = 2;  // standard errors: what a 95 % interval leaves out
-    if (is_told(state.fit, effect, beyond_doubt)) continue;
+  for (const std::string& effect : hardly_told(state, from_balance, added)) {
     DiagnosisState less = state;
     std::erase_if(less.setup.effects,
                   [&](const EffectChoice& choice) { return choice.record->name == effect; });
     std::erase_if(less.found, [&](const Knob& knob) { return effect_of(knob.key) == effect; });
-    less.missing.erase(less.missing.begin() + static_cast<std::ptrdiff_t>(i));
+    std::erase(less.missing, effect);
     less.fit = tools.fit(less, "is " + effect + " still needed?", less.knobs(), effort::beside);
     if (less.fit.p_value <= rules::holds &&
         (less.fit.scatter - state.fit.scatter) * state.fit.degrees > rules::emulator_noise)
       continue;
-    return pruned(less, tools, from_balance);
+    return pruned(less, tools, from_balance, 1);
   }
   return state;
 }

@@ -64,12 +64,17 @@ DiagnosisState Course::search(DiagnosisState& refitted) {
     if (!round.added) break;
     accepted_.reset();
     if (state.fit.p_value > rules::holds) accepted_ = state;
+    const std::size_t added = round.next.missing.size() - state.missing.size();
     state = round.next;
     runner_up_ = {round.next.missing.back(), round.runner_up, round.runner_up_setup};
     result_.ladder.push_back(step_of(step_name(state.missing), state.fit));
     const std::vector<std::string> before = state.missing;
+    // A pair was weighed as a whole: that both are needed is worth what was kept for the last fit.
+    const double limit = tools_.limit();
+    if (added > 1) tools_.limit_to(1);
     state = unless_spent("which effects are still needed", state,
-                         [&] { return pruned(state, tools_, from_balance); });
+                         [&] { return pruned(state, tools_, from_balance, added); });
+    tools_.limit_to(limit);
     for (const std::string& effect : before)
       if (std::find(state.missing.begin(), state.missing.end(), effect) == state.missing.end())
         take_back(effect);

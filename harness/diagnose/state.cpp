@@ -36,13 +36,35 @@ std::pair<double, double> strength_of(const Refit& fit, std::size_t value) {
   return {at - knob.absent, error};
 }
 
-bool is_told(const Refit& fit, const std::string& effect, double standard_errors) {
+double told_by(const Refit& fit, const std::string& effect) {
+  double most = 0;
   for (std::size_t k = 0; k < fit.values.size(); ++k) {
     if (effect_of(fit.values[k].key) != effect) continue;
     const auto [strength, error] = strength_of(fit, k);
-    if (std::abs(strength) > standard_errors * error) return true;
+    if (strength != 0) most = std::max(most, std::abs(strength) / error);
   }
-  return false;
+  return most;
+}
+
+bool is_told(const Refit& fit, const std::string& effect, double standard_errors) {
+  return told_by(fit, effect) > standard_errors;
+}
+
+std::vector<std::string> hardly_told(const DiagnosisState& state,
+                                     const std::vector<std::string>& from_balance, std::size_t added) {
+  constexpr double beyond_doubt = 2;  // standard errors: what a 95 % interval leaves out
+  const std::size_t spared = added == 1 ? 1 : 0;
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i + spared < state.missing.size(); ++i) {
+    const std::string& effect = state.missing[i];
+    if (std::find(from_balance.begin(), from_balance.end(), effect) == from_balance.end() &&
+        !is_told(state.fit, effect, beyond_doubt))
+      list.push_back(effect);
+  }
+  std::stable_sort(list.begin(), list.end(), [&](const std::string& a, const std::string& b) {
+    return told_by(state.fit, a) < told_by(state.fit, b);
+  });
+  return list;
 }
 
 std::vector<Knob> DiagnosisState::knobs() const { return together(together(theta, found), camera); }

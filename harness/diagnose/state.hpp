@@ -116,9 +116,16 @@ std::vector<Hypothesis> not_looked_at(const DiagnosisState& state, DiagnosisTool
 /// bear it.
 DiagnosisState concluded(const DiagnosisState& state, DiagnosisTools& tools, const std::string& stage);
 
-/// Without the effects that the later ones have made needless.
+/// Without the effects that the later ones have made needless. `added`: how many of the last were added at
+/// once.
 DiagnosisState pruned(const DiagnosisState& state, DiagnosisTools& tools,
-                      const std::vector<std::string>& from_balance);
+                      const std::vector<std::string>& from_balance, std::size_t added);
+
+/// The missing effects that a fit tells by less than two standard errors, least told first, but those of the
+/// balance and one that was added last by itself: that one was weighed alone; of two at once only their sum
+/// was, and one may be nothing.
+std::vector<std::string> hardly_told(const DiagnosisState& state,
+                                     const std::vector<std::string>& from_balance, std::size_t added);
 
 /// The data reject the model by more than two codes of the same physics differ.
 bool is_rejected(const Refit& fit);
@@ -141,6 +148,10 @@ std::vector<Knob> together(std::vector<Knob> a, const std::vector<Knob>& b);
 /// Strength of the effect of this fitted value, from its absence, and its standard error; of a length the
 /// curvature, 1/m^2.
 std::pair<double, double> strength_of(const Refit& fit, std::size_t value);
+
+/// By how many standard errors the strength of the effect differs from its absence; of several strengths by
+/// the most, of one that is not in the fit by 0.
+double told_by(const Refit& fit, const std::string& effect);
 
 /// The strength of the effect differs from its absence by so many standard errors.
 bool is_told(const Refit& fit, const std::string& effect, double standard_errors);

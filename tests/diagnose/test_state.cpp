@@ -47,6 +47,19 @@ TEST(Told, FromWhereItsAbsenceIs) {
   EXPECT_FALSE(is_told(fitted(), "side_wall_restitution", 1.7));
 }
 
+TEST(HardlyTold, OneOfTwoThatWereAddedAtOnceMayBeNothing) {
+  DiagnosisState state;
+  state.fit = fitted();
+  state.missing = {"grain_friction", "side_wall_restitution"};  // by 3 and by 1.6 standard errors
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(hardly_told(state, {}, 2), Names{"side_wall_restitution"});
+  EXPECT_EQ(hardly_told(state, {}, 1), Names{});  // weighed by itself
+  EXPECT_EQ(hardly_told(state, {"side_wall_restitution"}, 2), Names{});
+  state.missing = {"side_wall_restitution", "grain_cohesion"};  // of which the fit says nothing
+  EXPECT_EQ(hardly_told(state, {}, 2), (Names{"grain_cohesion", "side_wall_restitution"}));
+  EXPECT_EQ(hardly_told(state, {}, 1), Names{"side_wall_restitution"});
+}
+
 namespace {
 
 DiagnosisState at_restitutions(double grains, double walls, double p_value, double scatter) {
