@@ -16,6 +16,7 @@
 #include "parameter_knobs.hpp"
 #include "random.hpp"
 #include "setup_file.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -121,7 +122,7 @@ TEST(TurnedModel, IsTheFitAtTheBestAndTheOtherFitAsGiven) {
   left << 1, -model.shares(given);
   const Eigen::LLT<Eigen::MatrixXd> root(fit.fit.covariances[0]);
   const double chi2 = root.matrixL().solve(fit.as_given.runs[0].residual).squaredNorm();
-  EXPECT_NEAR(left.dot(model.square[0] * left), chi2, 1e-6 * chi2);
+  WITHIN(left.dot(model.square[0] * left) / chi2, 1, 4e-15, 2.3e-16);
 }
 
 // Of the swing of 100 mm, where chaos of 0.3 mm and its mean over 16 runs are left.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "random.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -19,5 +20,5 @@ TEST(RobustStatistics, MedianAndDeviationIgnoreOutliers) {
   Random random(1, 0, Stream::other);
   std::vector<double> values;
   for (int i = 0; i < 20000; ++i) values.push_back(i % 20 == 0 ? 1e3 : 2 * random.normal());
-  EXPECT_NEAR(robust_deviation(values), 2, 0.2);  // 5 % outliers widen it by 7 %
+  WITHIN(robust_deviation(values), 2, 0.2, 0.12);  // 5 % outliers widen it by 7 %
 }
