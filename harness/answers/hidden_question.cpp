@@ -31,6 +31,18 @@ void read_each(const std::vector<std::string>& texts, std::vector<Violation>& fo
   for (const std::string& text : texts) collect(found, [&] { read(text); });
 }
 
+/// A film in which what was to be hidden does nothing would tell of nothing.
+void expect_what_they_need(const Setup& truth) {
+  std::vector<Violation> found;
+  for (const EffectChoice& choice : truth.effects)
+    if (const std::string needs(choice.record->needs); !needs.empty() && find_choice(truth, needs) == nullptr)
+      found.push_back({{"--effect", 0, 0},
+                       std::string(choice.record->name),
+                       "does nothing without " + needs,
+                       "hide both: --effect " + needs + " --effect " + std::string(choice.record->name)});
+  if (!found.empty()) throw InputError(std::move(found));
+}
+
 HiddenCase hidden_case(const HiddenQuestion& question) {
   std::vector<Override> common, truth;
   std::vector<Violation> found;
@@ -44,7 +56,9 @@ HiddenCase hidden_case(const HiddenQuestion& question) {
             [&](const std::string& text) { truth.push_back(parse_override(text)); });
   if (!found.empty()) throw InputError(std::move(found));
   truth.insert(truth.begin(), common.begin(), common.end());
-  return {believed, question.setup_with(truth)};
+  HiddenCase hidden{believed, question.setup_with(truth)};
+  expect_what_they_need(hidden.truth);
+  return hidden;
 }
 
 std::vector<PlannedRun> planned_runs(const HiddenQuestion& question) {

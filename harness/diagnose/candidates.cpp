@@ -124,6 +124,11 @@ bool is_claimed(const Setup& setup, const EffectRecord& record) {
          });
 }
 
+/// What it would do nothing without is not there.
+bool is_needy(const Setup& setup, const EffectRecord& record) {
+  return !record.needs.empty() && find_choice(setup, record.needs) == nullptr;
+}
+
 /// The setup has this strength already, another component of the same effect left aside.
 bool is_present(const Setup& setup, const EffectRecord& record, const SearchedStrength& strength,
                 std::span<const EffectRecord* const> known) {
@@ -141,7 +146,7 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
     const Search search = search_of(*record);
     // the balance finds sines
     if (record->nuisance || search.harmonic || !search.not_searched.empty() || is_claimed(setup, *record) ||
-        !is_modelled(engine, *record))
+        is_needy(setup, *record) || !is_modelled(engine, *record))
       continue;
     for (const SearchedStrength& strength : search.strengths) {
       if (is_present(setup, *record, strength, known)) continue;

@@ -146,6 +146,7 @@ std::string describe_effect(const EffectRecord& effect) {
   line("limits", effect.limits);
   line("source", effect.source);
   line("replaces", effect.claims);
+  line("needs", effect.needs);
   const auto capability = [&](std::string_view engine, const Capability& of) {
     line(engine, std::string(name_of(of.fidelity)) + (of.note.empty() ? "" : ": " + std::string(of.note)));
   };

@@ -96,13 +96,21 @@ Json json_of(const EffectRecord& effect) {
   Json engines = Json::object();
   for (const std::string_view engine : engines_of(all_effects()))
     engines[std::string(engine)] = json_of(effect.capability(engine));
-  return {{"name", effect.name},           {"label", effect.label},
-          {"family", family_of(effect)},   {"acts_on", name_of(effect.acts_on)},
-          {"sentence", effect.sentence},   {"formula", effect.formula},
-          {"source", effect.source},       {"limits", effect.limits},
-          {"replaces", effect.claims},     {"dissipative", effect.dissipative},
-          {"parameters", parameters},      {"engines", engines},
-          {"search", search_json(effect)}, {"hard_soft_difference", differences_of(effect)},
+  return {{"name", effect.name},
+          {"label", effect.label},
+          {"family", family_of(effect)},
+          {"acts_on", name_of(effect.acts_on)},
+          {"sentence", effect.sentence},
+          {"formula", effect.formula},
+          {"source", effect.source},
+          {"limits", effect.limits},
+          {"replaces", effect.claims},
+          {"needs", effect.needs},
+          {"dissipative", effect.dissipative},
+          {"parameters", parameters},
+          {"engines", engines},
+          {"search", search_json(effect)},
+          {"hard_soft_difference", differences_of(effect)},
           {"example", example_of(effect)}};
 }
 

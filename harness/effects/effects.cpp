@@ -9,6 +9,7 @@
 // itself from a static library.
 #define SHAKEDOWN_EFFECTS(EFFECT)        \
   EFFECT(grain_friction)                 \
+  EFFECT(grain_rolling_resistance)       \
   EFFECT(velocity_dependent_restitution) \
   EFFECT(fluctuating_restitution)        \
   EFFECT(grain_cohesion)                 \

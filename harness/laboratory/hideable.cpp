@@ -25,7 +25,7 @@ std::vector<Hideable> effects_of_the_list() {
   std::vector<Hideable> list;
   for (const EffectRecord* record : all_effects()) {
     const Search search = search_of(*record);
-    if (!search.not_searched.empty()) continue;
+    if (!search.not_searched.empty() || !record->needs.empty()) continue;
     for (SearchedStrength strength : search.strengths) {
       const Parameter& parameter = parameter_of(*record, strength);
       strength.low = parameter.low, strength.high = parameter.high;

@@ -147,6 +147,9 @@ struct EffectRecord {
   bool dissipative = false;  ///< its line in the energy ledger can never be negative
   std::vector<EngineCapability> engines{};
   Search search{};
+  /// Name of an effect without which this one does nothing: looked for in models that have that one, and
+  /// hidden beside it; empty: stands alone.
+  std::string_view needs{};
   /// Misfit, over that of the model's own runs, that data of another code of the same physics leave of a
   /// right model with this effect; 0: as of one without (judgement/judgement.hpp, codes_differ).
   double codes_differ = 0;

@@ -31,6 +31,17 @@ TEST_F(HideCommand, SaysWhatIsWrongWithItsArguments) {
   EXPECT_NE(outcome.err.find("did you mean 'grain_friction'"), std::string::npos) << outcome.err;
 }
 
+TEST_F(HideCommand, RefusesAnEffectThatDoesNothingAlone) {
+  const Outcome outcome = shakedown_program({"hide", "--effect", "grain_rolling_resistance", "--lengths",
+                                             "40mm", "--duration", "1 s", "--out", in_folder("case")});
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_NE(
+      outcome.err.find("grain_rolling_resistance: does nothing without grain_friction; hide both: --effect "
+                       "grain_friction --effect grain_rolling_resistance"),
+      std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(HideCommand, PowerCountsAnswersAndWritesNothing) {
   // The least budget and a model that holds: one comparison, about a second.
   const Outcome outcome =

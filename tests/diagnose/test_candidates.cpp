@@ -136,6 +136,13 @@ TEST(Candidates, WhatARecordSaysNoDiagnosisLooksForIsNone) {
     EXPECT_FALSE(!record->search.not_searched.empty() && is_candidate(list, record->name)) << record->name;
 }
 
+TEST(Candidates, WhatDoesNothingWithoutAnotherIsOneBesideIt) {
+  shakedown::Setup setup;
+  EXPECT_FALSE(is_candidate(candidates_of(setup), "grain_rolling_resistance"));
+  set_number(setup, "grain_friction.grain_wall", 0.2, all_effects());
+  EXPECT_TRUE(is_candidate(candidates_of(setup), "grain_rolling_resistance"));
+}
+
 TEST(Candidates, WhatTheEngineDoesNotModelIsNone) {
   EffectRecord brake = brake_of_tomorrow();
   brake.engines = {{"soft", {Fidelity::exact, ""}}};

@@ -145,6 +145,11 @@ Rolled roll(const std::string& engine, const Roll& ball, double time) {
   friction.values.insert_or_assign("grain_wall", ball.friction);
   friction.values.insert_or_assign("tangential_restitution", ball.tangential_restitution);
   setup.effects.push_back(friction);
+  if (ball.rolling_resistance > 0) {
+    EffectChoice rolling = with_defaults(*find_effect("grain_rolling_resistance"));
+    rolling.values.insert_or_assign("grain_wall", ball.rolling_resistance);
+    setup.effects.push_back(rolling);
+  }
   State start;
   // Hard spheres cannot lie still: this one hops, by less and less down to the height that they are left.
   const double hop = engine == "hard" ? 1e-4 : 0;

@@ -40,6 +40,7 @@ struct Roll {
   double speed = 0.5;   ///< m/s along x at the start
   double backspin = 0;  ///< surface speed against it over it
   double friction = 0.3, tangential_restitution = 1;
+  double rolling_resistance = 0;
   double slipping() const;       ///< s until it rolls
   double rolling_speed() const;  ///< m/s
 };

@@ -125,7 +125,7 @@ def drawn_case(seed, number, effects, perfect, tried):
     d = drawn_damper(r)
     kind = r.choices(list(KINDS), list(KINDS.values()))[0]
     camera = "perfect" if perfect else r.choices(list(CAMERAS), [c[0] for c in CAMERAS.values()])[0]
-    known = [e for e in effects if e["acts_on"] != "camera" and "strengths" in e["search"] and e["name"] not in NOT_PHYSICS]
+    known = [e for e in effects if e["acts_on"] != "camera" and "strengths" in e["search"] and not e.get("needs") and e["name"] not in NOT_PHYSICS]
     formula = next(e for e in effects if any(p["kind"] == "text" for p in e["parameters"]))
     sets, hidden, effect_words, walls = [f"soft.contact_time={log_uniform(r, .15, .4):.4g} ms"], [], [], .76
     if not perfect:
