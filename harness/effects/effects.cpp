@@ -14,6 +14,7 @@
   EFFECT(fluctuating_restitution)        \
   EFFECT(grain_cohesion)                 \
   EFFECT(side_wall_restitution)          \
+  EFFECT(side_wall_friction)             \
   EFFECT(grain_polydispersity)           \
   EFFECT(blade_viscous_damping)          \
   EFFECT(blade_quadratic_drag)           \

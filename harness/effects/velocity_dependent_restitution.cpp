@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Restitution that falls with the closing speed at first touch.
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "physics.hpp"
+#include "power_restitution.hpp"
 #include "viscoelastic_contact.hpp"
 
 namespace shakedown::effect {
@@ -15,15 +15,11 @@ using PerClass = std::array<double, contact_classes>;
 
 constexpr std::size_t index_of(ContactClass kind) { return static_cast<std::size_t>(kind); }
 
-/// Plastic contacts lose the more the faster they are. The cap keeps slow impacts dissipative; materials that
-/// are more elastic than the cap at the reference speed keep their value.
 void apply_power(const EffectChoice& choice, Physics& physics) {
-  static constexpr double cap = 0.98;
   const double exponent = choice.number("exponent"), reference = choice.number("reference_speed");
   physics.contact.restitution_at = [at_reference = physics.contact.restitution, exponent, reference](
                                        ContactClass kind, double speed) {
-    const double restitution = at_reference[index_of(kind)];
-    return std::min(restitution * std::pow(speed / reference, -exponent), std::max(cap, restitution));
+    return power_restitution(at_reference[index_of(kind)], exponent, reference, speed);
   };
 }
 
@@ -87,7 +83,7 @@ extern const EffectRecord velocity_dependent_restitution{
     .limits =
         "Depends on the impact alone, not on what happened before; real grains cross from viscoelastic "
         "(below some mm/s) to plastic. "
-        "The exponent belongs to the law power.",
+        "The exponent belongs to the law power. Side walls with a law of their own: side_wall_restitution.",
     .parameters = {{.name = "law",
                     .kind = ParameterKind::choice,
                     .default_value = std::string("power"),

@@ -52,6 +52,7 @@ TEST_P(Records, SaysWhatItIs) {
   EXPECT_FALSE(record.source.empty());
   EXPECT_NE(record.apply, nullptr);
   EXPECT_FALSE(record.parameters.empty());
+  EXPECT_TRUE(record.needs.empty() || find_effect(record.needs) != nullptr) << record.needs;
   for (const Parameter& parameter : record.parameters) expect_sentence(parameter.sentence, parameter.name);
 }
 
@@ -264,6 +265,8 @@ TEST(RecordList, KeepsTheNamesOnceGiven) {
                                       "velocity_dependent_restitution",
                                       "grain_cohesion",
                                       "side_wall_restitution",
+                                      "side_wall_friction",
+                                      "grain_rolling_resistance",
                                       "grain_polydispersity",
                                       "blade_viscous_damping",
                                       "blade_quadratic_drag",
