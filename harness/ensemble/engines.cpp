@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "apart_engine.hpp"
 #include "bullet_engine.hpp"
 #include "command_engine.hpp"
 #include "hard_engine.hpp"
@@ -24,6 +25,7 @@ std::span<const NamedEngine> engines() {
       {"soft", [] { return make_soft_engine(); }},
       {"bullet", make_bullet_engine},
       {"lammps", make_lammps_engine},
+      {"apart", make_apart_engine},
   };
   return list;
 }

@@ -9,7 +9,7 @@ using namespace shakedown;
 
 TEST(Engines, EachNameMakesTheEngineOfThatName) {
   const std::vector<std::string> names = engine_names();
-  EXPECT_EQ(names, (std::vector<std::string>{"hard", "soft", "bullet", "lammps"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"hard", "soft", "bullet", "lammps", "apart"}));
   for (const std::string& name : names) EXPECT_EQ(engine_named(name)->name(), name);
 }
 

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Steps in time: half a drift, a kick at the middle, half a drift (J. J. Moreau's midpoint rule). Velocities
+// against which something drags enter the kick implicitly, dry friction as an impulse of bounded size.
+#pragma once
+#include <vector>
+
+#include "encounters.hpp"
+
+namespace shakedown::apart {
+
+class Motion {
+ public:
+  Motion(const Model& model, State state, double step, std::size_t effects);
+
+  /// Goes on by one step from this time, s.
+  void advance(double time);
+
+  const State& state() const { return state_; }
+  /// J: spring, box, grains, and what contacts hold.
+  double energy() const;
+  /// J, lost in contacts of each class and to each effect since the start.
+  std::array<double, contact_classes> contact_loss() const;
+  const std::vector<double>& effect_loss() const { return effect_loss_; }
+  const Encounters& encounters() const { return encounters_; }
+
+ private:
+  void drift();
+  void kick_grains(double time);
+  void kick_box(double time);
+  void follow_arc();
+  double push_of(const BoxPush& push, double time) const;
+  double drag_at(double speed) const;
+  void enter_contact_work();
+
+  const Model& model_;
+  State state_;
+  double step_;
+  Encounters encounters_;
+  std::vector<Vec3> force_, torque_, velocity_before_, spin_before_;
+  double box_force_ = 0, box_before_ = 0, box_change_ = 0, arc_before_ = 0;
+  const std::vector<Push>* pushes_ = nullptr;
+  std::array<double, contact_classes> contact_work_{};
+  std::vector<double> effect_loss_;
+  bool turns_;
+};
+
+}  // namespace shakedown::apart
