@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
