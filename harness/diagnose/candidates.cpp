@@ -80,15 +80,24 @@ Candidate candidate_of(const EffectRecord& record, const Search& search, const S
   return candidate;
 }
 
+/// Strengths from `least` on.
+void look_from(Search& search, double least) {
+  for (SearchedStrength& strength : search.strengths) {
+    strength.low = std::max(strength.low, least);
+    std::erase_if(strength.levels, [&](double level) { return level < least; });
+  }
+}
+
 /// Each of the searches, once for each value of this shape.
 std::vector<Search> with_each(const std::vector<Search>& searches, const SearchedShape& shape) {
   std::vector<Search> shapes;
   for (const Search& search : searches)
-    for (const double value : shape.values) {
+    for (std::size_t i = 0; i < shape.values.size(); ++i) {
       shapes.push_back(search);
       shapes.back().odds /= static_cast<double>(shape.values.size());
       for (auto& [parameter, beside] : shapes.back().besides)
-        if (parameter == shape.parameter) beside = value;
+        if (parameter == shape.parameter) beside = shape.values[i];
+      if (!shape.least_strengths.empty()) look_from(shapes.back(), shape.least_strengths.at(i));
     }
   return shapes;
 }
@@ -150,8 +159,9 @@ std::vector<Candidate> all_candidates(const Setup& setup, std::span<const Effect
       continue;
     for (const SearchedStrength& strength : search.strengths) {
       if (is_present(setup, *record, strength, known)) continue;
+      const auto index = static_cast<std::size_t>(&strength - search.strengths.data());
       for (const Search& shaped : shapes_of(*record, search)) {
-        Candidate candidate = candidate_of(*record, shaped, strength, setup);
+        Candidate candidate = candidate_of(*record, shaped, shaped.strengths[index], setup);
         if (possible_in(setup, candidate, known)) list.push_back(std::move(candidate));
       }
     }

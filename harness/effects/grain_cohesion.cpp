@@ -66,8 +66,8 @@ extern const EffectRecord grain_cohesion{
     // Interface Sci. 161, 138 (1993)), 0.2 mm for 0.01 mm^3. Walls that attract hold the layer from some 60
     // mN on, so that nothing is lost; walls that do not leave a clump that still falls from end to end (the
     // slope of the decay changes by 10 % up to 0.3 N). What 20 mN over 0.02 mm does is as much as hard wells
-    // and soft contacts differ by (README.md), 2 mN over 0.2 mm: less is not looked for, it would be found in
-    // every recording of the other kind. Dry grains of some millimetres rarely stick: exp(-2).
+    // and soft contacts differ by (README.md): less is not looked for, it would be found in recordings of the
+    // other kind. Over 0.2 mm that is 2 mN. Dry grains of some millimetres rarely stick: exp(-2).
     .search = {.strengths = {{.parameters = "force",
                               .typical = 8e-3,
                               .levels = {4e-3, 8e-3, 24e-3, 0.08, 0.24},
@@ -75,7 +75,7 @@ extern const EffectRecord grain_cohesion{
                               .high = 0.3,
                               .strongest = 64e-3}},
                .besides = {{"range", 2e-5}, {"walls", 1}},
-               .shapes = {{"range", {2e-5, 2e-4}}, {"walls", {0, 1}}},
+               .shapes = {{"range", {2e-5, 2e-4}, {20e-3, 4e-3}}, {"walls", {0, 1}}},
                .cost = Search::Cost::slow,
                .odds = 0.135},
     // Films by the soft engine judged by the hard one with the same numbers, 0.2 mm: README.md.

@@ -103,6 +103,9 @@ struct SearchedHarmonic {
 struct SearchedShape {
   std::string_view parameter{};
   std::vector<double> values{};  ///< SI, ascending
+  /// With each of the values, the least strength that is looked for where that is more than the strength's
+  /// own `low`; SI. Empty: no more.
+  std::vector<double> least_strengths{};
 };
 
 /// How a diagnosis looks for an effect. Left empty it is made from the parameters: see search_of().

@@ -53,6 +53,22 @@ TEST(Candidates, AnEffectOfTomorrowIsLookedForByItsRecordAlone) {
   EXPECT_TRUE(found.prior.one_sided);
 }
 
+// A diagnosis by hard grains of a film of soft ones found 4 mN over 0.02 mm that nothing had: below 20 mN the
+// two codes differ by as much.
+TEST(Candidates, AttractionIsLookedForFromWhereCodesDoNotDiffer) {
+  int short_ones = 0, long_ones = 0;
+  for (const Candidate& candidate :
+       candidates_for({}, {"grain_cohesion"}, all_effects(), *engine_named("hard"))) {
+    const double range = candidate.fixed.at(0).second, least = range < 1e-4 ? 20e-3 : 4e-3;
+    EXPECT_EQ(candidate.fixed.at(0).first, "grain_cohesion.range");
+    EXPECT_EQ(candidate.knobs.at(0).low, least);
+    EXPECT_EQ(candidate.levels.front().value, range < 1e-4 ? 24e-3 : 4e-3);
+    ++(range < 1e-4 ? short_ones : long_ones);
+  }
+  EXPECT_EQ(short_ones, 2);
+  EXPECT_EQ(long_ones, 2);
+}
+
 TEST(Candidates, KnobsStandWhereTheEffectIsAbsent) {
   shakedown::Setup setup;
   setup.restitution.grain_wall = 0.6;
