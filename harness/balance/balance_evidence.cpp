@@ -94,7 +94,8 @@ Projected projected(const SelectionProblem& p, const std::vector<ChosenTerm>& ba
     const Eigen::VectorXd left = outside(column);
     // What leaves no trace, or merely scales what is left (a camera's scale), is not seen here.
     const double along = left.dot(impulse) / std::max(out.chi2, 1e-300);
-    if (!((left - along * impulse).squaredNorm() > 1e-6 * column.squaredNorm())) continue;
+    constexpr double a_trace = 1e-6;  // of the column's square: a thousandth of the column
+    if (!((left - along * impulse).squaredNorm() > a_trace * column.squaredNorm())) continue;
     const std::ptrdiff_t place = place_of(p, out.term, term);
     const auto gain = [&](const auto& one) { return std::pow(one.dot(impulse), 2) / one.squaredNorm(); };
     if (place == std::ssize(out.term))
@@ -156,7 +157,8 @@ double log_odds_of(const SelectionProblem& p, const Projected& q, const std::vec
           q.gram(i, static_cast<Eigen::Index>(set[static_cast<std::size_t>(b)])) * scale[a] * scale[b];
   }
   const Eigen::LLT<Eigen::MatrixXd> root(gram);
-  if (root.info() != Eigen::Success || root.matrixLLT().diagonal().minCoeff() < 1e-4) return impossible;
+  constexpr double apart = 1e-4;  // sine of the angle between a column of length 1 and those before it
+  if (root.info() != Eigen::Success || root.matrixLLT().diagonal().minCoeff() < apart) return impossible;
   const Eigen::VectorXd scaled = root.solve(overlap);
   gain = overlap.dot(scaled);
   double sum = gain / 2;
@@ -234,7 +236,8 @@ Eigen::MatrixXd columns_of(const SelectionProblem& p, const std::vector<ChosenTe
 
 Selection fit_terms(SelectionProblem& p, std::vector<ChosenTerm> chosen) {
   Selection selection{std::move(chosen), {}, 0};
-  for (int iteration = 0; iteration < 3; ++iteration) {
+  constexpr int iterations = 3;  // the noise that the forces let in depends on them by a few per cent
+  for (int iteration = 0; iteration < iterations; ++iteration) {
     selection.fit = regress(p.problem.impulse(), columns_of(p, selection.chosen));
     if (iteration > 0) derive_again(p, selection);
     p.problem.set_covariance(fitted_forces(p, selection));
@@ -280,6 +283,7 @@ SineFound best_sine(const SelectionProblem& p, const Selection& beside, double l
   const Eigen::MatrixXd basis = orthonormal_basis(columns_of(p, beside.chosen));
   const Eigen::VectorXd residual = p.problem.impulse() - basis * (basis.transpose() * p.problem.impulse());
   const double step = 0.25 / std::max(p.problem.longest(), 1.0);
+  const double resolved = 3 / std::max(p.problem.longest(), 1.0);  // of a recording: three turns of beats
   for (std::size_t run = 0; run < p.problem.runs(); ++run)
     highest = std::min(highest, 0.2 / p.problem.form(run).run().interval);
   struct Seen {
@@ -289,7 +293,8 @@ SineFound best_sine(const SelectionProblem& p, const Selection& beside, double l
     Eigen::MatrixXd pair = p.problem.harmonic(frequency);
     pair -= basis * (basis.transpose() * pair);
     const Eigen::Matrix2d normal = pair.transpose() * pair;
-    if (!(normal.determinant() > 1e-12 * normal(0, 0) * normal(1, 1))) return {};
+    constexpr double rounding = 1e-12;
+    if (!(normal.determinant() > rounding * normal(0, 0) * normal(1, 1))) return {};
     const Eigen::Vector2d right = pair.transpose() * residual, both = normal.inverse() * right;
     const double gain = right.dot(both), amplitude = both.norm();
     // half-Cauchy in the amplitude, any phase
@@ -302,7 +307,7 @@ SineFound best_sine(const SelectionProblem& p, const Selection& beside, double l
   for (double frequency = lowest; frequency <= highest; frequency += step) {
     // Two sines closer than the recording can resolve make any transient between them; the swing of an empty
     // box is one of the two.
-    const auto near = [&](double other) { return std::abs(other - frequency) < 12 * step; };
+    const auto near = [&](double other) { return std::abs(other - frequency) < resolved; };
     if (std::any_of(beside.chosen.begin(), beside.chosen.end(),
                     [&](const ChosenTerm& c) { return c.term < 0 && near(c.frequency); }) ||
         std::any_of(p.runs->begin(), p.runs->end(), [&](const MomentumRun& run) {

@@ -50,25 +50,29 @@ std::vector<ShapeValues> starts_of(const ForceShape& shape, const MotionScales& 
 /// A little beyond the starting values and no further: a very wide bump is a polynomial in disguise, and a
 /// width cannot pass zero.
 bool in_bounds(const ForceShape& shape, const ShapeValues& values, const MotionScales& scales) {
+  // Assumptions, but for the speed: below six of its errors it has no sign for sure.
+  constexpr double beyond = 1.3, narrower = 1 / 3.0, wider = 1.5, sure = 6, narrowest = 0.005;
   for (std::size_t i = 0; i < shape.parameters.size(); ++i) {
     const ShapeParameter& parameter = shape.parameters[i];
     const auto [low, high] = std::minmax_element(parameter.start.begin(), parameter.start.end());
     const double scale = scale_of(parameter, scales), value = values[i];
     if (parameter.name == "q") continue;
-    if (parameter.name == "v0" && value < 6 * scales.velocity_noise) return false;
-    if (*low <= 0 && (value < 1.3 * *low * scale || value > 1.3 * *high * scale)) return false;
-    if (*low > 0 && (value < *low * scale / 3 || value > 1.5 * *high * scale)) return false;
-    if (*low < 0 && parameter.name == "w" && std::abs(value) < 0.005 * scale) return false;
+    if (parameter.name == "v0" && value < sure * scales.velocity_noise) return false;
+    if (*low <= 0 && (value < beyond * *low * scale || value > beyond * *high * scale)) return false;
+    if (*low > 0 && (value < *low * scale * narrower || value > wider * *high * scale)) return false;
+    if (*low < 0 && parameter.name == "w" && std::abs(value) < narrowest * scale) return false;
   }
   return true;
 }
 
 /// Climbs from a start by steps that shrink where no direction helps.
 void climb(const ForceMap& map, const ForceShape& shape, ShapeValues& values, double& gain) {
+  constexpr int most_rounds = 60, fewest_rounds = 10;
+  constexpr double fine = 1e-5;  // in units of the shape
   ShapeValues step{};
   for (std::size_t i = 0; i < shape.parameters.size(); ++i)
     step[i] = 0.2 * std::max(std::abs(values[i]), 0.2 * scale_of(shape.parameters[i], map.scales()));
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < most_rounds; ++round) {
     bool moved = false;
     for (std::size_t i = 0; i < shape.parameters.size(); ++i)
       for (const double direction : {1.0, -1.0}) {
@@ -80,7 +84,7 @@ void climb(const ForceMap& map, const ForceShape& shape, ShapeValues& values, do
       }
     if (!moved)
       for (double& s : step) s /= 2;
-    if (round > 10 && *std::max_element(step.begin(), step.end()) < 1e-5) break;
+    if (round > fewest_rounds && *std::max_element(step.begin(), step.end()) < fine) break;
   }
 }
 
@@ -142,13 +146,15 @@ void sharpen(SelectionProblem& p, const MotionScales& scales, Selection& selecti
   const auto line = static_cast<std::size_t>(selection.chosen[which].term);
   const std::size_t count = p.terms[line].shape->parameters.size();
   if (count == 0) return;
-  for (int iteration = 0; iteration < 6; ++iteration) {
+  constexpr int most_iterations = 6;
+  constexpr double shortest_step = 1 / 16.0;  // of Gauss and Newton's
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const Eigen::MatrixXd columns = tangent_columns(p, selection, which);
     const Regression tangent = regress(p.problem.impulse(), columns);
     const PreparedTerm before = p.terms[line];
     const Selection selection_before = selection;
     bool better = false;
-    for (double damping = 1; damping > 0.05 && !better; damping /= 4) {
+    for (double damping = 1; damping >= shortest_step && !better; damping /= 4) {
       ShapeValues values = before.shape_values;
       for (std::size_t i = 0; i < count; ++i)
         values[i] += damping * tangent.strength[columns.cols() - static_cast<Eigen::Index>(count - i)];

@@ -106,7 +106,8 @@ double ForceMap::gain(const ForceShape& shape, const ShapeValues& values) const 
   const std::size_t kind = index_of(shape.of);
   const double norm2 = nodes.dot(gram_[kind] * nodes), overlap = nodes.dot(overlap_[kind]);
   const double own2 = nodes.squaredNorm() * gram_[kind].diagonal().maxCoeff();
-  return std::isfinite(norm2) && norm2 > 1e-9 * own2 ? overlap * overlap / norm2 : 0;
+  constexpr double a_trace = 1e-9;  // rounding
+  return std::isfinite(norm2) && norm2 > a_trace * own2 ? overlap * overlap / norm2 : 0;
 }
 
 ForceCurve ForceMap::curve(ShapeOf of) const {

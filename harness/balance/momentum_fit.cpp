@@ -50,7 +50,8 @@ MomentumProblem::MomentumProblem(const std::vector<MomentumRun>& runs, double wi
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs[i].time.size() == 0) continue;
     WeakForm form(runs[i], window, hop);
-    if (form.windows() < 4) continue;
+    constexpr int fewest_windows = 4;  // more than the frequency and an origin use up
+    if (form.windows() < fewest_windows) continue;
     forms_.push_back(std::move(form));
     source_.push_back(i);
   }
@@ -195,7 +196,8 @@ Gain gain_of(const Eigen::VectorXd& residual, const Eigen::MatrixXd& orthonormal
   Eigen::VectorXd fresh = candidate;
   for (int twice = 0; twice < 2; ++twice) fresh -= orthonormal * (orthonormal.transpose() * fresh);
   const double norm2 = fresh.squaredNorm();
-  if (!(norm2 > 1e-12 * candidate.squaredNorm())) return {};
+  constexpr double rounding = 1e-12;
+  if (!(norm2 > rounding * candidate.squaredNorm())) return {};
   Gain gain;
   gain.strength = fresh.dot(residual) / norm2;
   gain.error = 1 / std::sqrt(norm2);

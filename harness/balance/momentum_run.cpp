@@ -42,7 +42,7 @@ void fill(const std::vector<double>& place, const std::vector<double>& value, Ei
       continue;
     }
     Eigen::Vector4d places, values;
-    for (int j = 0; j < 4; ++j) {
+    for (int j = 0; j < places.size(); ++j) {
       places[j] = known_place[next - 2 + static_cast<std::size_t>(j)];
       values[j] = known_value[next - 2 + static_cast<std::size_t>(j)];
     }
@@ -170,8 +170,8 @@ int smoothing_half_width(double interval) {
 
 Eigen::Vector4d cubic_weights(const Eigen::Vector4d& places, double at) {
   Eigen::Vector4d weights = Eigen::Vector4d::Ones();
-  for (int j = 0; j < 4; ++j)
-    for (int l = 0; l < 4; ++l)
+  for (int j = 0; j < places.size(); ++j)
+    for (int l = 0; l < places.size(); ++l)
       if (l != j) weights[j] *= (at - places[l]) / (places[j] - places[l]);
   return weights;
 }
@@ -180,7 +180,7 @@ LocalCubic local_cubic(int half) {
   const int n = 2 * half + 1;
   Eigen::MatrixXd powers(n, 4);
   for (int i = 0; i < n; ++i)
-    for (int p = 0; p < 4; ++p) powers(i, p) = std::pow(static_cast<double>(i - half) / half, p);
+    for (int p = 0; p < powers.cols(); ++p) powers(i, p) = std::pow(static_cast<double>(i - half) / half, p);
   const Eigen::MatrixXd fit = least_squares_weights(powers);
   return {fit.row(0).transpose(), fit.row(1).transpose() / half};
 }
@@ -190,7 +190,7 @@ Recording before_the_camera(const Measurement::Run& measurement) {
   const RunAudit& audit = measurement.audit;
   const Setup& setup = measurement.setup;
   const bool empty = setup.grains.count == 0;
-  if (measured.time.size() < 8 || (!empty && !measured.has_com())) return {};
+  if (measured.time.size() < MomentumRun::fewest_frames || (!empty && !measured.has_com())) return {};
   return undone(physics_of(setup).camera, {measured.time, audit.x_box, empty ? audit.x_box : audit.x_com});
 }
 
@@ -218,10 +218,10 @@ MomentumRun momentum_run(const Measurement::Run& measurement, const Recording& m
   // there.
   run.plateau_gain = (1 - physics.camera.centre_bias) * (1 + physics.camera.depth);
   const bool empty = setup.grains.count == 0;
-  if (measured.time.size() < 8 || (!empty && !measured.has_com())) return run;
+  if (measured.time.size() < MomentumRun::fewest_frames || (!empty && !measured.has_com())) return run;
 
   const std::size_t first = first_of_the_motion(measurement);
-  if (measured.time.size() < first + 8) return run;
+  if (measured.time.size() < first + MomentumRun::fewest_frames) return run;
   std::vector<double> place;
   for (std::size_t i = first; i < measured.time.size(); ++i)
     place.push_back((measured.time[i] - measured.time[first]) / run.interval);

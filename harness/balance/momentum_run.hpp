@@ -15,6 +15,7 @@ namespace shakedown {
 /// a gap is longer than the interpolation is good for, the frame is not usable and no window of the weak form
 /// touches it.
 struct MomentumRun {
+  static constexpr std::size_t fewest_frames = 8;  ///< below there is no motion to speak of
   std::string name;
   double box_mass = 0;               ///< kg, M
   double grain_mass = 0;             ///< kg, N m; 0: empty box

@@ -124,12 +124,15 @@ class SetSearch {
 
   /// Faster sines than these windows see need shorter ones, which must still hold ten frames.
   void look_for_fast_sines() {
+    constexpr double least_frames = 10;
+    const double shorter = window_ / 3;
     const SelectionProblem& p = found_.problem;
-    const bool enough_frames = std::all_of(
-        balance_.runs().begin(), balance_.runs().end(),
-        [&](const MomentumRun& run) { return run.time.size() == 0 || window_ / 3 > 10 * run.interval; });
+    const bool enough_frames =
+        std::all_of(balance_.runs().begin(), balance_.runs().end(), [&](const MomentumRun& run) {
+          return run.time.size() == 0 || shorter > least_frames * run.interval;
+        });
     if (!(p.typical_sine > 0) || options_.highest_frequency <= p.highest_frequency || !enough_frames) return;
-    SelectionProblem fast = balance_.windows_of(window_ / 3, window_ / 3 * options_.hop);
+    SelectionProblem fast = balance_.windows_of(shorter, shorter * options_.hop);
     if (found_.only_moving) fast.problem.keep_moving(moves * balance_.noise());
     if (fast.problem.windows() <= least_windows) return;
     fast.problem.set_wander(p.problem.wander());

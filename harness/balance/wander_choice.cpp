@@ -41,12 +41,13 @@ void choose_wander(SelectionProblem& p, double white) {
     take(p, wander);
     return log_evidence_of_noise(p) + log_prior_of(wander, usual);
   };
+  constexpr int most_steps = 14;  // to two thousand times the usual
   Wander best;
   double most = probability(best);
   for (const double time : {0.1, 0.3, 1.0}) {
     // Upwards from a quarter of the usual until it has fallen twice in a row.
     double last = -std::numeric_limits<double>::infinity();
-    for (int step = 0, falls = 0; step < 14 && falls < 2; ++step) {
+    for (int step = 0, falls = 0; step < most_steps && falls < 2; ++step) {
       const Wander wander{0.25 * usual * std::pow(2, step), time};
       const double here = probability(wander);
       falls = here < last ? falls + 1 : 0;
@@ -77,7 +78,8 @@ bool choose_wander_beside(SelectionProblem& p, double white, const std::vector<C
   };
   Wander next = before;
   while (next.deviation > 0) {
-    next.deviation = next.deviation > 1.5 * least ? next.deviation / 2 : 0;
+    constexpr double between_steps = 1.5;  // of factors of two
+    next.deviation = next.deviation > between_steps * least ? next.deviation / 2 : 0;
     better(next);
   }
   if (best.deviation == before.deviation) {

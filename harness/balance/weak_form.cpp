@@ -26,7 +26,7 @@ Eigen::Vector4d neighbours(const std::vector<char>& filled, Eigen::Index place) 
     found[j] = static_cast<double>(at);
   }
   at = place;
-  for (int j = 2; j < 4; ++j) {
+  for (int j = 2; j < found.size(); ++j) {
     do ++at;
     while (at + 1 < static_cast<Eigen::Index>(filled.size()) && filled[static_cast<std::size_t>(at)]);
     found[j] = static_cast<double>(at);
@@ -48,7 +48,7 @@ void move_to_measured(const std::vector<char>& filled, Stretch& stretch) {
     const Eigen::Vector4d share =
         cubic_weights(places, static_cast<double>(stretch.first + i)) * stretch.weight[i];
     stretch.weight[i] = 0;
-    for (int j = 0; j < 4; ++j) {
+    for (int j = 0; j < places.size(); ++j) {
       const Eigen::Index to = static_cast<Eigen::Index>(places[j]) - stretch.first;
       if (to >= 0 && to < stretch.weight.size()) stretch.weight[to] += share[j];
     }

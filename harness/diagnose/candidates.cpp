@@ -29,7 +29,8 @@ Knob knob_of(const EffectRecord& record, const SearchedStrength& strength, const
   }
   knob.absent = absent_value(record, strength, setup);
   knob.absent_key = strength.absent_key;
-  knob.cubic = strength.levels.size() > 3;
+  constexpr std::size_t for_a_cubic = 4;
+  knob.cubic = strength.levels.size() >= for_a_cubic;
   knob.exact = !strength.inverse && find_camera_parameter(knob.key) != nullptr;
   if (knob.exact) knob.curved = knob.cubic = false;
   return knob;

@@ -182,8 +182,9 @@ void advise_by_simulation(const DiagnosisState& final, DiagnosisTools& tools, Di
   } catch (const PhysicsError& error) {
     d.notes.push_back(std::string("which experiment would decide could not be simulated: ") + error.what());
   }
+  constexpr std::size_t most_told = 4;
   for (const Advice& advice : list)
-    if (d.next_experiments.size() < 4 && advice.sigmas > 1)
+    if (d.next_experiments.size() < most_told && advice.sigmas > 1)
       d.next_experiments.push_back(advice.words + ": tells " + rival.added + " from " + rival.effect +
                                    " at " + write_number(std::round(advice.sigmas * 10) / 10) +
                                    " sigma a run");

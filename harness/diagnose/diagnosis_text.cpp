@@ -80,7 +80,8 @@ std::string diagnosis_text(const Diagnosis& d) {
     text += "\n  momentum balance: not possible (" + d.momentum.why_not + ")\n";
   if (!d.ranking.empty()) {
     text += "\n  suspects                                 gain  held-out gain   look-alikes\n";
-    for (std::size_t i = 0; i < d.ranking.size() && i < 12; ++i) {
+    constexpr std::size_t most_told = 12;
+    for (std::size_t i = 0; i < d.ranking.size() && i < most_told; ++i) {
       const RankedEffect& r = d.ranking[i];
       std::string alike;
       for (const std::string& name : r.look_alikes) alike += (alike.empty() ? "" : ", ") + name;

@@ -27,13 +27,14 @@ void weigh_by(const Signature& signature, const Candidate& candidate, ScreenedEf
 }
 
 void name_look_alikes(const std::vector<Eigen::VectorXd>& changes, std::vector<ScreenedEffect>& list) {
+  constexpr double alike = 0.9;  // cosine: a fifth of the square of one is not the other's
   for (std::size_t a = 0; a < list.size(); ++a)
     for (std::size_t b = 0; b < list.size(); ++b) {
       if (a == b || list[a].effect == list[b].effect || changes[a].size() == 0 || changes[b].size() == 0)
         continue;
       const double cosine =
           changes[a].dot(changes[b]) / std::max(1e-300, changes[a].norm() * changes[b].norm());
-      if (std::abs(cosine) > 0.9) list[a].look_alikes.push_back(list[b].effect);
+      if (std::abs(cosine) > alike) list[a].look_alikes.push_back(list[b].effect);
     }
 }
 

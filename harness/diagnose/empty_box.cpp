@@ -14,6 +14,7 @@
 #include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "last_fit.hpp"
+#include "momentum_run.hpp"
 #include "quantity.hpp"
 #include "rules.hpp"
 #include "sentences.hpp"
@@ -92,7 +93,7 @@ std::vector<Validation> validation_by_compare(const Measurement& final, const En
   std::vector<Validation> rows;
   for (const Measurement::Run& run : final.runs) {
     const SwingFrames frames = frames_of(run);
-    if (frames.time.size() < 8 || !(run.setup.spring.frequency > 0)) continue;
+    if (frames.time.size() < MomentumRun::fewest_frames || !(run.setup.spring.frequency > 0)) continue;
     const auto [turn, origin, time, left] = fit_of(run, engine);
     // A line between two samples of the model misses by an eighth of (2 pi f / rate)^2 of the amplitude.
     const double between =
@@ -114,7 +115,7 @@ SwingError swing_error(const Measurement& measurement, const Engine& engine, boo
   double worst = 0;
   for (const Measurement::Run& run : measurement.runs) {
     const SwingFrames frames = frames_of(run);
-    if (frames.time.size() < 8 || !(run.setup.spring.frequency > 0)) continue;
+    if (frames.time.size() < MomentumRun::fewest_frames || !(run.setup.spring.frequency > 0)) continue;
     SwingFit fit;
     try {
       fit = as_stated ? SwingFit{{},

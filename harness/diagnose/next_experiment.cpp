@@ -71,10 +71,11 @@ std::vector<Design> possible_designs(const Setup& setup, const std::vector<Measu
   std::vector<Design> designs{{grains, 0.040, release},      {grains, 0.104, release},
                               {grains / 2, 0.040, release},  {grains * 8 / 5, 0.065, release},
                               {grains, length, release / 2}, {0, length, release}};
+  constexpr double same = 1e-3;  // m
   std::erase_if(designs, [&](const Design& design) {
     return std::any_of(measured.begin(), measured.end(), [&](const MeasuredFeatures& m) {
-      return m.setup.grains.count == design.grains && std::abs(m.setup.box.length - design.length) < 1e-3 &&
-             std::abs(m.setup.release.displacement - design.release) < 1e-3;
+      return m.setup.grains.count == design.grains && std::abs(m.setup.box.length - design.length) < same &&
+             std::abs(m.setup.release.displacement - design.release) < same;
     });
   });
   return designs;

@@ -61,7 +61,8 @@ std::vector<ReleasedCentre> released_centres(const Measurement& measurement) {
     for (std::size_t i = 0; i < run.time.size() && run.time[i] < still; ++i)
       if (const double apart = audit.x_com[i] - audit.x_box[i]; std::isfinite(apart)) sum += apart, ++count;
     const double noise = std::hypot(audit.com.standard_deviation, audit.box.standard_deviation);
-    if (count >= 3) list.push_back({r, sum / count, noise / std::sqrt(count)});
+    constexpr double for_a_mean = 3;  // frames
+    if (count >= for_a_mean) list.push_back({r, sum / count, noise / std::sqrt(count)});
   }
   return list;
 }
@@ -86,7 +87,10 @@ Misfit misfit_up_to_scale(const std::vector<ReleasedCentre>& measured,
     low = std::min(low, apart), high = std::max(high, apart);
   }
   const double known = 1 / (usual_scale * usual_scale);
-  const double scale = high - low > 0.01 ? std::clamp((cross + known) / (square + known), 0.88, 1.1) : 1.0;
+  constexpr double tells = 0.01;                 // m, between box lengths
+  constexpr double least = 0.88, largest = 1.1;  // of scales
+  const double scale =
+      high - low > tells ? std::clamp((cross + known) / (square + known), least, largest) : 1.0;
   Misfit misfit{0, 0, known * std::pow(scale - 1, 2)};
   const double runs = static_cast<double>(measured.size());
   for (std::size_t i = 0; i < measured.size(); ++i) {

@@ -79,7 +79,9 @@ double half_span_of(const SwingFrames& frames) {
 
 std::string words_of_swing(const std::vector<double>& time, const Eigen::VectorXd& left) {
   const auto n = static_cast<Eigen::Index>(std::min(time.size(), static_cast<std::size_t>(left.size())));
-  if (n < 16 || !left.allFinite()) return "";
+  constexpr Eigen::Index fewest = 16;
+  constexpr double mostly = 0.5;  // of the squares
+  if (n < fewest || !left.allFinite()) return "";
   const double length = time[static_cast<std::size_t>(n) - 1] - time.front(),
                fastest = static_cast<double>(n) / length / 4;
   const Eigen::VectorXd centred = left.head(n).array() - left.head(n).mean();
@@ -96,7 +98,7 @@ std::string words_of_swing(const std::vector<double>& time, const Eigen::VectorX
   }
   // A sine of amplitude a makes (n a / 2)^2 of power and n a^2 / 2 of the squares.
   const double share = 2 * most / static_cast<double>(n) / std::max(centred.squaredNorm(), 1e-300);
-  if (!(share > 0.5)) return "";
+  if (!(share > mostly)) return "";
   return fmt::format("mostly a swing of {:.3g} Hz ({:.2g} mm)", frequency,
                      1e3 * 2 * std::sqrt(most) / static_cast<double>(n));
 }
@@ -145,7 +147,8 @@ SwingFit fit_of(const SwingFrames& frames, FirstTurn turn, const Setup& setup, c
   Eigen::VectorXd best = at(turn);
   double best_origin = origin;
   const double dt = period / 1000, dx = 1e-3 * std::abs(turn.place);
-  for (int step = 0; step < 8; ++step) {
+  constexpr int most_moves = 8;
+  for (int step = 0; step < most_moves; ++step) {
     Eigen::MatrixXd slope(best.size(), 2);
     slope.col(0) = (best - at({turn.time - dt, turn.place})) / dt;
     slope.col(1) = (at({turn.time, turn.place + dx}) - best) / dx;

@@ -302,7 +302,8 @@ class Turning {
   void add_bend(std::size_t k) {
     TurnedNumber& number = model_.numbers[k];
     const double reach = reach_of(k);
-    if (!(reach > 1e-4 * std::abs(number.best))) return;
+    constexpr double a_bend = 1e-4;  // of the number: nothing bends within less
+    if (!(reach > a_bend * std::abs(number.best))) return;
     Means side[2];
     for (const int sign : {-1, 1}) side[sign > 0] = change_at({{k, number.best + sign * reach}});
     const Means slope = slope_of(k);

@@ -76,7 +76,8 @@ double log_prior_odds(const WaveformFit& fit, double candidates, double swing_fr
       // Any phase; any frequency up to five times the swing's; dying away within a period at most.
       sum += log_cauchy(amplitude, law.term.typical, true) -
              std::log(2 * std::numbers::pi * amplitude * 5 * swing_frequency * swing_frequency);
-      if (fit.value[at + 3] < -2 * std::sqrt(fit.covariance(at + 3, at + 3))) return impossible;
+      constexpr double grows = -2;  // standard errors
+      if (fit.value[at + 3] < grows * std::sqrt(fit.covariance(at + 3, at + 3))) return impossible;
       continue;
     }
     const double strength = fit.value[at];

@@ -219,9 +219,11 @@ class WaveformSearch {
     double amplitude = 0;
     for (const WaveformRun& run : runs_) amplitude = std::max(amplitude, run.amplitude);
     if (travel > amplitude || travel < amplitude / 100) return {};
+    constexpr double clearly = 5;  // standard errors
     for (std::size_t i = 0; i < whole.laws.size(); ++i) {
       const Eigen::Index at = whole.first_of(i);
-      if (!whole.laws[i].term.dry || !(whole.value[at] > 5 * std::sqrt(whole.covariance(at, at)))) continue;
+      if (!whole.laws[i].term.dry || !(whole.value[at] > clearly * std::sqrt(whole.covariance(at, at))))
+        continue;
       std::vector<WaveformLaw> laws = whole.laws;
       laws[i] = law;
       WaveformOptions few = options_;

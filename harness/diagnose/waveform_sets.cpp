@@ -137,7 +137,8 @@ double WaveformSets::dropped(const WaveformFit& whole, unsigned set) const {
 WaveformFit WaveformSets::part_of(const WaveformFit& whole, unsigned set, int evaluations) const {
   std::vector<WaveformLaw> laws;
   std::vector<Eigen::Index> kept;
-  for (Eigen::Index k = 0; k <= 3 * std::ssize(runs_); ++k) kept.push_back(k);
+  const Eigen::Index of_runs = 3 * std::ssize(runs_);
+  for (Eigen::Index k = 0; k <= of_runs; ++k) kept.push_back(k);
   for (std::size_t i = 0; i < whole.laws.size(); ++i)
     if ((set >> i & 1) != 0) {
       laws.push_back(whole.laws[i]);

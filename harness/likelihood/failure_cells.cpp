@@ -28,9 +28,10 @@ struct Swing {
     return x[i - 1] + (x[i] - x[i - 1]) * (t - time[i - 1]) / (time[i] - time[i - 1]);
   }
   double amplitude(double t, double period) const {
+    constexpr double about_half = 0.55;  // of a period: a turning point lies within
     double most = 0;
     for (std::size_t i = 0; i < time.size(); ++i)
-      if (std::abs(time[i] - t) <= 0.55 * period) most = std::max(most, std::abs(x[i]));
+      if (std::abs(time[i] - t) <= about_half * period) most = std::max(most, std::abs(x[i]));
     return most;
   }
   /// 0 at the release side's turning point, growing with time, in (-pi, pi].
@@ -85,8 +86,10 @@ std::vector<Cell> cells_of(const std::vector<MeasuredFeatures>& measured) {
     for (std::size_t f = 0; f < m.plan.features.size(); ++f)
       if (m.plan.features[f].observable == Observable::centre)
         centre[m.plan.features[f].time] = m.values[static_cast<Eigen::Index>(f)];
+    constexpr std::size_t a_swing = 4;  // features
+    constexpr double at_a_wall = 0.75;  // of the farthest that the centre comes from the middle
     double farthest = 0;
-    if (swing.time.size() > 3)
+    if (swing.time.size() >= a_swing)
       for (const auto& [time, x] : centre) farthest = std::max(farthest, std::abs(x - swing.at(time)));
     for (std::size_t f = 0; f < m.plan.features.size(); ++f) {
       const Feature& feature = m.plan.features[f];
@@ -103,11 +106,11 @@ std::vector<Cell> cells_of(const std::vector<MeasuredFeatures>& measured) {
         of_all.try_emplace({observable, what}, Cell{"", observable, what, 0, 0, {}})
             .first->second.features.push_back(place);
       };
-      if (swing.time.size() <= 3) continue;
+      if (swing.time.size() < a_swing) continue;
       in_all(amplitude_word(swing.amplitude(feature.time, period)));
       in_all(phase_word(swing.phase(feature.time, period)));
       if (const auto there = centre.find(feature.time); there != centre.end())
-        in_all(std::abs(there->second - swing.at(feature.time)) > 0.75 * farthest
+        in_all(std::abs(there->second - swing.at(feature.time)) > at_a_wall * farthest
                    ? "landing (grains at an end wall)"
                    : "flight (grains between the end walls)");
     }

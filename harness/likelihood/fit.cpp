@@ -43,11 +43,14 @@ MeasuredFeatures beginning_of(const MeasuredFeatures& whole, double end) {
 void refuse_too_few_simulations(const std::vector<Knob>& knobs, int count) {
   const int terms = static_cast<int>(
       regression_terms(knobs, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs.size()))).size());
-  if (std::min(count, std::max(64, count / 2)) >= 2 * terms) return;
-  throw InputError({{{"--runs", 0, 0},
-                     fmt::format("{}", count),
-                     fmt::format("is too few for {} keys (a regression of {} terms)", knobs.size(), terms),
-                     fmt::format("give {} or more, or fit fewer keys", terms > 32 ? 4 * terms : 2 * terms)}});
+  constexpr int fewest_on_the_way = 64;
+  const bool half_decides = 4 * terms > 2 * fewest_on_the_way;
+  if (std::min(count, std::max(fewest_on_the_way, count / 2)) >= 2 * terms) return;
+  throw InputError(
+      {{{"--runs", 0, 0},
+        fmt::format("{}", count),
+        fmt::format("is too few for {} keys (a regression of {} terms)", knobs.size(), terms),
+        fmt::format("give {} or more, or fit fewer keys", half_decides ? 4 * terms : 2 * terms)}});
 }
 
 void add_remark(FittedParameter& parameter, const std::string& remark) {

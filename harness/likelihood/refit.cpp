@@ -45,7 +45,10 @@ void judge_at(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z,
 }
 
 /// The emulator promised much more than its solution keeps.
-bool misled(const Refit& result) { return result.scatter > 1.3 * result.promised_scatter + 0.3; }
+bool misled(const Refit& result) {
+  constexpr double more = 0.3;  // what codes of one physics differ by
+  return result.scatter > (1 + more) * result.promised_scatter + more;
+}
 
 /// The knobs about z, where a line is enough.
 std::vector<Knob> centred_at(const Eigen::VectorXd& z, std::vector<Knob> knobs) {
@@ -184,8 +187,10 @@ std::vector<Knob> next_box(std::vector<Knob> knobs, const Minimum& minimum, cons
     const auto i = static_cast<Eigen::Index>(k);
     const double z = minimum.z[i], open = 2 * std::sqrt(covariance(i, i));
     knobs[k].centre = knobs[k].at(z);
-    knobs[k].width = std::min(knobs[k].width * std::clamp(open, std::abs(z) < 0.8 ? 0.25 : 1.0, 1.5),
-                              0.6 * first[k].width);
+    // From the edge the next box is no narrower, or the solution would lie outside.
+    constexpr double edge = 0.8, narrowest = 0.25, widest = 1.5, of_the_first = 0.6;
+    knobs[k].width = std::min(knobs[k].width * std::clamp(open, std::abs(z) < edge ? narrowest : 1.0, widest),
+                              of_the_first * first[k].width);
   }
   return knobs;
 }
@@ -234,11 +239,12 @@ Refit refit_by_rounds(const std::vector<MeasuredFeatures>& measured, std::vector
     const FitRound round(
         measured, here, emulate(measured, here, count, options.first_run + 10000 * number, pooling), options);
     const Minimum minimum = minimum_of(round.objective(), reach, nothing_to_scatter ? 1 : 6);
+    constexpr double outside = 1.05;  // of the box: a line is as good a twentieth beyond it
     bool left_the_box = false;
     for (std::size_t k = 0; k < knobs.size(); ++k) {
       const double z = minimum.z[static_cast<Eigen::Index>(k)];
       const bool inner = here[k].at(z) > here[k].low && here[k].at(z) < here[k].high;
-      left_the_box = left_the_box || (std::abs(z) > 1.05 && inner && !here[k].exact);
+      left_the_box = left_the_box || (std::abs(z) > outside && inner && !here[k].exact);
     }
     const bool last =
         nothing_to_scatter || number >= options.most_rounds || (number >= options.rounds && !left_the_box);

@@ -13,7 +13,10 @@ namespace shakedown {
 namespace {
 
 /// Of a polynomial through so many levels.
-Eigen::Index order_of(std::size_t levels) { return levels > 3 ? 3 : levels > 1 ? 2 : 1; }
+Eigen::Index order_of(std::size_t levels) {
+  constexpr std::size_t for_a_cubic = 4;
+  return levels >= for_a_cubic ? 3 : levels > 1 ? 2 : 1;
+}
 
 /// Ascending; empty where a polynomial will do.
 std::vector<double> corners_of(const std::vector<SignatureLevel>& levels) {

@@ -2,10 +2,14 @@
 // The numbers with which a diagnosis decides are few, and each says where it comes from.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "effort.hpp"
 #include "rules.hpp"
@@ -56,6 +60,53 @@ TEST(Rules, AreThoseOfTheDocument) {
       std::ostringstream row;
       row << "| `" << rule.name << "` | " << rule.value << " | " << rule.unit << " | " << rule.source << " |";
       EXPECT_NE(document.find(row.str()), std::string::npos) << row.str();
+    }
+}
+
+/// The line without its words, comments and template arguments.
+std::string code_of(const std::string& line) {
+  static const std::regex words(R"("(\\.|[^"\\])*")"), comment("//.*"),
+      arguments(R"(([A-Za-z_]\w*)<[\w:,*& ]*(<[\w:,*& ]*>)?[\w:,*& ]*>)");
+  std::string code = std::regex_replace(std::regex_replace(line, words, ""), comment, "");
+  return std::regex_replace(code, arguments, "$1");
+}
+
+/// Numbers that are compared with something, but for 0, 1 and 2.
+std::vector<std::string> compared_numbers(const std::string& line) {
+  static const std::string number = R"((-?\d[\d.]*(?:e-?\d+)?))";
+  static const std::regex after("(^|[^<>-])[<>]=? ?" + number),
+      before("(^|[^\\w.])" + number + " ?[<>]=?[^<>]");
+  std::vector<std::string> found;
+  const std::string code = code_of(line);
+  for (const std::regex* pattern : {&after, &before})
+    for (std::sregex_iterator match(code.begin(), code.end(), *pattern), end; match != end; ++match)
+      if (const double value = std::abs(std::stod((*match)[2])); value != 0 && value != 1 && value != 2)
+        found.push_back((*match)[2]);
+  return found;
+}
+
+TEST(Rules, BareNumbersOfConditionsAreSeen) {
+  EXPECT_EQ(compared_numbers("if (share > 0.5) return;"), std::vector<std::string>{"0.5"});
+  EXPECT_EQ(compared_numbers("return 1e-3 < x;  // 4 < y"), std::vector<std::string>{"1e-3"});
+  EXPECT_EQ(compared_numbers("while (step >= 14 && falls < 2)"), std::vector<std::string>{"14"});
+  EXPECT_TRUE(compared_numbers(R"(text += format("{:>5.1f} < 7", std::max<double>(3, x));)").empty());
+  EXPECT_TRUE(compared_numbers("std::array<double, 3> squares{}; p->value = 4;").empty());
+}
+
+// What a verdict turns on has a name, and beside the name its unit and reason.
+TEST(Rules, NoConditionHasABareNumber) {
+  for (const char* folder : {"balance", "likelihood", "diagnose", "judgement"})
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(PROJECT_ROOT) + "/harness/" + folder)) {
+      std::ifstream source(entry.path());
+      int number = 0;
+      for (std::string line; std::getline(source, line);) {
+        ++number;
+        if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
+        for (const std::string& bare : compared_numbers(line))
+          ADD_FAILURE() << folder << "/" << entry.path().filename().string() << ":" << number << ": " << bare
+                        << " has no name: " << line;
+      }
     }
 }
 

@@ -16,6 +16,7 @@ namespace {
 struct Strong {
   std::string name, effect;
   std::map<std::string, ParameterValue> values;
+  double box_width = 0.05;  // m
 };
 void PrintTo(const Strong& strong, std::ostream* out) { *out << strong.name; }
 
@@ -26,7 +27,8 @@ std::vector<Strong> strong_settings() {
           {"cohesion", "grain_cohesion", {{"force", 0.05}, {"range", 1e-4}}},
           {"short_cohesion", "grain_cohesion", {{"force", 0.05}, {"range", 2e-5}}},
           {"clump", "grain_cohesion", {{"force", 0.3}, {"range", 2e-4}, {"walls", 0.0}}},
-          {"glue", "grain_cohesion", {{"force", 0.2}, {"range", 2e-5}}},
+          // Five grains fill the paper's 50 mm from wall to wall (hardsphere/README.md).
+          {"glue", "grain_cohesion", {{"force", 0.2}, {"range", 2e-5}}, 0.051},
           {"slow_impacts_elastic", "velocity_dependent_restitution", {{"exponent", 0.5}}},
           {"viscoelastic", "velocity_dependent_restitution", {{"law", std::string("viscoelastic")}}},
           {"dead_side_walls", "side_wall_restitution", {{"restitution", 0.1}}},
@@ -53,6 +55,7 @@ class SlowStalls : public testing::TestWithParam<Strong> {
     shakedown::Setup setup;
     setup.run.duration = 22;
     setup.run.sample_rate = 50;
+    setup.box.width = {GetParam().box_width, GetParam().box_width};
     add_effect(setup, GetParam().effect, GetParam().values);
     return setup;
   }
