@@ -71,7 +71,7 @@ class Run:
     peak_time, peak                   s, m (signed); shape (P); one extremum a half period, the release excluded
     zero_crossings                    s, shape (C)
     frequency, slope                  Hz; m/s, of |peaks| against time; nan where there is none
-    first_small_peak                  s, of the first peak below 10 mm; nan where there is none
+    first_small_peak                  s, of the first peak below 9.3 % of the release; nan where there is none
     """
 
     def __init__(self, motion: dict[str, Any], observed: dict[str, Any]) -> None:
