@@ -69,7 +69,7 @@ Chosen frames_between(double low, double high) {
   };
 }
 
-std::string joined(const std::vector<std::string>& words, std::string_view between = " ") {
+std::string text_of_words(const std::vector<std::string>& words, std::string_view between = " ") {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) (text += i == 0 ? "" : between) += words[i];
   return text;
@@ -127,7 +127,7 @@ std::string ring_down_csv(const std::vector<RingDownResult>& results) {
       signals += fmt::format("{}{:.1f}", signals.empty() ? "" : " ", signal);
     const auto word = [](bool yes) { return std::string(yes ? "true" : "false"); };
     const std::vector<std::string> cells{std::to_string(one.drawn.number),
-                                         joined(one.drawn.hidden),
+                                         text_of_words(one.drawn.hidden),
                                          signals,
                                          std::string(name_of(one.drawn.noise)),
                                          fmt::format("{:.1f}", recording.frame_rate),
@@ -135,7 +135,7 @@ std::string ring_down_csv(const std::vector<RingDownResult>& results) {
                                          std::to_string(one.drawn.trial.runs.size()),
                                          word(recording.declared),
                                          one.answer.verdict,
-                                         joined(one.answer.missing),
+                                         text_of_words(one.answer.missing),
                                          word(one.right),
                                          word(one.invented),
                                          word(one.answer.not_finite),
@@ -143,7 +143,7 @@ std::string ring_down_csv(const std::vector<RingDownResult>& results) {
                                          fmt::format("{:.2f}", one.answer.left),
                                          word(one.answer.holds),
                                          quoted(one.answer.stopped)};
-    text += joined(cells, ",") + "\n";
+    text += text_of_words(cells, ",") + "\n";
   }
   return text;
 }

@@ -35,15 +35,15 @@ Statement cycles(const PaperRuns& runs) {
 
 /// rms about the line over rms about the exponential, over the first peaks.
 double straightness(const RunReading& run) {
-  std::vector<Peak> peaks = peaks_of_the_decay(run.seen.peaks);
+  std::vector<Peak> peaks = peaks_of_the_decay(run.seen.peaks, run.seen.small_peak);
   if (peaks.size() > regime_peaks) peaks.resize(regime_peaks);
-  const Decay decay = decay_of(peaks);
+  const Decay decay = decay_through(peaks);
   return decay.linear.rms / decay.exponential.rms;
 }
 
 /// How much the slope changes over the decay, as a fraction of it.
 double bending(const RunReading& run) {
-  const std::vector<Peak> peaks = peaks_of_the_decay(run.seen.peaks);
+  const std::vector<Peak> peaks = peaks_of_the_decay(run.seen.peaks, run.seen.small_peak);
   if (peaks.size() < 4) return absent;
   return run.seen.decay.curvature * (peaks.back().time - peaks.front().time) / run.seen.decay.linear.slope;
 }

@@ -93,9 +93,9 @@ DecayMeasurement measure_decay(const Engine& engine, double length, std::uint64_
           length,
           seed,
           ensemble.over_runs([](const RunResult& run) {
-            std::vector<Peak> peaks = peaks_of_the_decay(run.observables.peaks);
+            std::vector<Peak> peaks = peaks_of_the_decay(run.observables.peaks, run.observables.small_peak);
             if (peaks.size() > regime_peaks) peaks.resize(regime_peaks);
-            const Decay decay = decay_of(peaks);
+            const Decay decay = decay_through(peaks);
             return decay.linear.rms / decay.exponential.rms;
           }),
           over([](const Decay& decay) { return decay.linear.slope; }),

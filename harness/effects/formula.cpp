@@ -5,11 +5,38 @@
 
 #include <algorithm>
 #include <cctype>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "suggestion.hpp"
 
 namespace shakedown {
+
+namespace {
+
+/// Functions stay where they are: parsers point at them.
+struct LentFunctions {
+  std::mutex mutex;
+  std::map<std::string, LentFunction> by_name;
+};
+
+LentFunctions& lent_functions() {
+  static LentFunctions all;
+  return all;
+}
+
+double call_lent(void* function, double x, double v, double t) {
+  return (*static_cast<const LentFunction*>(function))(x, v, t);
+}
+
+void define_lent_functions(mu::Parser& parser) {
+  LentFunctions& all = lent_functions();
+  const std::lock_guard lock(all.mutex);
+  for (auto& [name, function] : all.by_name) parser.DefineFunUserData(name, &call_lent, &function, false);
+}
+
+}  // namespace
 
 struct Formula::Parser {
   std::string text;
@@ -23,6 +50,7 @@ struct Formula::Parser {
     parser.DefineVar("v", &v);
     parser.DefineVar("t", &t);
     for (const auto& [name, value] : constants) parser.DefineConst(name, value);
+    define_lent_functions(parser);
     parser.SetExpr(text);
   }
 };
@@ -60,6 +88,16 @@ FormulaProblem problem_of(const mu::ParserError& error, const std::string& text,
 }
 
 }  // namespace
+
+void lend_function(const std::string& name, LentFunction function) {
+  if (!is_name(name))
+    throw FormulaProblem{
+        "no formula can hold a function of the name '" + name + "'; take letters, digits and _", 0};
+  LentFunctions& all = lent_functions();
+  const std::lock_guard lock(all.mutex);
+  if (!all.by_name.try_emplace(name, std::move(function)).second)
+    throw FormulaProblem{"the function '" + name + "' is lent already", 0};
+}
 
 Formula::Formula(const std::string& text, const std::map<std::string, double>& constants) {
   for (const auto& [name, value] : constants)

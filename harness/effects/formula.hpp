@@ -2,6 +2,7 @@
 // A user's formula in x, v, t and named constants. The one place that opens muParser.
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -13,6 +14,14 @@ struct FormulaProblem {
   std::string problem;
   std::size_t position = 0;  ///< from 1 within the formula; 0: the formula as a whole
 };
+
+/// A function that the program at hand lends to formulas, of Python say; from x in m, v in m/s and t in s. It
+/// is called from any thread.
+using LentFunction = std::function<double(double x, double v, double t)>;
+
+/// From now on each formula of this process may hold name(x, v, t). A name is lent once; throws
+/// FormulaProblem.
+void lend_function(const std::string& name, LentFunction function);
 
 /// A copy has a parser of its own, so copies may work in different threads; one Formula serves one thread.
 class Formula {

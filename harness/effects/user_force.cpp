@@ -42,6 +42,8 @@ std::vector<ParameterProblem> check_formula(const EffectChoice& choice) {
     return {{"force", "\"" + choice.text("force") + "\" cannot be read" + at + " (" + wrong.problem + ")",
              "use x (m), v (m/s), t (s), the names in constants, + - * / ^, and functions such as abs, sin, "
              "exp, sqrt, min, max"}};
+  } catch (const PhysicsError& wrong) {  // of a function that the program lends
+    return {{"force", wrong.what(), "write it so that it has a value for every x, v and t"}};
   }
 }
 

@@ -34,7 +34,7 @@ std::string peaks_line(const Ensemble& ensemble) {
   return text.empty() ? "-" : text;
 }
 
-std::string motion_lines(const Ensemble& ensemble) {
+std::string motion_lines(const Ensemble& ensemble, const Setup& setup) {
   const auto seen = [&](double scale, int decimals, auto member) {
     return with_spread(
         ensemble.over_runs([&](const RunResult& run) { return scale * run.observables.*member; }), decimals);
@@ -46,7 +46,8 @@ std::string motion_lines(const Ensemble& ensemble) {
   return line("first |peaks|", peaks_line(ensemble), "mm") +
          line("slope of |peaks|", seen(1e3, 2, &Observables::slope), "mm/s") +
          line("frequency", seen(1, 4, &Observables::frequency), "Hz") +
-         line("first peak below 10 mm", seen(1, 2, &Observables::first_small_peak), "s") +
+         line(fmt::format("first peak below {:.3g} mm", 1e3 * small_peak(setup)),
+              seen(1, 2, &Observables::first_small_peak), "s") +
          line("decay: rms about a straight line", rms([](const Decay& decay) { return decay.linear.rms; }),
               "mm") +
          line("       rms about an exponential",
@@ -150,7 +151,7 @@ std::string readable_summary(const Ensemble& ensemble, const Setup& setup) {
   else if (ensemble.interrupted)
     text += fmt::format("  interrupted: {} of {} runs finished\n", finished, ensemble.requested);
   if (finished == 0) return text;
-  if (setup.domain == Domain::damper) text += motion_lines(ensemble) + forced_lines(ensemble);
+  if (setup.domain == Domain::damper) text += motion_lines(ensemble, setup) + forced_lines(ensemble);
   text += energy_lines(ensemble, setup) + health_lines(ensemble);
   double collisions = 0, seconds = 0;
   for (const RunResult& run : ensemble.runs) {

@@ -17,7 +17,7 @@ namespace shakedown {
 namespace {
 
 constexpr const char* run_columns =
-    "run,slope_mm_per_s,frequency_hz,first_peak_below_10mm_s,seconds_to_0.5,seconds_to_0.25,seconds_to_0.1,"
+    "run,slope_mm_per_s,frequency_hz,first_small_peak_s,seconds_to_0.5,seconds_to_0.25,seconds_to_0.1,"
     "seconds_to_0.05,"
     "seconds_to_0.01,loss_grain_grain,loss_end_wall,loss_side_wall,collisions_grain_grain,collisions_end_"
     "wall,"

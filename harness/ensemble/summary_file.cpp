@@ -47,7 +47,8 @@ void add_motion(const Observables& seen, Json& json) {
   }
   json["slope_mm_per_s"] = number(1e3 * seen.slope);
   json["frequency_hz"] = number(seen.frequency);
-  json["first_peak_below_10mm_s"] = number(seen.first_small_peak);
+  json["small_peak_mm"] = number(1e3 * seen.small_peak);
+  json["first_small_peak_s"] = number(seen.first_small_peak);
   json["decay"] = decay_json(seen.decay);
   for (const HalfPeriodDamping& damping : seen.damping)
     json["damping"].push_back({{"amplitude_mm", 1e3 * damping.amplitude},

@@ -86,7 +86,7 @@ Numbers numbers_of(const UsedFrames& frames, const Setup& setup, int most_peaks)
   const FrameMotion motion =
       frame_motion(frames.time, frames.x, frames.middle, 4 * shortest_half_period(setup));
   Numbers numbers{motion.frequency,
-                  decay_of(motion.peaks).linear.slope,
+                  decay_of(motion.peaks, small_peak(setup)).linear.slope,
                   {},
                   motion.why_not,
                   steady_by_frames(setup, frames.time, frames.x, frames.centre)};

@@ -35,7 +35,7 @@ std::string told(const ForcedComparison& forced);
 struct DecayComparison {
   std::string run;
   MeasuredNumber frequency;           ///< Hz, of the first ten zero crossings
-  MeasuredNumber slope;               ///< m/s, of |peaks| until 10 mm
+  MeasuredNumber slope;               ///< m/s, of |peaks| until they are small (observables.hpp)
   std::vector<MeasuredNumber> peaks;  ///< m, signed: the first ones
   std::string why_not;                ///< why there are no peaks; empty where there are
   std::optional<ForcedComparison> forced{};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
 
 namespace shakedown {
 
@@ -26,6 +27,11 @@ struct Swing {
     if (next == time.end()) return x.back();
     const auto i = static_cast<std::size_t>(next - time.begin());
     return x[i - 1] + (x[i] - x[i - 1]) * (t - time[i - 1]) / (time[i] - time[i - 1]);
+  }
+  double largest() const {
+    double most = 0;
+    for (const double place : x) most = std::max(most, std::abs(place));
+    return most;
   }
   double amplitude(double t, double period) const {
     constexpr double about_half = 0.55;  // of a period: a turning point lies within
@@ -52,11 +58,15 @@ Swing swing_of(const MeasuredFeatures& m) {
   return swing;
 }
 
-std::string amplitude_word(double amplitude) {
-  return amplitude > 0.06   ? "amplitude above 60 mm"
-         : amplitude > 0.03 ? "amplitude 30 to 60 mm"
-         : amplitude > 0.01 ? "amplitude 10 to 30 mm"
-                            : "amplitude below 10 mm";
+/// `share` of the run's largest.
+std::string amplitude_word(double share) {
+  constexpr std::array<std::pair<double, const char*>, 3> words{
+      {{0.6, "amplitude above 60 % of the largest"},
+       {0.3, "amplitude 30 to 60 % of the largest"},
+       {0.1, "amplitude 10 to 30 % of the largest"}}};
+  for (const auto& [above, word] : words)
+    if (share > above) return word;
+  return "amplitude below 10 % of the largest";
 }
 
 std::string phase_word(double phase) {
@@ -80,7 +90,7 @@ std::vector<Cell> cells_of(const std::vector<MeasuredFeatures>& measured) {
   for (std::size_t r = 0; r < measured.size(); ++r) {
     const MeasuredFeatures& m = measured[r];
     const Swing swing = swing_of(m);
-    const double period = 1 / m.setup.spring.frequency;
+    const double period = 1 / m.setup.spring.frequency, largest = swing.largest();
     std::map<std::pair<int, int>, Cell> of_run;  // observable; stretch, -1: whole
     std::map<double, double> centre;
     for (std::size_t f = 0; f < m.plan.features.size(); ++f)
@@ -107,7 +117,7 @@ std::vector<Cell> cells_of(const std::vector<MeasuredFeatures>& measured) {
             .first->second.features.push_back(place);
       };
       if (swing.time.size() < a_swing) continue;
-      in_all(amplitude_word(swing.amplitude(feature.time, period)));
+      in_all(amplitude_word(swing.amplitude(feature.time, period) / largest));
       in_all(phase_word(swing.phase(feature.time, period)));
       if (const auto there = centre.find(feature.time); there != centre.end())
         in_all(std::abs(there->second - swing.at(feature.time)) > at_a_wall * farthest

@@ -22,8 +22,8 @@ struct Cell {
 };
 
 /// Every cell with four features at least: each run whole and in stretches of 2 s, octants of the swing's
-/// phase, amplitudes above 60, 30, 10 and below 10 mm, grains near an end wall (landing) or on their way
-/// (flight).
+/// phase, amplitudes above 60, 30, 10 and below 10 % of the largest, grains near an end wall (landing) or on
+/// their way (flight).
 std::vector<Cell> cells_of(const std::vector<MeasuredFeatures>& measured);
 
 /// A cell and how badly the model fails there.

@@ -10,8 +10,7 @@ namespace shakedown {
 
 namespace {
 
-constexpr double small_peak = 0.010;  // m
-constexpr double last_time = 8.0;     // s
+constexpr double last_time = 8.0;  // s
 
 Decay::Linear straight_line(const Eigen::VectorXd& time, const Eigen::VectorXd& height) {
   Eigen::MatrixXd columns(time.size(), 2);
@@ -40,22 +39,24 @@ Decay::Exponential exponential(const Eigen::VectorXd& time, const Eigen::VectorX
 
 }  // namespace
 
-std::vector<Peak> peaks_of_the_decay(const std::vector<Peak>& peaks) {
+std::vector<Peak> peaks_of_the_decay(const std::vector<Peak>& peaks, double small) {
   std::vector<Peak> kept;
   for (const Peak& peak : peaks) {
-    if (std::abs(peak.position) < small_peak || peak.time >= last_time) break;
+    if (std::abs(peak.position) < small || peak.time >= last_time) break;
     kept.push_back(peak);
   }
   return kept;
 }
 
-double first_small_peak(const std::vector<Peak>& peaks) {
+double first_small_peak(const std::vector<Peak>& peaks, double small) {
   for (const Peak& peak : peaks)
-    if (std::abs(peak.position) < small_peak) return peak.time;
+    if (std::abs(peak.position) < small) return peak.time;
   return absent;
 }
 
-Decay decay_of(const std::vector<Peak>& peaks) { return decay_through(peaks_of_the_decay(peaks)); }
+Decay decay_of(const std::vector<Peak>& peaks, double small) {
+  return decay_through(peaks_of_the_decay(peaks, small));
+}
 
 Decay decay_through(const std::vector<Peak>& kept) {
   const Eigen::Index count = static_cast<Eigen::Index>(kept.size());

@@ -10,14 +10,17 @@ namespace shakedown {
 
 constexpr double absent = std::numeric_limits<double>::quiet_NaN();  ///< "there is no such number"
 
+/// A peak is small below this share of the release: 10 mm of the paper's 107.5 mm.
+constexpr double small_share = 10 / 107.5;
+
 /// The peaks from which slope and linearity are computed: t < 8 s, up to the last one before the first below
-/// 10 mm.
-std::vector<Peak> peaks_of_the_decay(const std::vector<Peak>& peaks);
+/// `small` (m).
+std::vector<Peak> peaks_of_the_decay(const std::vector<Peak>& peaks, double small);
 
-/// Time of the first peak below 10 mm, s; absent when there is none.
-double first_small_peak(const std::vector<Peak>& peaks);
+/// Time of the first peak below `small` (m), s; absent when there is none.
+double first_small_peak(const std::vector<Peak>& peaks, double small);
 
-/// |peak|(t) of peaks_of_the_decay: a + b t, A exp(-r t), and a + b t + c t^2. Numbers are absent where there
+/// |peak|(t): a + b t, A exp(-r t), and a + b t + c t^2. Numbers are absent where there
 /// are fewer peaks than coefficients; errors (one standard error, from the scatter about the curve) also
 /// where there are no more.
 struct Decay {
@@ -35,10 +38,10 @@ struct Decay {
   double curvature = absent,
          curvature_error = absent;  ///< m/s^2, 2c: 0 for a straight line, > 0 when the decay slows down
 };
-Decay decay_of(const std::vector<Peak>& peaks);
-
-/// The same through all of these points.
 Decay decay_through(const std::vector<Peak>& points);
+
+/// The same of peaks_of_the_decay.
+Decay decay_of(const std::vector<Peak>& peaks, double small);
 
 /// Damping over one half period, from a peak to the next.
 struct HalfPeriodDamping {

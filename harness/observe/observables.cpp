@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "observables.hpp"
 
+#include <cmath>
+
 namespace shakedown {
+
+double small_peak(const Setup& setup) { return small_share * std::abs(setup.release.displacement); }
 
 double shortest_half_period(const Setup& setup) { return 0.05 / setup.spring.frequency; }
 
@@ -25,8 +29,9 @@ Observables observe(const Trajectory& trajectory, const Setup& setup) {
     seen.zero_crossings = zero_crossings(motion, shortest_half_period(setup));
     seen.peaks = largest_extrema(motion, seen.zero_crossings);
     seen.frequency = frequency_of(seen.zero_crossings);
-    seen.first_small_peak = first_small_peak(seen.peaks);
-    seen.decay = decay_of(seen.peaks);
+    seen.small_peak = small_peak(setup);
+    seen.first_small_peak = first_small_peak(seen.peaks, seen.small_peak);
+    seen.decay = decay_of(seen.peaks, seen.small_peak);
     seen.slope = seen.decay.linear.slope;
     if (motion.size() > 0) seen.damping = damping_of(trajectory.x_box.front(), seen.peaks);
     seen.steady = steady_state_if_any(setup, trajectory);

@@ -21,7 +21,8 @@ struct Observables {
   std::vector<Peak> peaks;             ///< one signed extremum a half period, the release excluded
   double frequency = absent;           ///< Hz, of the first ten zero crossings
   double slope = absent;               ///< m/s, of |peaks| against time
-  double first_small_peak = absent;    ///< s, time of the first peak below 10 mm
+  double small_peak = absent;          ///< m, below which a peak is small
+  double first_small_peak = absent;    ///< s, time of the first small peak
   Decay decay;
   std::vector<HalfPeriodDamping> damping;  ///< one entry a half period, from the release on
   std::array<double, energy_fractions.size()> seconds_to_energy_fraction{};
@@ -32,6 +33,9 @@ struct Observables {
 };
 
 Observables observe(const Trajectory& trajectory, const Setup& setup);
+
+/// Below which a peak is small, m: small_share of the release.
+double small_peak(const Setup& setup);
 
 /// Shortest time between two zero crossings that counts as a half period: a tenth of the empty box's, s.
 double shortest_half_period(const Setup& setup);

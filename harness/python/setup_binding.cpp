@@ -5,7 +5,9 @@
 
 #include "bindings.hpp"
 #include "effects.hpp"
+#include "formula.hpp"
 #include "paper_values.hpp"
+#include "quantity.hpp"
 #include "setup_file.hpp"
 
 namespace py = pybind11;
@@ -33,9 +35,25 @@ std::vector<std::string> from_paper(const Setup& setup, bool measured) {
       setup, measured ? std::span<const std::string_view>(length) : std::span<const std::string_view>());
 }
 
+/// `function`, which lives as long as the process, as name(x, v, t) of formulas: engines call it from threads
+/// of their own, each with Python's lock.
+void lend(const std::string& name, const py::function& function) {
+  const py::handle kept = py::function(function).release();
+  lend_function(name, [kept, name](double x, double v, double t) {
+    const py::gil_scoped_acquire lock;
+    try {
+      return kept(x, v, t).cast<double>();
+    } catch (const std::exception& wrong) {  // of Python, or no number
+      throw PhysicsError("the force " + name + " of Python fails at x = " + write_number(x) + " m, v = " +
+                         write_number(v) + " m/s, t = " + write_number(t) + " s: " + wrong.what());
+    }
+  });
+}
+
 }  // namespace
 
 void bind_setup(py::module_& module) {
+  module.def("lend", &lend);
   py::class_<Setup>(module, "Setup")
       .def_static("read",
                   [](const std::string& file, const std::vector<std::string>& set) {

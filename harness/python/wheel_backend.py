@@ -41,7 +41,8 @@ def _built(settings):
     build = ROOT / "build" / "wheel"
     more = shlex.split((settings or {}).get("cmake-args", ""))
     subprocess.run(["cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DSHAKEDOWN_PYTHON=ON",
-                    "-DSHAKEDOWN_CPU=portable", "-DSHAKEDOWN_TESTS=OFF", "-DSHAKEDOWN_BENCH=OFF", "-DSHAKEDOWN_INSTALL=OFF",
+                    "-DSHAKEDOWN_CPU=portable", "-DSHAKEDOWN_TOGETHER=ON", "-DSHAKEDOWN_WERROR=OFF", "-DSHAKEDOWN_TESTS=OFF",
+                    "-DSHAKEDOWN_BENCH=OFF", "-DSHAKEDOWN_INSTALL=OFF",
                     f"-DPython_EXECUTABLE={sys.executable}", *more], check=True)
     subprocess.run(["cmake", "--build", build, "--target", "shakedown_python", "--parallel", str(os.cpu_count() or 1)], check=True)
     return build / "python" / "shakedown"

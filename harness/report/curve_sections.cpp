@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "hard_engine.hpp"
@@ -209,14 +210,23 @@ ReportSection failure_section(const std::vector<MeasuredAgainstModel>& runs) {
                                   {4 * eighth + 1e-9, "coming to the inner end"}},
                                  phase_at);
   phase.title = "By phase of the swing";
+  std::vector<double> largest;
+  for (const MeasuredAgainstModel& run : runs) {
+    double most = std::numeric_limits<double>::min();
+    for (const double x : run.final_model.box.mean) most = std::max(most, std::abs(x));
+    largest.push_back(most);
+  }
+  const auto share_at = [&](const MeasuredAgainstModel& run, std::size_t i) {
+    return amplitude_at(run, i) / largest[static_cast<std::size_t>(&run - runs.data())];
+  };
   ReportBars amplitude = residual_by(runs,
-                                     {{0.01, "below 10 mm"},
-                                      {0.03, "10 to 30 mm"},
-                                      {0.06, "30 to 60 mm"},
-                                      {0.09, "60 to 90 mm"},
-                                      {1e9, "above 90 mm"}},
-                                     amplitude_at);
-  amplitude.title = "By amplitude of the swing";
+                                     {{0.1, "below 10 %"},
+                                      {0.3, "10 to 30 %"},
+                                      {0.6, "30 to 60 %"},
+                                      {0.8, "60 to 80 %"},
+                                      {1e9, "above 80 %"}},
+                                     share_at);
+  amplitude.title = "By amplitude of the swing, of the run's largest";
   section.bars = {phase, amplitude};
   return section;
 }

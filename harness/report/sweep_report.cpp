@@ -40,7 +40,7 @@ const std::vector<Drawn>& drawn() {
         {"seconds_to_lose_50_percent", "50 %"}}},
       {"Fall of the peaks", "slope, mm/s", {{"slope_mm_per_s", "straight line, t < 8 s"}}},
       {"Frequency", "frequency, Hz", {{"frequency_hz", "first ten zero crossings"}}},
-      {"First peak below 10 mm", "time, s", {{"first_peak_below_10mm_s", "first peak below 10 mm"}}},
+      {"First small peak", "time, s", {{"first_small_peak_s", "first peak below 9.3 % of the release"}}},
       {"Where the energy goes",
        "fraction of the initial energy",
        {{"energy_left", "left"},

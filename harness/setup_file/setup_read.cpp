@@ -357,6 +357,12 @@ TomlValue changed_in_part(const Setup& setup, std::span<const Override> override
   return root;
 }
 
+/// A first line of words or numbers with separators between them, which no setup has.
+bool begins_as_table(std::string_view text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  return line.find_first_of(",;\t") != line.npos && line.find_first_of("=[#") == line.npos;
+}
+
 }  // namespace
 
 Override parse_override(std::string_view text, const std::string& origin) {
@@ -393,6 +399,13 @@ Setup with_overrides(Setup setup, std::span<const Override> overrides, Known kno
 Setup read_setup(const std::filesystem::path& file, Known known, std::span<const Override> overrides) {
   keep_unchanged(file);
   const std::string text = read_text_file(file);
+  if (begins_as_table(text))
+    throw InputError({{{file.string(), 1, 1},
+                       "",
+                       "is a table, not a setup",
+                       "give the setup first and the tables by --data, through an experiment file: shakedown "
+                       "import " +
+                           file.string()}});
   if (parse_toml(text, file.string()).entries.empty())
     throw InputError({{{file.string(), 0, 0},
                        "",

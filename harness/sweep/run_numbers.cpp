@@ -30,7 +30,7 @@ double energy_left(const SeenRun& run) {
 constexpr std::array table{
     RunNumber{"slope_mm_per_s", [](const SeenRun& run) { return 1e3 * run.observables.slope; }},
     RunNumber{"frequency_hz", [](const SeenRun& run) { return run.observables.frequency; }},
-    RunNumber{"first_peak_below_10mm_s", [](const SeenRun& run) { return run.observables.first_small_peak; }},
+    RunNumber{"first_small_peak_s", [](const SeenRun& run) { return run.observables.first_small_peak; }},
     RunNumber{"peak_1_mm", peak_mm<0>},
     RunNumber{"peak_2_mm", peak_mm<1>},
     RunNumber{"peak_3_mm", peak_mm<2>},

@@ -54,6 +54,20 @@ TEST(UserForce, EvaluatesTheFormulaInSi) {
                    -0.4 * 0.7 * std::exp(-std::pow(0.005 / 0.012, 2)));
 }
 
+TEST(UserForce, CallsFunctionsThatTheProgramLends) {
+  EXPECT_NE(complaint("lent_here(x, v, t)").find("neither x, v, t, a constant nor a function"),
+            std::string::npos);
+  lend_function("lent_here", [](double x, double v, double t) { return x + 10 * v + 100 * t; });
+  const auto setup =
+      parse_setup(setup_text("2*lent_here(x, v, t)-k", "constants = {k = \"3 N\"}\n"), "s", all_effects());
+  EXPECT_DOUBLE_EQ(physics_of(setup).box.free[0].newton(1, 2, 3), 2 * 321 - 3);
+  EXPECT_DOUBLE_EQ(Formula("lent_here(1, 2, 3)", {})(0, 0, 0), 321);
+  EXPECT_THROW(lend_function("lent_here", [](double, double, double) { return 0.0; }), FormulaProblem);
+  EXPECT_THROW(lend_function("not a name", [](double, double, double) { return 0.0; }), FormulaProblem);
+  lend_function("lent_broken", [](double, double, double) -> double { throw PhysicsError("out of order"); });
+  EXPECT_NE(complaint("lent_broken(x, v, t)").find("out of order"), std::string::npos);
+}
+
 TEST(UserForce, ActsOnGrainsWhenAsked) {
   const Physics physics =
       physics_of(parse_setup(setup_text("0.01*sin(2*_pi*t)", "on = \"grains\"\n"), "s", all_effects()));

@@ -106,6 +106,22 @@ TEST(ClosedForms, DoubleExtremaAndWigglesAtZeroCountOnce) {
   WITHIN(seen.frequency, 1.0, 0.01, 1.6e-3);
 }
 
+TEST(ClosedForms, ASmallReleaseIsReadAsALargeOne) {
+  const auto seen_of = [](double scale) {
+    shakedown::Setup setup;
+    setup.release.displacement *= scale;
+    const auto swing = [scale](double t) { return scale * (0.1075 - 0.008 * t) * std::cos(2 * pi * t); };
+    return observe(sampled(13, 500, swing, {}), setup);
+  };
+  const Observables paper = seen_of(1), small = seen_of(0.125);
+  EXPECT_EQ(paper.small_peak, 0.01);
+  EXPECT_EQ(small.small_peak, 0.00125);
+  EXPECT_EQ(small.decay.peaks, paper.decay.peaks);
+  EXPECT_GT(paper.first_small_peak, 12);
+  EXPECT_EQ(small.first_small_peak, paper.first_small_peak);  // powers of two scale without rounding
+  WITHIN(small.slope, 0.125 * paper.slope, 1e-15, 1e-18);
+}
+
 TEST(ClosedForms, WhatARunDoesNotHaveIsAbsent) {
   const Observables still = observe(sampled(3, 100, [](double) { return 0.1; }, {}), shakedown::Setup{});
   EXPECT_TRUE(still.peaks.empty());

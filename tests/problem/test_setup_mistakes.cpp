@@ -178,6 +178,19 @@ TEST(SetupMistakes, MissingFiles) {
   EXPECT_THROW(initial_state(setup), FileError);
 }
 
+TEST(SetupMistakes, ATableIsNoSetup) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "film.csv";
+  for (const char* table : {"frame,x_px\n0,1.5\n", "0;1,5\n", "\"t\"\t\"x\"\n"}) {
+    std::ofstream(file) << table;
+    try {
+      read_setup(file, known);
+      ADD_FAILURE() << table;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("is a table, not a setup"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(SetupMistakes, GrainFilesAreCheckedLineByLine) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "grain_files";
   std::filesystem::create_directories(folder);

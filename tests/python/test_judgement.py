@@ -4,6 +4,8 @@
 import math
 import unittest
 
+import numpy as np
+
 import shakedown
 from project import L040, LEAF_SPRING, by_command
 
@@ -33,6 +35,11 @@ class Judgement(unittest.TestCase):
         damping = found.parameters["blade_viscous_damping.damping"]
         self.assertLess(damping["low"], 0.02005)
         self.assertGreater(damping["high"], 0.0199)
+        curve = found.curves[0]
+        self.assertEqual((curve.run, curve.observable), ("ring_down_1", "box"))
+        np.testing.assert_allclose(curve.measured - curve.model, curve.residual, atol=2e-7)  # m; rounded to 0.1 um
+        self.assertLess(np.sqrt(np.mean(curve.residual**2)), 0.2e-3)
+        self.assertGreater(np.sqrt(np.mean((curve.measured - curve.as_given) ** 2)), 50e-3)
         self.assertTrue(shakedown.compare(found.setup, FILMS, runs=16).holds)
         self.assertTrue(found.page().startswith("<!doctype html>"))
 

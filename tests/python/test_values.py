@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Setups, runs, measurements, drops: the same numbers, sentences and places as those of the command line."""
 
+import importlib.util
 import json
 import pathlib
 import tempfile
@@ -50,6 +51,57 @@ class Setups(unittest.TestCase):
         self.assertIsInstance(caught.exception, ValueError)
         with self.assertRaises(shakedown.FileError):
             shakedown.Setup("/nowhere/setup.toml")
+
+
+class Forces(unittest.TestCase):
+    """A force of Python beside the same force as a formula."""
+
+    def test_moves_as_the_formula_does(self):
+        short = {"run.duration": "2 s", "grains.count": 0}
+        formula = shakedown.Setup(L040, set={**short, "user_force.force": "-0.3*v*abs(v)"})
+        threads = set()
+
+        def drag(x, v, t):
+            threads.add(threading.get_ident())
+            return -0.3 * v * abs(v)
+
+        lent = shakedown.Setup(L040, set=short).with_force(drag)
+        self.assertEqual(lent.effects, ["user_force"])
+        for engine in ("hard", "soft"):
+            one, other = (shakedown.ensemble(setup, 2, engine=engine) for setup in (lent, formula))
+            np.testing.assert_allclose(one.box, other.box, atol=1e-12)
+        self.assertGreater(len(threads), 1)
+        with self.assertRaisesRegex(ValueError, "already"):
+            lent.changed({"box.length": "65 mm"}).with_force(drag)
+
+    def test_on_grains_by_soft_contacts(self):
+        short = {"run.duration": "0.2 s"}
+        lent = shakedown.Setup(L040, set=short).with_force(lambda x, v, t: -0.02 * v, on="grains")
+        formula = shakedown.Setup(L040, set={**short, "user_force.on": "grains", "user_force.force": "-0.02*v"})
+        np.testing.assert_allclose(*(shakedown.run(setup, engine="soft").box for setup in (lent, formula)), atol=1e-12)
+
+    def test_its_exceptions_are_told(self):
+        setup = shakedown.Setup(L040, set={"run.duration": "1 s"})
+
+        def late(x, v, t):
+            if 0.5 < t < 0.9:
+                raise RuntimeError("not yet")
+            return 0
+
+        with self.assertRaisesRegex(shakedown.PhysicsError, "not yet"):
+            shakedown.run(setup.with_force(late))
+        with self.assertRaisesRegex(shakedown.InputError, "ZeroDivisionError"):
+            setup.with_force(lambda x, v, t: 1 / x)
+        with self.assertRaises(shakedown.InputError):
+            setup.with_force(lambda x, v, t: "none")
+
+    def test_is_judged_as_a_part_of_the_model(self):
+        films = LEAF_SPRING / "experiment.toml"
+        rubbed = shakedown.Setup(LEAF_SPRING / "setup.toml").with_force(lambda x, v, t: -0.02 * v)
+        found = shakedown.diagnose(rubbed, films)
+        self.assertEqual(found.missing, ["clamp_dry_friction"])
+        self.assertTrue(found.page().startswith("<!doctype html>"))
+        self.assertEqual(found.setup.effects, ["user_force", "clamp_dry_friction"])
 
 
 class Runs(unittest.TestCase):
@@ -159,6 +211,25 @@ class Measurements(unittest.TestCase):
         np.testing.assert_array_equal(films.runs[0].box, shakedown.measurement(LEAF_SPRING / "experiment.toml").runs[0].box)
         with self.assertRaisesRegex(ValueError, "do not say everything"):
             shakedown.measurement(tables)
+
+    @unittest.skipUnless(importlib.util.find_spec("pandas"), "needs pandas")
+    def test_of_pandas(self):
+        import pandas
+
+        as_file = shakedown.measurement(LEAF_SPRING / "experiment.toml")
+        tables = [pandas.read_csv(LEAF_SPRING / f"ring_down_{n}.csv", comment="#") for n in (1, 2)]
+        tables[1].attrs["name"] = "the second"
+        films = shakedown.measurement(tables, frame_rate="240 Hz", pixel="0.25 mm", origin="640 px")
+        self.assertEqual([run.name for run in films.runs], ["table_1", "the second"])
+        np.testing.assert_array_equal(films.runs[0].box, as_file.runs[0].box)
+
+        table = pandas.DataFrame({"time": as_file.runs[0].time, "box": as_file.runs[0].box, "brightness": 1.0})
+        table.loc[7, "box"] = None
+        table.attrs["box_length"] = "40 mm"
+        films = shakedown.measurement({"one": table})
+        self.assertEqual(films.runs[0].box_length, 0.04)
+        self.assertTrue(np.isnan(films.runs[0].box[7]))
+        np.testing.assert_array_equal(np.delete(films.runs[0].box, 7), np.delete(as_file.runs[0].box, 7))
 
 
 class Hiding(unittest.TestCase):

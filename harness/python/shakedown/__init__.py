@@ -28,7 +28,7 @@ from ._questions import (
     fit,
     run,
 )
-from ._results import Answer, Bounce, Comparison, Crosscheck, Diagnosis, Ensemble, Fit, Run
+from ._results import Answer, Bounce, Comparison, Crosscheck, Curve, Diagnosis, Ensemble, Fit, Run
 from ._setup import Setup
 
 __version__ = _version_line.split()[1]
@@ -38,6 +38,7 @@ __all__ = [
     "Bounce",
     "Comparison",
     "Crosscheck",
+    "Curve",
     "Diagnosis",
     "EffectList",
     "Ensemble",

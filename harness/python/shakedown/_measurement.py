@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""What was measured: from an experiment file, from the tables of a tracking program, or from arrays."""
+"""What was measured: from an experiment file, from the tables of a tracking program, or from arrays and pandas' tables."""
 
 import os
 import tempfile
-from typing import Any, Mapping, Optional, Sequence, Union
+from typing import Any, Mapping, Optional, Protocol, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,17 @@ from ._setup import Path
 from ._toml import toml_of
 
 Array = npt.NDArray[np.float64]
+
+
+class Table(Protocol):
+    """What is needed of a pandas.DataFrame, which this module takes without importing pandas."""
+
+    @property
+    def columns(self) -> Any: ...
+    @property
+    def attrs(self) -> Any: ...
+    def __getitem__(self, key: Any, /) -> Any: ...
+    def to_csv(self, path: Any, /, *, index: bool) -> Any: ...
 
 
 class MeasuredRun:
@@ -81,8 +92,16 @@ def _column(folder: str, name: str, run: Mapping[str, Any]) -> dict[str, Any]:
     return {"file": name + ".csv", **said}
 
 
-def _of_arrays(runs: Mapping[str, Mapping[str, Any]], title: str, known: Mapping[str, Any], noise: str,
+def _of_columns(run: Union[Mapping[str, Any], Table]) -> Mapping[str, Any]:
+    """The run as a dictionary: of a pandas table the columns of that name and what its attrs say."""
+    if isinstance(run, Mapping):
+        return run
+    return {**{key: run[key] for key in ("time", "box", "centre") if key in run.columns}, **run.attrs}
+
+
+def _of_arrays(source: Mapping[str, Union[Mapping[str, Any], Table]], title: str, known: Mapping[str, Any], noise: str,
                centre_noise: str) -> Measurement:
+    runs = {name: _of_columns(run) for name, run in source.items()}
     columns: dict[str, Any] = {"time": {"from": "time", "unit": "s"}, "box_position": {"from": "box", "unit": "m"}}
     if any(run.get("centre") is not None for run in runs.values()):
         columns["grain_centre"] = {"from": "centre", "unit": "m"}
@@ -99,16 +118,36 @@ def _of_arrays(runs: Mapping[str, Mapping[str, Any]], title: str, known: Mapping
         return Measurement(_core.Experiment.parse(toml_of(document), "measurement", folder), "measurement")
 
 
-def measurement(source: Union[Path, Sequence[Path], Mapping[str, Mapping[str, Any]]], *, title: str = "",
-                known: Optional[Mapping[str, Any]] = None, noise: str = "", centre_noise: str = "",
+def _of_tables(source: Sequence[Union[Path, Table]], frame_rate: str, pixel: str, origin: str,
+               lengths: Sequence[str]) -> Measurement:
+    with tempfile.TemporaryDirectory() as folder:
+        files = []
+        for number, table in enumerate(source, 1):
+            if isinstance(table, (str, os.PathLike)):
+                files.append(os.fspath(table))
+                continue
+            file = os.path.join(folder, f"{table.attrs.get('name', f'table_{number}')}.csv")
+            table.to_csv(file, index=False)
+            files.append(file)
+        text, preview, questions = _core.import_tables(files, frame_rate, pixel, origin, list(lengths))
+        if questions:
+            raise ValueError("the tables do not say everything:\n  " + "\n  ".join(questions) + "\n" + preview)
+        names = ", ".join(os.path.basename(file) if file.startswith(folder) else file for file in files)
+        return Measurement(_core.Experiment.parse(text, "tables", os.getcwd()), names)
+
+
+def measurement(source: Union[Path, Sequence[Union[Path, Table]], Mapping[str, Union[Mapping[str, Any], Table]]], *,
+                title: str = "", known: Optional[Mapping[str, Any]] = None, noise: str = "", centre_noise: str = "",
                 frame_rate: str = "", pixel: str = "", origin: str = "",
                 lengths: Sequence[str] = ()) -> Measurement:
     """What was measured.
 
     source   an experiment file (TOML); or tables of a tracking program, one a run, whose columns are guessed
-             (a list of paths); or arrays, {"L040": {"time": t, "box": x, "centre": c, "box_length": "40 mm"}}:
-             time in s since release, positions in m, each of shape (T), nan where a position is missing, centre
-             (mean position of the grains) optional, and beside them any key of [[run]] in an experiment file
+             (a list of paths or of pandas' tables, whose attrs["name"] names the run); or arrays, {"L040":
+             {"time": t, "box": x, "centre": c, "box_length": "40 mm"}}: time in s since release, positions in m,
+             each of shape (T), nan where a position is missing, centre (mean position of the grains) optional, and
+             beside them any key of [[run]] in an experiment file; or pandas' tables that have these columns,
+             {"L040": table}, the keys of [[run]] in its attrs; other columns of it are left out
     Of arrays also: title; known, what was weighed and measured ({"box.mass": "434 g +- 2 g"}); noise and
              centre_noise, standard deviation of one frame ("0.2 mm").
     Of tables also: frame_rate ("240 Hz"), pixel (length that one shows, "0.25 mm"), origin (what is read at rest,
@@ -120,8 +159,4 @@ def measurement(source: Union[Path, Sequence[Path], Mapping[str, Mapping[str, An
         return _of_arrays(source, title, known or {}, noise, centre_noise)
     if isinstance(source, (str, os.PathLike)):
         return Measurement(_core.Experiment.read(os.fspath(source)), os.fspath(source))
-    files = [os.fspath(file) for file in source]
-    text, preview, questions = _core.import_tables(files, frame_rate, pixel, origin, list(lengths))
-    if questions:
-        raise ValueError("the tables do not say everything:\n  " + "\n  ".join(questions) + "\n" + preview)
-    return Measurement(_core.Experiment.parse(text, "tables", os.getcwd()), ", ".join(files))
+    return _of_tables(source, frame_rate, pixel, origin, lengths)

@@ -71,7 +71,7 @@ class Run:
     peak_time, peak                   s, m (signed); shape (P); one extremum a half period, the release excluded
     zero_crossings                    s, shape (C)
     frequency, slope                  Hz; m/s, of |peaks| against time; nan where there is none
-    first_small_peak                  s, of the first peak below 10 mm; nan where there is none
+    first_small_peak                  s, of the first peak below 9.3 % of the release; nan where there is none
     """
 
     def __init__(self, motion: dict[str, Any], observed: dict[str, Any]) -> None:
@@ -122,7 +122,40 @@ class Ensemble(Answer):
         return np.array([run.energy for run in self.runs])
 
 
-class Comparison(Answer):
+class Curve:
+    """One run beside the model, as a camera saw it. SI.
+
+    run, observable   name of the run; "box" or "centre" (of the grains)
+    time              s, shape (T)
+    measured, model   m, shape (T); model: mean of the model that was judged, of a diagnosis the final one
+    as_given          m, shape (T); of a diagnosis the model that it began with
+    residual          m, measured less model, shape (T)
+    spread            m, standard deviation of the residual of a right model, shape (T)
+    A number that there is not is nan, and an array all nan where there is none.
+    """
+
+    def __init__(self, curve: dict[str, Any]) -> None:
+        def metres(name: str) -> Array:
+            return 1e-3 * np.asarray(curve.get(name + "_mm", [None] * len(self.time)), dtype=float)
+
+        self.run: str = curve["run"]
+        self.observable: str = curve["observable"]
+        self.time: Array = np.asarray(curve["time_s"], dtype=float)
+        self.measured, self.model, self.as_given = metres("measured"), metres("model"), metres("as_given")
+        self.residual, self.spread = metres("residual"), metres("spread")
+
+    def __repr__(self) -> str:
+        return f"<{self.observable} of {self.run} beside the model: {len(self.time)} points>"
+
+
+class _WithCurves(Answer):
+    @property
+    def curves(self) -> list[Curve]:
+        """Of each run the box and, where it was seen, the grains' centre beside the model, as arrays."""
+        return [Curve(one) for one in self.to_dict()["curves"]]
+
+
+class Comparison(_WithCurves):
     """Is the model acceptable for these measurements, and where does it fail?"""
 
     @property
@@ -146,7 +179,7 @@ class _WithSetup(Answer):
         return Setup._of(found, f"{type(self).__name__.lower()} of {self._name}")
 
 
-class Diagnosis(_WithSetup):
+class Diagnosis(_WithSetup, _WithCurves):
     """Which physical effect is missing in the model, and how strong is it?"""
 
     @property

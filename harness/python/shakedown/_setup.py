@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: MIT
 """What is simulated."""
 
+import itertools
 import os
-from typing import Any, Mapping, Optional, Union
+from typing import Any, Callable, Mapping, Optional, Union
 
 from . import _core
 from ._toml import toml_of, words_of
 
 Path = Union[str, "os.PathLike[str]"]
+Force = Callable[[float, float, float], float]
+
+_numbers = itertools.count(1)
 
 
 class Setup:
@@ -40,6 +44,25 @@ class Setup:
     def changed(self, set: Mapping[str, Any]) -> "Setup":
         """Another setup with these keys changed; raises InputError."""
         return Setup._of(self._setup.changed(words_of(set)), self.name)
+
+    def with_force(self, force: Force, *, on: str = "box") -> "Setup":
+        """Another setup with a force of your own, force(x, v, t) in N, for trying a law where speed does not matter.
+
+        x, v, t   m, m/s, s: of the box in the lab (x = 0 where the spring is relaxed); on="grains": of each grain
+        on        "box" or "grains"; on grains only the soft engine follows it
+
+        It is the effect user_force with a name for a formula. The function stays in this process: such a setup can
+        be written, and read here only. It is called from several threads, one at a time, a thousand times and more
+        for a second of motion (about 1 us each); an exception in it ends the work with PhysicsError.
+
+        Raises InputError where it has no finite value at usual places, speeds and times, ValueError where the setup
+        has a user_force already.
+        """
+        if "user_force" in self.effects:
+            raise ValueError("the setup has a user_force already; add both forces in one function")
+        name = f"python_{next(_numbers)}"
+        _core.lend(name, force)
+        return self.changed({"user_force.on": on, "user_force.force": f"{name}(x, v, t)"})
 
     def __getitem__(self, key: str) -> float:
         """The value of a numeric key in SI: setup["box.length"] is 0.04 (m). Raises InputError for no such key."""
