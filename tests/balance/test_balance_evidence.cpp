@@ -97,7 +97,7 @@ TEST(BalanceEvidence, QuadraticDragComesFirst) {
   expect_first(what, "blade_quadratic_drag", 0.1);
 }
 
-TEST(BalanceEvidence, DryFrictionComesFirst) {
+TEST(SlowBalanceEvidence, DryFrictionComesFirst) {
   PushedBox what;
   what.dry_friction = 0.02;
   expect_first(what, "clamp_dry_friction", 0.02);

@@ -140,7 +140,7 @@ TEST(Momentum, ForcingIsFoundAtItsFrequency) {
 }
 
 /// What no two known strengths stand for is no wander of the track, though it varies like one.
-TEST(Momentum, ForcesAreNoWander) {
+TEST(SlowMomentum, ForcesAreNoWander) {
   PushedBox what;
   const double mass = 0.434 + 37 * 4.04e-3;
   what.cubic = -0.03;
@@ -155,7 +155,7 @@ TEST(Momentum, ForcesAreNoWander) {
 
 /// The longer windows cannot see so fast and strong a sine and choose slow ones in its place; none of them
 /// may stay.
-TEST(Momentum, AStrongFastSineStandsAlone) {
+TEST(SlowMomentum, AStrongFastSineStandsAlone) {
   PushedBox what;
   const double mass = 0.434 + 37 * 4.04e-3;
   what.force = [=](double, double, double t) {
@@ -203,8 +203,9 @@ TEST(SlowMomentum, CameraErrorsAreNotForces) {
 TEST(Momentum, GapsOutliersAndColouredNoiseDoNotConvict) {
   PushedBox what;
   what.colour = 0.5;
-  EXPECT_EQ(names(audited(what, 5)), "");
-  WITHIN(audited(what, 5).as_given.chi2_per_degree(), 1, 0.2, 0.16);
+  const MomentumAudit coloured = audited(what, 5);
+  EXPECT_EQ(names(coloured), "");
+  WITHIN(coloured.as_given.chi2_per_degree(), 1, 0.2, 0.16);
   Experiment experiment = pushed_box({}, 6);
   Random random(7, 0, Stream::other);
   for (MeasuredRun& run : experiment.runs)
