@@ -9,47 +9,6 @@ constexpr std::size_t strand_count = 8;
 using Strands = std::array<double, strand_count>;
 double folded(const Strands& s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
 
-/// Two grains of separation r and relative velocity w: b = r.w, a = w^2, c = r^2 - reach^2.
-template <class L>
-struct Approach {
-  L a, b, reach, apart_squared, c, discriminant;
-};
-
-/// What two grains with a square well of `range` come to next: outside it the edge, inside either each other
-/// or the edge from within. The wait is a quotient of a root and |b|, never of a difference that cancels.
-template <class L>
-class InWell {
- public:
-  [[gnu::always_inline]] InWell(const Approach<L>& pair, double range, const typename L::mask_type& inside)
-      : a_(pair.a), size_of_b_(simd::abs(pair.b)) {
-    const L zero = 0.0, edge = pair.reach + L(range), beyond = pair.apart_squared - edge * edge;
-    const auto approach = pair.b < zero;
-    touch_ = inside && approach && pair.discriminant >= zero;
-    squared_ = pair.b * pair.b - pair.a * beyond;
-    meets_ = (inside && pair.a > zero) || (!inside && approach && squared_ >= zero);
-    far_side_ = inside && !touch_ && pair.b <= zero;
-    room_ = beyond;
-    simd::where(inside, room_) = -beyond;
-    simd::where(touch_, room_) = pair.c;
-    simd::where(touch_, squared_) = pair.discriminant;
-  }
-  const typename L::mask_type& meets() const { return meets_; }
-  const typename L::mask_type& may_touch() const { return touch_; }  ///< each other, before the edge
-  const L& squared_root() const { return squared_; }
-  /// Numerator and denominator of the wait, from the root.
-  [[gnu::always_inline]] std::array<L, 2> quotient(const L& root) const {
-    const L sum = root + size_of_b_;
-    std::array<L, 2> parts{simd::max(room_, L(0.0)), sum};
-    simd::where(far_side_, parts[0]) = sum;
-    simd::where(far_side_, parts[1]) = a_;
-    return parts;
-  }
-
- private:
-  L a_, size_of_b_, squared_, room_;
-  typename L::mask_type meets_, touch_, far_side_;
-};
-
 }  // namespace
 
 AllPairs::AllPairs(const State& state, std::array<double, 2> half_width, double attraction_range)
@@ -97,6 +56,28 @@ int AllPairs::bonds() const {
   return static_cast<int>(sum / 2);
 }
 
+Flight3 AllPairs::flight(int i) const {
+  const std::size_t k = static_cast<std::size_t>(i);
+  return {{x_[k], y_[k], z_[k]}, {vx_[k], vy_[k], vz_[k]}, time_[k]};
+}
+
+void AllPairs::set_flight(int i, const Flight3& flight) {
+  move_to(i, flight);
+  ++count_[static_cast<std::size_t>(i)];
+  sums_time_ = never;
+}
+
+void AllPairs::move_to(int i, const Flight3& flight) {
+  const std::size_t k = static_cast<std::size_t>(i);
+  x_[k] = flight.x[0];
+  y_[k] = flight.x[1];
+  z_[k] = flight.x[2];
+  vx_[k] = flight.v[0];
+  vy_[k] = flight.v[1];
+  vz_[k] = flight.v[2];
+  time_[k] = flight.time;
+}
+
 template <int K>
 struct AllPairs::Selves {
   std::array<Lanes, K> x, y, z, vx, vy, vz, radius;
@@ -120,7 +101,11 @@ struct AllPairs::Selves {
       x = load(all.x_, j) + vx * flown, y = load(all.y_, j) + vy * flown, z = load(all.z_, j) + vz * flown;
     }
   };
-  Approach<Lanes> approach(std::size_t g, const Others& others) const {
+  /// b = r.w, r^2, a = w^2 of separation r and relative velocity w.
+  struct Approach {
+    Lanes a, b, reach, apart_squared, c, discriminant;
+  };
+  Approach approach(std::size_t g, const Others& others) const {
     const Lanes rx = others.x - x[g], ry = others.y - y[g], rz = others.z - z[g];
     const Lanes wx = others.vx - vx[g], wy = others.vy - vy[g], wz = others.vz - vz[g];
     const Lanes reach = others.radius + radius[g], b = rx * wx + ry * wy + rz * wz,
@@ -133,31 +118,38 @@ struct AllPairs::Selves {
 template <int K, bool Well>
 std::array<AllPairs::Touch, K> AllPairs::first_touches(const std::array<int, K>& who) {
   const Selves<K> selves(*this, who);
-  std::array<Lanes, K> best, best_index;
-  best.fill(never);
-  best_index.fill(-1.0);
+  std::array<Lanes, K> self, best, best_index;
+  for (std::size_t g = 0; g < K; ++g)
+    self[g] = static_cast<double>(who[g]), best[g] = never, best_index[g] = -1.0;
   Lanes index = lane_index(), smallest_room(smallest_room_);
   const Lanes zero(0.0);
   for (std::size_t j = 0; j < padded_size_; j += lane_count, index += static_cast<double>(lane_count)) {
     const typename Selves<K>::Others others(*this, j, selves.now);
     for (std::size_t g = 0; g < K; ++g) {
-      const Approach<Lanes> pair = selves.approach(g, others);
-      const auto& [a, b, reach, apart_squared, c, discriminant] = pair;
+      const auto [a, b, reach, apart_squared, c, discriminant] = selves.approach(g, others);
       // t >= c / (-2 b): what cannot beat the best so far needs no root. The grain itself has b = 0.
       const auto may_be_first = b < zero && c <= Lanes(-2.0) * b * best[g];
       if constexpr (!Well)
         if (simd::none_of(may_be_first)) continue;
       simd::where(may_be_first, smallest_room) = simd::min(smallest_room, c);
+      auto meets = b < zero && discriminant >= zero;
+      if constexpr (!Well) meets = meets && may_be_first;
       Lanes touch;
-      Lanes::mask_type meets;
       if constexpr (Well) {
-        const InWell<Lanes> well(pair, range_, bonds(who[g], j));
-        meets = well.meets();
+        // Outside the well its edge is met first; inside, a grain that does not touch comes to the edge from
+        // within.
+        const Lanes edge = reach + Lanes(range_), c_edge = apart_squared - edge * edge,
+                    d_edge = b * b - a * c_edge;
+        const auto inside = load(bond_, static_cast<std::size_t>(who[g]) * padded_size_ + j) > Lanes(0.5);
+        const Lanes root_edge = simd::sqrt(simd::max(d_edge, zero));
+        Lanes inner = (root_edge - b) / a;
+        simd::where(meets, inner) = simd::max(c, zero) / (simd::sqrt(simd::max(discriminant, zero)) - b);
+        touch = simd::max(c_edge, zero) / (root_edge - b);
+        simd::where(inside, touch) = inner;
+        meets = (inside && a > zero) || (!inside && b < zero && d_edge >= zero);
+        meets = meets && index != self[g];
         if (simd::none_of(meets)) continue;
-        const auto [over, under] = well.quotient(simd::sqrt(simd::max(well.squared_root(), zero)));
-        touch = over / under;
       } else {
-        meets = may_be_first && discriminant >= zero;
         if (simd::none_of(meets)) continue;
         touch = simd::max(c, zero) / (simd::sqrt(simd::max(discriminant, zero)) - b);
       }
@@ -173,43 +165,32 @@ std::array<AllPairs::Touch, K> AllPairs::first_touches(const std::array<int, K>&
     if (!(earliest < never)) continue;
     Lanes index_of_best(never);
     simd::where(best[g] == Lanes(earliest), index_of_best) = best_index[g];
-    const auto partner = static_cast<std::int32_t>(simd::hmin(index_of_best));
-    touches[g] = Well ? touch_of<Well>(who[g], partner) : Touch{earliest, partner};
+    touches[g] = {earliest, static_cast<std::int32_t>(simd::hmin(index_of_best))};
   }
   return touches;
 }
 
 /// The same time that a lane of the vectorised search finds.
-template <bool Well>
-AllPairs::Touch AllPairs::touch_of(int i, int j) const {
+double AllPairs::wait_for_touch(int i, int j) const {
   const Flight3 self = flight(i);
   Flight3 other = flight(j);
   other.advance(self.time);
   const double rx = other.x[0] - self.x[0], ry = other.x[1] - self.x[1], rz = other.x[2] - self.x[2];
   const double wx = other.v[0] - self.v[0], wy = other.v[1] - self.v[1], wz = other.v[2] - self.v[2];
   const double reach = radius(j) + radius(i), b = rx * wx + ry * wy + rz * wz,
-               apart_squared = rx * rx + ry * ry + rz * rz;
-  const double c = apart_squared - reach * reach, a = wx * wx + wy * wy + wz * wz,
-               discriminant = b * b - a * c;
-  if constexpr (!Well) return {std::max(c, 0.0) / (std::sqrt(discriminant) - b), j};
-  using One = simd::simd<double, simd::simd_abi::scalar>;
-  const InWell<One> well({a, b, reach, apart_squared, c, discriminant}, range_, One::mask_type(bonded(i, j)));
-  const auto [over, under] = well.quotient(simd::sqrt(simd::max(well.squared_root(), One(0.0))));
-  const Meeting meeting = !bonded(i, j)                    ? Meeting::capture
-                          : simd::any_of(well.may_touch()) ? Meeting::touch
-                                                           : Meeting::escape;
-  return {(over / under)[0], j, meeting};
+               c = rx * rx + ry * ry + rz * rz - reach * reach;
+  return std::max(c, 0.0) / (std::sqrt(b * b - (wx * wx + wy * wy + wz * wz) * c) - b);
 }
 
 /// Which grain is first is told by estimates, and the root taken of that one alone. Where they cannot tell
 /// (touches within 2^-11 of each other), or spheres overlap deeper than any before, everything is done in
 /// full; so the answer is the same to the last bit. No branches: whether any of eight grains may come first
 /// is as good as random.
-template <int K, bool Well>
+template <int K>
 std::array<AllPairs::Touch, K> AllPairs::estimated_touches(const std::array<int, K>& who) {
   constexpr double above = 1 + 0x1p-11, below = 1 - 0x1p-11, tiny = 1e-300;
   const Selves<K> selves(*this, who);
-  std::array<Lanes, K> best, best_index;  // of each lane
+  std::array<Lanes, K> best, best_index;
   best.fill(never);
   best_index.fill(-1.0);
   Lanes index = lane_index();
@@ -218,42 +199,29 @@ std::array<AllPairs::Touch, K> AllPairs::estimated_touches(const std::array<int,
   for (std::size_t j = 0; j < padded_size_; j += lane_count, index += static_cast<double>(lane_count)) {
     const typename Selves<K>::Others others(*this, j, selves.now);
     for (std::size_t g = 0; g < K; ++g) {
-      const Approach<Lanes> pair = selves.approach(g, others);
-      const auto& [a, b, reach, apart_squared, c, discriminant] = pair;
-      const auto estimate = [&tiny](const Lanes& x) {
-        return x * inverse_root_estimate(simd::max(x, Lanes(tiny)));
-      };
-      Lanes touch;
-      Lanes::mask_type meets;
-      if constexpr (Well) {
-        const InWell<Lanes> well(pair, range_, bonds(who[g], j));
-        const auto [over, under] = well.quotient(estimate(simd::max(well.squared_root(), zero)));
-        meets = well.meets();
-        touch = over * inverse_estimate(under);
-      } else {
-        meets = b < zero && discriminant >= zero;
-        touch = simd::max(c, zero) * inverse_estimate(estimate(discriminant) - b);
-      }
-      doubt = doubt || (meets && c < smallest_room);
-      doubt = doubt || (meets && touch > Lanes(below) * best[g] && touch < Lanes(above) * best[g]);
+      const auto [a, b, reach, apart_squared, c, discriminant] = selves.approach(g, others);
+      const Lanes root = discriminant * inverse_root_estimate(simd::max(discriminant, Lanes(tiny)));
+      const Lanes touch = simd::max(c, zero) * inverse_estimate(root - b);
+      const auto meets = b < zero && discriminant >= zero;
+      doubt = doubt || (meets && (c < smallest_room ||
+                                  (touch > Lanes(below) * best[g] && touch < Lanes(above) * best[g])));
       const auto sooner = meets && touch < best[g];
       simd::where(sooner, best[g]) = touch;
       simd::where(sooner, best_index[g]) = index;
     }
   }
   if (simd::any_of(doubt)) [[unlikely]]
-    return first_touches<K, Well>(who);
+    return first_touches<K, false>(who);
   std::array<Touch, K> touches;
   for (std::size_t g = 0; g < K; ++g) {
     const double earliest = simd::hmin(best[g]);
     if (!(earliest < never)) continue;
-    const Lanes nearly(above * earliest);
-    const auto first = best[g] <= nearly;
+    const auto first = best[g] <= Lanes(above * earliest);
     if (simd::popcount(first) != 1) [[unlikely]]
-      return first_touches<K, Well>(who);
+      return first_touches<K, false>(who);
     const int partner = static_cast<int>(
         static_cast<double>(best_index[g][static_cast<std::size_t>(simd::find_first_set(first))]));
-    touches[g] = touch_of<Well>(who[g], partner);
+    touches[g] = {wait_for_touch(who[g], partner), partner};
   }
   return touches;
 }
@@ -262,10 +230,10 @@ template <int K, bool Well>
 void AllPairs::predict_grains(const std::array<int, K>& who) {
   const double now = time_[static_cast<std::size_t>(who[0])];
   std::array<Touch, K> touches;
-  if constexpr (has_estimates)
-    touches = estimated_touches<K, Well>(who);
-  else
+  if constexpr (Well || !has_estimates)
     touches = first_touches<K, Well>(who);
+  else
+    touches = estimated_touches<K>(who);
   next_.grain = -1;
   for (std::size_t g = 0; g < K; ++g) {
     const std::size_t k = static_cast<std::size_t>(who[g]);
@@ -277,12 +245,29 @@ void AllPairs::predict_grains(const std::array<int, K>& who) {
     // unused where there is none
     next.partner_count = count_[static_cast<std::size_t>(std::max(touches[g].partner, 0))];
     if constexpr (Well)
-      if (is_pair) next.meeting = touches[g].meeting;
+      if (is_pair) next.meeting = meeting_of(who[g], next.partner);
     event_time_[k] = next.time;
     partner_[k] = next.partner;
     partner_count_[k] = next.partner_count;
     meeting_[k] = next.meeting;
   }
+}
+
+/// What two grains in or out of each other's well meet next.
+Meeting AllPairs::meeting_of(int i, int j) const {
+  if (bond_[static_cast<std::size_t>(i) * padded_size_ + static_cast<std::size_t>(j)] == 0)
+    return Meeting::capture;
+  const Flight3 self = flight(i);
+  Flight3 other = flight(j);
+  other.advance(self.time);
+  double a = 0, b = 0, c = -(radius(i) + radius(j)) * (radius(i) + radius(j));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double r = other.x[axis] - self.x[axis], w = other.v[axis] - self.v[axis];
+    a += w * w;
+    b += r * w;
+    c += r * r;
+  }
+  return b < 0 && b * b - a * c >= 0 ? Meeting::touch : Meeting::escape;
 }
 
 void AllPairs::predict(int i) {
@@ -300,48 +285,6 @@ void AllPairs::predict(int i, int j) {
 
 void AllPairs::predict_all() {
   for (int i = 0; i < size(); ++i) predict(i);
-}
-
-/// Most grains have nothing ahead of them for the 2 ms between two kicks: a touch is no earlier than
-/// c / (-2 b), so that needs no root, and each pair is looked at once.
-void AllPairs::predict_all_before(double end) {
-  if (size_ == 0) return;
-  constexpr double rounding = 1e-9;
-  find_who_may_touch((end - time_[0]) * (1 + rounding), may_touch_);
-  next_.grain = -1;
-  for (int i = 0; i < size(); ++i) {
-    const std::size_t k = static_cast<std::size_t>(i);
-    if (may_touch_[k] != 0) {
-      predict(i);
-      continue;
-    }
-    const GrainEvent next = next_side_wall(flight(i), side_room(i));
-    event_time_[k] = next.time;
-    partner_[k] = next.partner;
-    partner_count_[k] = next.partner_count;
-    meeting_[k] = next.meeting;
-  }
-}
-
-/// Marks every grain that may touch another, or meet the edge of a well, within `wait`.
-void AllPairs::find_who_may_touch(double wait, std::vector<char>& may) const {
-  may.assign(padded_size_, 0);
-  const Lanes twice_wait(-2 * wait), zero(0.0);
-  for (std::size_t i = 0; i < size_; ++i) {
-    const Lanes x(x_[i]), y(y_[i]), z(z_[i]), vx(vx_[i]), vy(vy_[i]), vz(vz_[i]),
-        reach_of_i(radius_[i] + range_);
-    for (std::size_t j = i / lane_count * lane_count; j < padded_size_; j += lane_count) {
-      const Lanes rx = load(x_, j) - x, ry = load(y_, j) - y, rz = load(z_, j) - z;
-      const Lanes reach = load(radius_, j) + reach_of_i,
-                  b = rx * (load(vx_, j) - vx) + ry * (load(vy_, j) - vy) + rz * (load(vz_, j) - vz),
-                  c = rx * rx + ry * ry + rz * rz - reach * reach;
-      auto meet = b < zero && c <= twice_wait * b;
-      if (range_ > 0) meet = meet || bonds(static_cast<int>(i), j);
-      if (simd::none_of(meet)) continue;
-      may[i] = 1;
-      for (std::size_t lane = 0; lane < lane_count; ++lane) may[j + lane] |= static_cast<char>(meet[lane]);
-    }
-  }
 }
 
 GrainSums AllPairs::sums(double t) {

@@ -22,27 +22,11 @@ class AllPairs {
   AllPairs(const State& state, std::array<double, 2> half_width, double attraction_range = 0);
 
   int size() const { return static_cast<int>(size_); }
-  Flight3 flight(int i) const {
-    const std::size_t k = static_cast<std::size_t>(i);
-    return {{x_[k], y_[k], z_[k]}, {vx_[k], vy_[k], vz_[k]}, time_[k]};
-  }
+  Flight3 flight(int i) const;
   /// After an impact: a new flight, and everything predicted with this grain is stale.
-  void set_flight(int i, const Flight3& flight) {
-    move_to(i, flight);
-    ++count_[static_cast<std::size_t>(i)];
-    sums_time_ = never;
-  }
+  void set_flight(int i, const Flight3& flight);
   /// Brings a grain to another point of the flight it is on.
-  void move_to(int i, const Flight3& flight) {
-    const std::size_t k = static_cast<std::size_t>(i);
-    x_[k] = flight.x[0];
-    y_[k] = flight.x[1];
-    z_[k] = flight.x[2];
-    vx_[k] = flight.v[0];
-    vy_[k] = flight.v[1];
-    vz_[k] = flight.v[2];
-    time_[k] = flight.time;
-  }
+  void move_to(int i, const Flight3& flight);
   double radius(int i) const { return radius_[static_cast<std::size_t>(i)]; }
   double mass(int i) const { return mass_[static_cast<std::size_t>(i)]; }
   /// The side walls are found elsewhere (EndWalls).
@@ -75,8 +59,6 @@ class AllPairs {
   void predict(int i);
   void predict(int i, int j);
   void predict_all();
-  /// The same, of grains whose flights all start now; what lies after `end` is left out.
-  void predict_all_before(double end);
   void leave_neighbourhood(int, double) {}
   std::array<double, 3> separation(const Flight3& a, const Flight3& b) const {
     return {b.x[0] - a.x[0], b.x[1] - a.x[1], b.x[2] - a.x[2]};
@@ -87,29 +69,20 @@ class AllPairs {
   double deepest_overlap() const;
 
  private:
+  Meeting meeting_of(int i, int j) const;
   /// The next touch of a grain with any other, counted from the time of its flight.
   struct Touch {
     double wait = never;  ///< s
     std::int32_t partner = no_partner;
-    Meeting meeting = Meeting::touch;
   };
   /// Grains as vectors of equal numbers.
   template <int K>
   struct Selves;
   template <int K, bool Well>
   std::array<Touch, K> first_touches(const std::array<int, K>& who);
-  template <int K, bool Well>
+  template <int K>
   std::array<Touch, K> estimated_touches(const std::array<int, K>& who);
-  template <bool Well>
-  Touch touch_of(int i, int j) const;
-  void find_who_may_touch(double wait, std::vector<char>& may) const;
-  bool bonded(int i, int j) const {
-    return bond_[static_cast<std::size_t>(i) * padded_size_ + static_cast<std::size_t>(j)] != 0;
-  }
-  /// Of grain i with those from j on.
-  Lanes::mask_type bonds(int i, std::size_t j) const {
-    return load(bond_, static_cast<std::size_t>(i) * padded_size_ + j) > Lanes(0.5);
-  }
+  double wait_for_touch(int i, int j) const;
   template <int K, bool Well>
   void predict_grains(const std::array<int, K>& who);
 
@@ -120,10 +93,9 @@ class AllPairs {
   std::vector<std::uint32_t> partner_count_, count_;
   std::vector<Meeting> meeting_;
   double range_ = 0;
-  AlignedVector<double> bond_;   // 1 or 0 for each pair, a padded row a grain; empty without attraction
-  Next next_{never, -1};         // grain -1: not known
-  double smallest_room_ = 0;     // of r^2 - reach^2, m^2
-  std::vector<char> may_touch_;  // of every grain, where all are predicted at once
+  AlignedVector<double> bond_;  // 1 or 0 for each pair, a padded row a grain; empty without attraction
+  Next next_{never, -1};        // grain -1: not known
+  double smallest_room_ = 0;    // of r^2 - reach^2, m^2
   GrainSums sums_;
   double sums_time_ = never;  // never: not known
 };

@@ -105,8 +105,6 @@ DrivenBox::DrivenBox(const Physics& physics, double x, double v, double time)
       dahl_(physics.box.dahl),
       accounted_(time) {
   const double damping = forces_.viscous.sum() / (2 * mass_), w2 = angular_frequency_ * angular_frequency_;
-  decay_ = damping;
-  damped_frequency_ = std::sqrt(w2 - damping * damping);
   needs_dense_ = cubic_ != 0 || !forces_.free.empty() || dahl_.any() || damping >= 0.99 * angular_frequency_;
   for (const Harmonic& harmonic : forces_.harmonics) {
     const double drive = 2 * std::numbers::pi * harmonic.frequency, detuning = w2 - drive * drive;
@@ -155,8 +153,6 @@ double DrivenBox::smooth_force(double x, double v, double t) const {
 }
 
 void DrivenBox::begin() {
-  here_ = {};
-  booked_ = {};
   double friction = 0;
   if (rubs()) {
     const double most = forces_.dry_friction.sum(), pull = smooth_force(x_, v_, time_);
@@ -174,7 +170,9 @@ void DrivenBox::begin() {
 void DrivenBox::begin_closed(double friction_force) {
   piece_ = Piece::closed;
   friction_ = friction_force;
+  decay_ = forces_.viscous.sum() / (2 * mass_);
   const double w = angular_frequency_;
+  damped_frequency_ = std::sqrt(w * w - decay_ * decay_);
   centre_ = (forces_.constant.sum() + friction_force) / stiffness_;
   double x = x_ - centre_, v = v_, response_reach = 0, response_speed = 0, response_acceleration = 0,
          response_jerk = 0;
@@ -191,7 +189,7 @@ void DrivenBox::begin_closed(double friction_force) {
   a_ = x;
   b_ = (v + decay_ * x) / damped_frequency_;
   // Each derivative of exp((-g + i w_d) s) multiplies by a number of modulus w.
-  const double amplitude = std::sqrt(a_ * a_ + b_ * b_);
+  const double amplitude = std::hypot(a_, b_);
   top_acceleration_ = w * w * amplitude + response_acceleration;
   top_reach_ = {std::abs(centre_) + amplitude + response_reach, w * amplitude + response_speed};
   valid_until_ =
@@ -323,7 +321,6 @@ bool DrivenBox::try_dense(double length, double friction_force) {
 
 void DrivenBox::write_dense(const Nodes& value) {
   const Collocation& table = collocation();
-  here_ = {};
   inverse_length_ = 1 / length_;
   for (std::size_t k = 0; k < nodes; ++k) {
     double sum = 0;
@@ -335,15 +332,9 @@ void DrivenBox::write_dense(const Nodes& value) {
   }
 }
 
-/// All who ask for one moment share the answer: an impact asks six to twelve times.
 DrivenBox::Point DrivenBox::at(double t) const {
-  if (t != here_.time) here_ = look(t);
-  return here_.point;
-}
-
-DrivenBox::Here DrivenBox::look(double t) const {
   const double s = t - time_;
-  if (piece_ == Piece::stuck) return {t, {x_, 0}, 1, 0, 1};
+  if (piece_ == Piece::stuck) return {x_, 0};
   if (piece_ == Piece::closed) {
     const double phase = damped_frequency_ * s, c = std::cos(phase), sn = std::sin(phase);
     const double shrink = decay_ == 0 ? 1 : std::exp(-decay_ * s);
@@ -354,7 +345,7 @@ DrivenBox::Here DrivenBox::look(double t) const {
       x += r.p * ds + r.q * dc;
       v += r.frequency * (r.p * dc - r.q * ds);
     }
-    return {t, {x, v}, c, sn, shrink};
+    return {x, v};
   }
   const double u = s * inverse_length_;
   double x = 0, v = 0;
@@ -362,64 +353,10 @@ DrivenBox::Here DrivenBox::look(double t) const {
     x = x * u + displacement_[k];
     v = v * u + gained_speed_[k];
   }
-  return {t, {x_ + v_ * s + u * u * x, v_ + u * v}, 1, 0, 1};
-}
-
-/// Integrals from the start of a closed piece to time t, each without the difference of large numbers that
-/// short times would make of it.
-DrivenBox::Flown DrivenBox::flown(double t) const {
-  const double s = t - time_, w = damped_frequency_, g = decay_;
-  const Point here = at(t);
-  const double c = here_.cosine, sn = here_.sine, shrink = here_.shrink;
-  const double versine = c > 0 ? sn * sn / (1 + c) : 1 - c;
-  if (g == 0) return {here.x - x_, centre_ * s + (a_ * sn + b_ * versine) / w, 0};
-  const double lost = -std::expm1(-g * s);  // 1 - shrink
-  const double moment = centre_ * s + (a_ * (g * lost + shrink * (g * versine + w * sn)) +
-                                       b_ * (w * lost + shrink * (w * versine + -g * sn))) /
-                                          (w * w + g * g);
-  // v = shrink (p c + q sn), squared and written with twice the phase
-  const double p = w * b_ + -g * a_, q = -w * a_ + -g * b_;
-  const double lost_twice = lost * (1 + shrink), shrink_twice = shrink * shrink;
-  const double versine_twice = 2 * sn * sn, sine_twice = 2 * sn * c;
-  const double scale = 4 * (w * w + g * g);
-  const double even = 2 * (g * lost_twice + shrink_twice * (g * versine_twice + w * sine_twice)) / scale,
-               odd = 2 * (w * lost_twice + shrink_twice * (w * versine_twice + -g * sine_twice)) / scale;
-  const double squares =
-      (p * p + q * q) / 2 * lost_twice / (2 * g) + (p * p - q * q) / 2 * even + p * q * odd;
-  return {here.x - x_, moment, squares};
-}
-
-/// Work and impulse in closed form: constant forces and dry friction by the way, the spring's impulse by the
-/// integral of x, the work of damping by that of v^2.
-void DrivenBox::account_closed(double t) {
-  const Flown now = flown(t);
-  const double way = now.way - booked_.way, time = t - accounted_;
-  for (const auto& share : forces_.viscous.shares()) {
-    do_work(share.effect, -share.strength * (now.squares - booked_.squares));
-    impulse_ -= share.strength * way;
-  }
-  for (const auto& share : forces_.constant.shares()) {
-    do_work(share.effect, share.strength * way);
-    impulse_ += share.strength * time;
-  }
-  if (const double most = forces_.dry_friction.sum(); most > 0)
-    for (const auto& share : forces_.dry_friction.shares()) {
-      const double force = friction_ * (share.strength / most);
-      do_work(share.effect, force * way);
-      impulse_ += force * time;
-    }
-  impulse_ -= stiffness_ * (now.moment - booked_.moment);
-  booked_ = now;
-  accounted_ = t;
+  return {x_ + v_ * s + u * u * x, v_ + u * v};
 }
 
 void DrivenBox::account(double t) {
-  if (!(accounted_ < t)) return;
-  if (piece_ == Piece::closed && responses_.empty()) return account_closed(t);
-  if (piece_ == Piece::stuck) {  // no way, and all forces balance
-    accounted_ = t;
-    return;
-  }
   const Collocation& table = collocation();
   while (accounted_ < t) {
     // 8 nodes on 10 ms of a motion of some hertz are exact to rounding; fast forcing gets shorter steps.
@@ -434,7 +371,7 @@ void DrivenBox::account(double t) {
       double total = 0;
       const auto add = [&](double force, int effect) {
         total += force;
-        do_work(effect, weight * force * p.v);
+        if (effect >= 0) work_[static_cast<std::size_t>(effect)] += weight * force * p.v;
       };
       add(-stiffness_ * p.x, -1);
       if (cubic_ != 0) add(-stiffness_ * cubic_ * p.x * p.x * p.x, -1);  // stored, like the linear spring's

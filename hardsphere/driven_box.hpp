@@ -40,9 +40,6 @@ class DrivenBox {
   /// Speed that the box would reach on its spring alone, m/s: the scale of the elastic limit at the walls.
   double top_speed() const { return top_speed_; }
   double angular_frequency() const { return angular_frequency_; }
-  /// Until valid_until() it swings about centre() with angular_frequency() and nothing else.
-  bool is_harmonic() const { return piece_ == Piece::closed && decay_ == 0 && responses_.empty(); }
-  double centre() const { return centre_; }  ///< m
   double mass() const { return mass_; }
   double stiffness() const { return stiffness_; }
   double spring_energy(double x) const { return stiffness_ * x * x * (0.5 + 0.25 * cubic_ * x * x); }  ///< J
@@ -63,22 +60,7 @@ class DrivenBox {
     double p, q, frequency, phase;
   };
   static constexpr std::size_t nodes = 8;
-  struct Here {  // where the box is at a time; of a closed piece cosine and sine of its phase, what damping
-                 // left
-    double time = -std::numeric_limits<double>::infinity();
-    Point point{0, 0};
-    double cosine = 1, sine = 0, shrink = 1;
-  };
-  struct Flown {  // since the start of a closed piece: m, m s (integral of x), m^2/s (integral of v^2)
-    double way = 0, moment = 0, squares = 0;
-  };
 
-  Here look(double t) const;
-  Flown flown(double t) const;
-  void account_closed(double t);
-  void do_work(int effect, double joules) {
-    if (effect >= 0) work_[static_cast<std::size_t>(effect)] += joules;
-  }
   bool rubs() const { return forces_.dry_friction.sum() > 0 || dahl_.any(); }
   void begin();
   void begin_closed(double friction_force);
@@ -96,7 +78,6 @@ class DrivenBox {
   bool needs_dense_;
 
   double time_ = 0, x_ = 0, v_ = 0, top_speed_ = 0;  // at the start of the piece
-  mutable Here here_;                                // the latest that was asked for
   double valid_until_ = std::numeric_limits<double>::infinity(), top_acceleration_ = 0;
   Point top_reach_{0, 0};
   Piece piece_ = Piece::closed;
@@ -106,7 +87,6 @@ class DrivenBox {
   // closed: centre + responses + exp(-g s) (a cos w s + b sin w s), s = t - time
   double centre_ = 0, a_ = 0, b_ = 0, decay_ = 0, damped_frequency_ = 0;
   std::vector<Response> responses_;
-  Flown booked_;  // as far as is accounted
   // dense: polynomials in u = s / length: the acceleration, m/s^2, and what it adds to x over u^2, m, and to
   // x' over u, m/s
   std::array<double, nodes> acceleration_{}, displacement_{}, gained_speed_{};

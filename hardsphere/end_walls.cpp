@@ -16,9 +16,7 @@ EndWalls::EndWalls(std::vector<double> room, bool always_watch_all, double range
   grain_.assign(size, -1);
   side_.assign(size, 0);
   meeting_.assign(size, Meeting::none);
-  if (range_ == 0) return;
-  inside_.assign(2 * room_.size(), 0);
-  for (AlignedVector<double>& side : inside_of_slot_) side.assign(size, 0.0);
+  if (range_ > 0) inside_.assign(2 * room_.size(), 0);
 }
 
 void EndWalls::start_window(const Now& now) {
@@ -62,30 +60,16 @@ double EndWalls::bound_of(int grain, const Flight& flight, double room, const No
   if (range_ == 0)
     return now.time + std::min(earliest_possible_root(room + apart, rate - budget_, top),
                                earliest_possible_root(room - apart, -rate - budget_, top));
-  return now.time + bound_at_wells(grain, room + apart, room - apart, rate, top);
-}
-
-/// The earliest of what lies ahead at the upper and the lower wall: the wall or the edge of its well, and of
-/// a grain in the well the edge from within. Four at a time, as which of them it is is as good as random.
-double EndWalls::bound_at_wells(int grain, double upper, double lower, double rate, double top) const {
-  using Four = simd::simd<double, simd::simd_abi::deduce_t<double, 4>>;
-  constexpr double far = 1e300;  // m, of what is not there, and opening
-  const bool in_upper = is_inside(grain, 1), in_lower = is_inside(grain, -1);
-  const std::array<double, 4> gaps{upper - (in_upper ? 0 : range_), lower - (in_lower ? 0 : range_),
-                                   in_upper ? range_ - upper : far, in_lower ? range_ - lower : far};
-  const std::array<double, 4> rates{rate, -rate, in_upper ? -rate : 1, in_lower ? rate : 1};
-  const Four gap(gaps.data(), simd::element_aligned), opening(rates.data(), simd::element_aligned), zero(0.0);
-  const Four room = simd::max(gap, zero);
-  Four over = room, under = -opening;
-  if (top > 0) {
-    const Four root = simd::sqrt(opening * opening + Four(2 * top) * room);
-    over = Four(2.0) * room, under = root - opening;
-    simd::where(opening >= zero, over) = opening + root;
-    simd::where(opening >= zero, under) = Four(top);
+  double wait = never;
+  for (const int side : {1, -1}) {
+    const double gap = room + side * apart, opening = side * rate;
+    if (is_inside(grain, side))
+      wait = std::min({wait, earliest_possible_root(gap, opening, top),
+                       earliest_possible_root(range_ - gap, -opening, top)});
+    else
+      wait = std::min(wait, earliest_possible_root(gap - range_, opening, top));
   }
-  Four wait = over / under;
-  if (top <= 0) simd::where(opening >= zero, wait) = never;
-  return simd::hmin(wait);
+  return now.time + wait;
 }
 
 void EndWalls::watch(int i, const Flight& flight) {
@@ -97,59 +81,36 @@ void EndWalls::watch(int i, const Flight& flight) {
   room_of_slot_[slot] = room_[static_cast<std::size_t>(i)];
   grain_[slot] = i;
   meeting_[slot] = Meeting::none;
-  note_inside(slot, i);
 }
-
-void EndWalls::note_inside(std::size_t slot, int i) {
-  if (range_ == 0) return;
-  inside_of_slot_[0][slot] = is_inside(i, 1) ? 1 : 0;
-  inside_of_slot_[1][slot] = is_inside(i, -1) ? 1 : 0;
-}
-
-/// Bounds of the first root of gaps in vector lanes, as earliest_possible_root() makes of one, or a little
-/// earlier.
-class EndWalls::EarliestRoots {
- public:
-  explicit EarliestRoots(double top)
-      : at_rest_(top <= 0), twice_top_(2 * top), inverse_top_(at_rest_ ? 0 : 1 / top) {}
-  Lanes operator()(const Lanes& gap, const Lanes& rate) const {
-    const Lanes zero(0.0), room = simd::max(gap, zero);
-    if (at_rest_) {
-      Lanes wait(never);
-      simd::where(rate < zero, wait) = room / -rate;
-      return wait;
-    }
-    // With a closing rate the sum cancels; what is lost only makes the bound a little early, so clamp it at
-    // zero.
-    return simd::max(rate + roots_below(rate * rate + twice_top_ * room), zero) * inverse_top_;
-  }
-
- private:
-  bool at_rest_;
-  Lanes twice_top_, inverse_top_;
-};
 
 void EndWalls::bound_all(const Now& now) {
   std::fill(meeting_.begin(), meeting_.begin() + static_cast<std::ptrdiff_t>(count_), Meeting::none);
-  const EarliestRoots earliest(top_in_window(now));
-  const Lanes budget(budget_), range(range_);
+  const double top = top_in_window(now);
+  if (top <= 0 || range_ > 0) {  // walls at rest, or wells at the walls: grain by grain
+    for (std::size_t k = 0; k < count_; ++k) {
+      const Flight flight{x_[k], v_[k], time_[k]};
+      const double apart = now.point.x - (flight.x + flight.v * (now.time - flight.time));
+      smallest_gap_ = std::min(smallest_gap_, room_of_slot_[k] - std::abs(apart));
+      bound_.set(k, bound_of(grain_[k], flight, room_of_slot_[k], now));
+    }
+    bound_.rebuild(count_);
+    return find_next();
+  }
+  const Lanes twice_top(2 * top), inverse_top(1 / top), budget(budget_), zero(0.0);
   Lanes smallest_gap(smallest_gap_), slot = lane_index();
+  const auto first_touch = [&](const Lanes& gap, const Lanes& rate) {
+    const Lanes root = roots_below(rate * rate + twice_top * simd::max(gap, zero));
+    // With a closing rate the sum cancels; what is lost only makes the bound a little early, so clamp it at
+    // zero.
+    return simd::max(rate + root, zero) * inverse_top;
+  };
   for (std::size_t k = 0; k < count_; k += lane_count, slot += static_cast<double>(lane_count)) {
     const Lanes room = load(room_of_slot_, k), v = load(v_, k);
     const Lanes apart = Lanes(now.point.x) - (load(x_, k) + v * (Lanes(now.time) - load(time_, k))),
                 rate = Lanes(now.point.v) - v;
     const Lanes upper = room + apart, lower = room - apart;
-    // the next edge of a well in attracting walls: its own, or from within the wall and the edge
-    const auto at_wall = [&](int side, const Lanes& gap, const Lanes& opening) {
-      if (range_ == 0) return earliest(gap, opening - budget);
-      const auto inside = load(inside_of_slot_[side > 0 ? 0 : 1], k) > Lanes(0.5);
-      Lanes to_touch = gap - range;
-      simd::where(inside, to_touch) = gap;
-      Lanes wait = earliest(to_touch, opening);
-      simd::where(inside, wait) = simd::min(wait, earliest(range - gap, -opening));
-      return wait;
-    };
-    Lanes bound = Lanes(now.time) + simd::min(at_wall(1, upper, rate), at_wall(-1, lower, -rate));
+    Lanes bound =
+        Lanes(now.time) + simd::min(first_touch(upper, rate - budget), first_touch(lower, -rate - budget));
     const auto empty = slot >= Lanes(static_cast<double>(count_));
     simd::where(empty, bound) = never;
     bound_.set_lanes(k, bound);
@@ -187,11 +148,7 @@ void EndWalls::grain_flies(int i, const Flight& flight, const Now& now) {
   if (watch_changed(i, flight, now) && !watch_all_) due_.push_back(slot_[static_cast<std::size_t>(i)]);
 }
 
-void EndWalls::grain_changed(int i, const Flight& flight, const Now& now, bool may_fly_on) {
-  if (const std::int32_t slot = slot_[static_cast<std::size_t>(i)]; may_fly_on && slot >= 0) {
-    const std::size_t watched = static_cast<std::size_t>(slot);
-    if (v_[watched] == flight.v && bound_[watched] > now.time) return;
-  }
+void EndWalls::grain_changed(int i, const Flight& flight, const Now& now) {
   if (!watch_changed(i, flight, now)) return;
   const std::size_t k = static_cast<std::size_t>(slot_[static_cast<std::size_t>(i)]);
   bound_.set(k, bound_of(i, flight, room_[static_cast<std::size_t>(i)], now));
@@ -210,8 +167,6 @@ void EndWalls::put_off(int i, double until) {
 
 void EndWalls::set_inside(int i, int side, bool inside) {
   inside_[static_cast<std::size_t>(2 * i + (side > 0))] = inside ? 1 : 0;
-  if (const std::int32_t slot = slot_[static_cast<std::size_t>(i)]; slot >= 0)
-    note_inside(static_cast<std::size_t>(slot), i);
 }
 
 void EndWalls::kicked(const Now& now, double jump) {
@@ -232,70 +187,27 @@ void EndWalls::kicked(const Now& now, double jump) {
   find_next();
 }
 
-EndWalls::Edges EndWalls::edges_ahead(const Now& now, int grain, const Flight& flight, double room) const {
-  const double apart = now.point.x - (flight.x + flight.v * (now.time - flight.time)),
-               rate = now.point.v - flight.v;
-  Edges ahead;
-  const auto add = [&](int side, double level, int direction, Meeting meeting) {
-    const double gap = direction * (room + side * apart - level), opening = direction * side * rate;
-    const double bound = earliest_possible_root(gap, opening, now.top_acceleration);
-    std::size_t place = ahead.count++;
-    for (; place > 0 && bound < ahead.edge[place - 1].bound; --place)
-      ahead.edge[place] = ahead.edge[place - 1];
-    ahead.edge[place] = {side, level, direction, meeting, bound};
-  };
-  for (const int side : {1, -1}) {
-    const bool inside = is_inside(grain, side);
-    if (range_ > 0 && !inside)
-      add(side, range_, 1, Meeting::capture);
-    else
-      add(side, 0, 1, Meeting::touch);
-    if (inside) add(side, range_, -1, Meeting::escape);
-  }
-  return ahead;
-}
-
-/// The nearer edge's root mostly comes before the other can be reached at all: 8 % of the time of the paper's
-/// damper.
-EndWalls::Root EndWalls::harmonic_root(double centre, double angular_frequency, const Now& now, int grain,
-                                       const Flight& flight, double room) const {
-  const double x = flight.x + flight.v * (now.time - flight.time), w = angular_frequency;
-  if (range_ == 0) {
-    const double apart = now.point.x - x, rate = now.point.v - flight.v, top = now.top_acceleration;
-    const auto root = [&](int s) {
-      return first_wall_root(
-          {s * (now.point.x - centre), s * now.point.v / w, w, room + s * (centre - x), s * flight.v});
-    };
-    const double upper = earliest_possible_root(room + apart, rate, top),
-                 lower = earliest_possible_root(room - apart, -rate, top);
-    const int nearer = upper <= lower ? 1 : -1;
-    const double first = root(nearer);
-    if (first < std::max(upper, lower)) return {now.time + first, nearer, Meeting::touch};
-    const double other = root(-nearer);
-    return {now.time + std::min(first, other), first <= other ? nearer : -nearer, Meeting::touch};
-  }
-  const Edges ahead = edges_ahead(now, grain, flight, room);
-  Root first;
-  double wait = never;
-  for (std::size_t k = 0; k < ahead.count; ++k) {
-    const auto& [side, level, direction, meeting, bound] = ahead.edge[k];
-    if (wait < bound) break;
-    const int sign = direction * side;
-    const double root = first_wall_root({sign * (now.point.x - centre), sign * now.point.v / w, w,
-                                         direction * (room - level + side * (centre - x)), sign * flight.v});
-    if (root < wait || k == 0) {
-      wait = root;
-      first = {now.time + root, side, meeting};
-    }
-  }
-  return first;
-}
-
 EndWalls::Root EndWalls::exact_root(const BoxMotion& box, const Now& now, int grain, const Flight& flight,
                                     double room, double horizon) const {
   const double w = box.angular_frequency();
   if (w == 0) return exact_root<BoxMotion>(box, now, grain, flight, room, horizon);  // a box at rest
-  return harmonic_root(0, w, now, grain, flight, room);
+  const double x = flight.x + flight.v * (now.time - flight.time), apart = now.point.x - x,
+               rate = now.point.v - flight.v;
+  const auto bound = [&](int s) {
+    return earliest_possible_root(room + s * apart, s * rate, now.top_acceleration);
+  };
+  const auto root = [&](int s) {
+    return first_wall_root({s * now.point.x, s * now.point.v / w, w, room - s * x, s * flight.v});
+  };
+  // The nearer wall's root mostly comes before the other can be reached at all: 8 % of the time of the
+  // paper's damper.
+  const double upper_bound = bound(1), lower_bound = bound(-1);
+  const int first = upper_bound <= lower_bound ? 1 : -1;
+  const double nearer = root(first);
+  if (nearer < std::max(upper_bound, lower_bound)) return {now.time + nearer, first, Meeting::touch};
+  const double other = root(-first);
+  return {now.time + std::min(nearer, other),
+          nearer < other || (nearer == other && first > 0) ? first : -first, Meeting::touch};
 }
 
 }  // namespace shakedown

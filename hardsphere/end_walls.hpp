@@ -21,9 +21,7 @@
 // caution adds.
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -75,9 +73,8 @@ class EndWalls {
 
   /// Grain i flies anew from now on; its bound is renewed by a kick that follows at once.
   void grain_flies(int i, const Flight& flight, const Now& now);
-  /// Grain i flies anew from now on. `may_fly_on`: what is known of it stays where its velocity along the
-  /// axis did, and nothing is due now.
-  void grain_changed(int i, const Flight& flight, const Now& now, bool may_fly_on = false);
+  /// Grain i flies anew from now on.
+  void grain_changed(int i, const Flight& flight, const Now& now);
   /// The walls were kicked now: their motion goes on from there with a velocity jump of `jump` (0: only their
   /// bounds changed).
   void kicked(const Now& now, double jump);
@@ -105,7 +102,6 @@ class EndWalls {
   }
 
  private:
-  class EarliestRoots;
   struct Root {
     double time = never;
     int side = 0;
@@ -116,32 +112,15 @@ class EndWalls {
   void bound_all(const Now& now);
   void sweep(const Now& now);
   double bound_of(int grain, const Flight& flight, double room, const Now& now) const;
-  double bound_at_wells(int grain, double upper, double lower, double rate, double top) const;
   /// The acceleration that bounds of times allow for.
   double top_in_window(const Now& now) const { return std::max(window_top_, now.top_acceleration); }
   bool can_sleep(const Flight& flight, double room, const Now& now) const;
   void watch(int i, const Flight& flight);
-  void note_inside(std::size_t slot, int i);
   /// Takes note of a new flight; false when the grain sleeps on.
   bool watch_changed(int i, const Flight& flight, const Now& now);
   void start_window(const Now& now);
   Root exact_root(const BoxMotion& box, const Now& now, int grain, const Flight& flight, double room,
                   double horizon) const;
-  /// What a grain may meet next at a wall: where direction * (gap - level) falls through zero.
-  struct Edge {
-    int side;
-    double level;  ///< m
-    int direction;
-    Meeting meeting;
-    double bound;  ///< s from now, before which it cannot be met
-  };
-  struct Edges {
-    std::array<Edge, 4> edge;
-    std::size_t count = 0;
-  };
-  Edges edges_ahead(const Now& now, int grain, const Flight& flight, double room) const;
-  Root harmonic_root(double centre, double angular_frequency, const Now& now, int grain, const Flight& flight,
-                     double room) const;
   template <class Motion>
   Root exact_root(const Motion& motion, const Now& now, int grain, const Flight& flight, double room,
                   double horizon) const;
@@ -152,8 +131,6 @@ class EndWalls {
   std::vector<std::int32_t> slot_;  // of every grain: its place among the watched, -1 asleep
   // of every grain and side: in the well of that wall; empty without attraction
   std::vector<std::int8_t> inside_;
-  // the same of the watched, 1 or 0, at the upper and at the lower wall
-  std::array<AlignedVector<double>, 2> inside_of_slot_;
   // The watched grains, dense.
   std::size_t count_ = 0;
   AlignedVector<double> x_, v_, time_, room_of_slot_;
@@ -226,33 +203,34 @@ void EndWalls::refine(const Motion& motion, double limit) {
 template <class Motion>
 EndWalls::Root EndWalls::exact_root(const Motion& motion, const Now& now, int grain, const Flight& flight,
                                     double room, double horizon) const {
-  if constexpr (requires { motion.harmonic_centre(); })
-    if (const std::optional<double> centre = motion.harmonic_centre()) {
-      const Root root = harmonic_root(*centre, motion.angular_frequency(), now, grain, flight, room);
-      return root.time <= motion.valid_until() ? root : Root{motion.valid_until(), 0, Meeting::none};
-    }
   const double top = now.top_acceleration, from = now.time;
   const double end = std::min({motion.valid_until(), std::max(horizon, from + 1e-9), from + 0.1});
   Root first{end, 0, Meeting::none};
-  const auto search = [&](const Edge& edge) {
-    BoxMotion::Point wall = now.point;
+  const auto search = [&](int side, double level, int direction, Meeting meeting) {
+    // Looks for direction * (gap - level) falling through zero.
     double t = from;
     for (int iteration = 0; iteration < 10000 && t < first.time; ++iteration) {
-      if (iteration > 0) wall = motion.at(t);
+      const BoxMotion::Point wall = motion.at(t);
       const double x = flight.x + flight.v * (t - flight.time);
-      const double gap = edge.direction * (room + edge.side * (wall.x - x) - edge.level),
-                   rate = edge.direction * edge.side * (wall.v - flight.v);
+      const double gap = direction * (room + side * (wall.x - x) - level),
+                   rate = direction * side * (wall.v - flight.v);
       const double noise = 0x1p-52 * (room + std::abs(wall.x) + std::abs(x));
       const double step = earliest_possible_root(gap, rate, top);
       if ((gap <= noise && rate < 0) || step <= 2e-16 * t) {
-        first = {t, edge.side, edge.meeting};
+        first = {t, side, meeting};
         return;
       }
       t += step;
     }
   };
-  const Edges ahead = edges_ahead(now, grain, flight, room);
-  for (std::size_t k = 0; k < ahead.count; ++k) search(ahead.edge[k]);
+  for (const int side : {1, -1}) {
+    const bool inside = is_inside(grain, side);
+    if (range_ > 0 && !inside)
+      search(side, range_, 1, Meeting::capture);
+    else
+      search(side, 0, 1, Meeting::touch);
+    if (inside) search(side, range_, -1, Meeting::escape);
+  }
   return first;
 }
 

@@ -17,36 +17,26 @@ class FallingFrame {
     for (const auto& h : forces.harmonics) {
       const double w = 2 * std::numbers::pi * h.frequency;
       if (w > 0)
-        harmonics_.push_back({h.amplitude, w, h.phase, std::sin(h.phase), std::cos(h.phase), h.effect});
+        harmonics_.push_back({h.amplitude, w, h.phase, h.effect});
       else
         constants_.add(h.amplitude * std::sin(h.phase), h.effect);
     }
     constant_ = constants_.sum();
-    at_rest_ = constant_.isZero() && harmonics_.empty();
   }
 
-  bool at_rest() const { return at_rest_; }
+  bool at_rest() const { return constant_.isZero() && harmonics_.empty(); }
   Vec3 displacement(double t) const {
     Vec3 s = constant_ * (t * t / 2);
     for (const Swing& h : harmonics_)
-      s += h.amplitude * ((h.sine - std::sin(h.w * t + h.phase)) / (h.w * h.w) + h.cosine * t / h.w);
+      s += h.amplitude *
+           ((std::sin(h.phase) - std::sin(h.w * t + h.phase)) / (h.w * h.w) + std::cos(h.phase) * t / h.w);
     return s;
   }
   Vec3 velocity(double t) const {
     Vec3 v = constant_ * t;
-    for (const Swing& h : harmonics_) v += h.amplitude * ((h.cosine - std::cos(h.w * t + h.phase)) / h.w);
+    for (const Swing& h : harmonics_)
+      v += h.amplitude * ((std::cos(h.phase) - std::cos(h.w * t + h.phase)) / h.w);
     return v;
-  }
-  struct Point {
-    Vec3 x, v;
-  };
-  /// Both; all who ask for one moment share the answer.
-  const Point& at(double t) const {
-    if (!at_rest_ && t != time_) {
-      here_ = {displacement(t), velocity(t)};
-      time_ = t;
-    }
-    return here_;
   }
   /// Calls use(effect, acceleration) for each effect's own acceleration at time t.
   template <class Use>
@@ -70,15 +60,12 @@ class FallingFrame {
  private:
   struct Swing {
     Vec3 amplitude;
-    double w, phase, sine, cosine;  // of the phase
+    double w, phase;
     int effect;
   };
   Slot<Vec3> constants_;
   Vec3 constant_;  // their sum
   std::vector<Swing> harmonics_;
-  bool at_rest_ = true;
-  mutable double time_ = -1;
-  mutable Point here_{Vec3::Zero(), Vec3::Zero()};
 };
 
 }  // namespace shakedown

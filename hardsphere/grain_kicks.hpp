@@ -34,7 +34,7 @@ class GrainKicks {
   void drag(double mass, const Vec3& air, Vec3& velocity);
   void push(double mass, double x, Vec3& velocity);
   void kick_box(const BoxMotion::Point& box, double speed_across);
-  double speed_left(double speed, double mass);
+  double speed_left(double speed, double mass) const;
 
   Scene& scene_;
   LoopWalls<Scene>& walls_;
@@ -42,11 +42,6 @@ class GrainKicks {
   const GrainForces forces_;
   double interval_ = never, next_ = never;
   std::vector<Reaction> reactions_;
-  /// Of the linear drag over the interval, kept for the mass of the grain before: s, and what is left of a
-  /// speed.
-  struct {
-    double mass = 0, time_lost = 0, left = 1;
-  } linear_;
 };
 
 template <class Scene>
@@ -64,18 +59,15 @@ void GrainKicks<Scene>::act() {
     const Vec3 before = Vec3(flight.v[0], flight.v[1], flight.v[2]) + frame_v;
     Vec3 velocity = before;
     if (!reactions_.empty()) drag(m, air, velocity);
-    if (!forces_.free.empty()) push(m, flight.x[0] + frame_x.x(), velocity);
+    push(m, flight.x[0] + frame_x.x(), velocity);
     accounts_.grain_pushed(m * (velocity - before));
     for (std::size_t axis = 0; axis < 3; ++axis)
       flight.v[axis] = velocity[static_cast<int>(axis)] - frame_v[static_cast<int>(axis)];
     scene_.grains.set_flight(i, flight);
   }
   if (!reactions_.empty()) kick_box(box, air.z());
-  if constexpr (requires { scene_.grains.predict_all_before(next_); })
-    scene_.grains.predict_all_before(next_);
-  else
-    scene_.grains.predict_all();
-  for (int i = 0; i < scene_.grains.size(); ++i) walls_.after(i, true);
+  scene_.grains.predict_all();
+  for (int i = 0; i < scene_.grains.size(); ++i) walls_.after(i);
   walls_.renew(0);
 }
 
@@ -84,16 +76,8 @@ void GrainKicks<Scene>::act() {
 template <class Scene>
 void GrainKicks<Scene>::drag(double mass, const Vec3& air, Vec3& velocity) {
   const Vec3 before = velocity, wind = velocity - air;
-  const bool linear = forces_.drag.sum().quadratic == 0;
-  const double speed = linear ? 0 : wind.norm(), left = speed_left(speed, mass);
+  const double speed = wind.norm(), left = speed_left(speed, mass);
   velocity = air + wind * left;
-  if (reactions_.size() == 1) {
-    reactions_[0].on_box -= mass * (velocity.x() - before.x());
-    reactions_[0].across += mass * (velocity.z() - before.z());
-    accounts_.loss_of(forces_.drag.shares()[0].effect) +=
-        mass / 2 * (before.squaredNorm() - velocity.squaredNorm());
-    return;
-  }
   const double mean = speed * (1 + left) / 2, all = forces_.drag.sum().over_speed(mean);
   for (std::size_t k = 0; k < reactions_.size(); ++k) {
     const auto& share = forces_.drag.shares()[k];
@@ -140,14 +124,11 @@ void GrainKicks<Scene>::kick_box(const BoxMotion::Point& box, double speed_acros
 
 /// What is left of a speed w after the interval of drag m w' = -c1 w - c2 w |w|, as a fraction (closed form).
 template <class Scene>
-double GrainKicks<Scene>::speed_left(double speed, double mass) {
+double GrainKicks<Scene>::speed_left(double speed, double mass) const {
   const AirDrag& drag = forces_.drag.sum();
-  if (mass != linear_.mass) {
-    const double rate = drag.linear / mass;
-    linear_ = {mass, rate > 0 ? -std::expm1(-rate * interval_) / rate : interval_,
-               std::exp(-rate * interval_)};
-  }
-  return linear_.left / (1 + drag.quadratic / mass * speed * linear_.time_lost);
+  const double rate = drag.linear / mass, square = drag.quadratic / mass * speed;
+  const double lost = rate > 0 ? -std::expm1(-rate * interval_) / rate : interval_;
+  return std::exp(-rate * interval_) / (1 + square * lost);
 }
 
 }  // namespace shakedown

@@ -227,13 +227,13 @@ template <class Scene>
 void Impacts<Scene>::end_wall(int i, int side) {
   constexpr bool driven = Scene::driven;
   Flight3 flight = partings_.flight_now(i);
-  const double wall = driven ? walls_.now(0).point.v : scene_.box_now().v;
+  const double wall = driven ? scene_.walls_across(0).at(scene_.now).v : scene_.box_now().v;
   const double closing = side * (flight.v[0] - wall);
   if (closing <= 0) return partings_.refuse(i, flight, &walls_.across(0));
   if constexpr (driven) press_by_the_swing();
   const double limit =
       wells_.elastic_below(std::max(limits_.wall_fraction * scene_.box.top_speed(), limits_.wall_speed), i);
-  const double top = driven ? walls_.now(0).top_acceleration : scene_.box.top_acceleration();
+  const double top = driven ? scene_.walls_across(0).top_acceleration() : scene_.box.top_acceleration();
   const double e =
       resolved(restitution(ContactClass::end_wall, closing, limit, elastic_walls_), closing, top);
   const double m = scene_.grains.mass(i), M = scene_.box.mass();
@@ -243,7 +243,7 @@ void Impacts<Scene>::end_wall(int i, int side) {
   if constexpr (driven) {
     Vec3 on_grain(-side * impulse, 0, 0);
     if (touches_roughly(1) && rubs(closing, limit, i)) {
-      const Vec3 normal(side, 0, 0), moving = walls_.velocity();
+      const Vec3 normal(side, 0, 0), moving = scene_.wall_velocity();
       Vec3 slip = vec(flight.v) + surface_velocity(i, normal);
       slip -= Vec3(0, moving.y(), moving.z());
       slip.x() = 0;
@@ -288,12 +288,12 @@ void Impacts<Scene>::fixed_side_wall(int i, int axis, int side) {
 template <class Scene>
 void Impacts<Scene>::moving_side_wall(int i, int axis, int side) {
   Flight3 flight = partings_.flight_now(i);
-  const Vec3 wall = walls_.velocity();
+  const Vec3 wall = scene_.wall_velocity();
   const double closing = side * (flight.v[static_cast<std::size_t>(axis)] - wall[axis]);
   if (closing <= 0) return partings_.refuse(i, flight, walls_.has_sides() ? &walls_.across(axis) : nullptr);
   const double limit = wells_.elastic_below(limits_.wall_speed, i),
                e = resolved(restitution(ContactClass::side_wall, closing, limit, elastic_walls_), closing,
-                            walls_.now(axis).top_acceleration);
+                            scene_.walls_across(axis).top_acceleration());
   const double m = scene_.grains.mass(i), impulse = m * (1 + e) * closing;
   double loss = m / 2 * (1 - e * e) * closing * closing, jump = 0;
   Vec3 on_grain = Vec3::Zero();

@@ -43,7 +43,7 @@ class LoopAccounts {
   /// The walls give a grain an impulse (N s); with them moves whatever holds the box on its arc.
   void wall_pushes_grain(const Vec3& impulse) {
     if (arc_effect_ >= 0) loss_of(arc_effect_) -= impulse.z() * scene_.speed_across();
-    catch_up_with_grains();
+    catch_up();
     grain_momentum_ += impulse;
   }
   /// Anything else gives a grain an impulse, at the time of the last catch_up().
@@ -73,7 +73,6 @@ class LoopAccounts {
         std::abs(sum) >= std::abs(energy) ? (sum - next) + energy : (energy - next) + sum;
     sum = next;
   }
-  void catch_up_with_grains();
   double total_loss() const;
   double spin_energy_added_to(double energy, std::span<const Vec3> spin) const;
 
@@ -173,15 +172,9 @@ Ledger LoopAccounts<Scene>::ledger() const {
 
 template <class Scene>
 void LoopAccounts<Scene>::catch_up() {
-  if constexpr (Scene::driven) scene_.box.account(scene_.now);
-  catch_up_with_grains();
-}
-
-/// What the accelerations of the falling frame did to the grains.
-template <class Scene>
-void LoopAccounts<Scene>::catch_up_with_grains() {
   if constexpr (Scene::driven) {
     const double t = scene_.now;
+    scene_.box.account(t);
     if (!scene_.falling || t <= accounted_) return;
     constexpr std::array<double, 4> node{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
                                          0.8611363115940526};

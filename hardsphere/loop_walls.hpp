@@ -32,15 +32,6 @@ class LoopWalls {
     return axis == 0 ? end_walls_ : side_walls_[static_cast<std::size_t>(axis - 1)];
   }
   bool has_sides() const { return !side_walls_.empty(); }
-  /// The walls across an axis of a driven box now; an impact asks six to nine times.
-  const EndWalls::Now& now(int axis) {
-    Kept& kept = kept_[static_cast<std::size_t>(axis)];
-    if (kept.now.time != scene_.now || kept.flight != scene_.flights)
-      kept = {scene_.flights, EndWalls::now(scene_.walls_across(axis), scene_.now)};
-    return kept.now;
-  }
-  /// Their velocity now, in the frame of the grains, m/s.
-  Vec3 velocity() { return {now(0).point.v, now(1).point.v, now(2).point.v}; }
 
   struct First {
     int axis;           ///< of the walls with the earliest meeting or bound
@@ -86,19 +77,17 @@ class LoopWalls {
   int sides() const { return static_cast<int>(side_walls_.size()); }
   EndWalls::Now end_walls_now() {
     if constexpr (Scene::driven)
-      return now(0);
+      return EndWalls::now(scene_.walls_across(0), scene_.now);
     else
       return {scene_.now, scene_.box_now(), scene_.box.top_acceleration(), scene_.box.top_speed(), true};
+  }
+  EndWalls::Now side_walls_now(int axis) const {
+    return EndWalls::now(scene_.walls_across(axis), scene_.now);
   }
 
   Scene& scene_;
   EndWalls end_walls_;
   std::vector<EndWalls> side_walls_;  // across y and z; empty: they are at rest
-  struct Kept {
-    std::int64_t flight = -1;
-    EndWalls::Now now{};
-  };
-  std::array<Kept, 3> kept_{};  // of each axis, of the box's present flight
 };
 
 template <class Scene>
@@ -126,7 +115,8 @@ void LoopWalls<Scene>::open_windows(bool all) {
   if (all || end_walls_.window_end() <= scene_.now) end_walls_.open(end_walls_now(), along(0));
   if constexpr (Scene::driven)
     for (int axis = 1; axis <= sides(); ++axis)
-      if (all || across(axis).window_end() <= scene_.now) across(axis).open(now(axis), along(axis));
+      if (all || across(axis).window_end() <= scene_.now)
+        across(axis).open(side_walls_now(axis), along(axis));
 }
 
 template <class Scene>
@@ -135,7 +125,7 @@ void LoopWalls<Scene>::renew(double jump) {
   end_walls_.kicked(end_walls_now(), jump);
   if constexpr (Scene::driven)
     if (scene_.arc_curvature != 0)
-      side_walls_[1].kicked(now(2), 2 * scene_.arc_curvature * scene_.box_now().x * jump);
+      side_walls_[1].kicked(side_walls_now(2), 2 * scene_.arc_curvature * scene_.box_now().x * jump);
 }
 
 template <class Scene>
@@ -146,11 +136,11 @@ void LoopWalls<Scene>::after(int i, bool kick_follows) {
   if (kick_follows)
     end_walls_.grain_flies(i, along, end_walls_now());
   else
-    end_walls_.grain_changed(i, along, end_walls_now(), Scene::driven);
+    end_walls_.grain_changed(i, along, end_walls_now());
   if constexpr (Scene::driven)
     for (int axis = 1; axis <= sides(); ++axis) {
       const auto k = static_cast<std::size_t>(axis);
-      across(axis).grain_changed(i, {flight.x[k], flight.v[k], flight.time}, now(axis), true);
+      across(axis).grain_changed(i, {flight.x[k], flight.v[k], flight.time}, side_walls_now(axis));
     }
 }
 

@@ -2,7 +2,6 @@
 // What an event loop moves: the grains, the box and the frame in which the grains fly, at one moment.
 #pragma once
 #include <cmath>
-#include <cstdint>
 #include <type_traits>
 
 #include "box_motion.hpp"
@@ -53,6 +52,10 @@ class Scene {
     else
       return {};
   }
+  /// The velocity of the box's walls now, in the frame of the grains, m/s.
+  Vec3 wall_velocity() const {
+    return {walls_across(0).at(now).v, walls_across(1).at(now).v, walls_across(2).at(now).v};
+  }
   /// The box's own velocity across (on its arc) now, in the lab, m/s.
   double speed_across() const { return walls_across(2).at(now).v + frame.velocity(now).z(); }
 
@@ -60,13 +63,11 @@ class Scene {
   void kick_box(double jump) {
     const BoxMotion::Point here = box_now();
     box.restart(now, here.x, here.v + jump);
-    ++flights;
     box_point_.v += jump;
     spring_impulse_ = 0;
   }
   void next_piece_of_box() {
     box.go_on();
-    ++flights;
     box_time_ = -1;
   }
   /// Impulse of the spring alone from the last kick to the moment of box_now(), N s.
@@ -75,8 +76,7 @@ class Scene {
   /// Positions across the axis are seen from the box, along it from the lab.
   State state(double t) const;
 
-  double now = 0;            ///< s
-  std::int64_t flights = 0;  ///< of the box, begun by kicks and pieces
+  double now = 0;  ///< s
   Grains grains;
   Motion box;
   const FallingFrame frame;

@@ -2,7 +2,6 @@
 // How the walls across an axis move as the grains see them, in their falling frame.
 #pragma once
 #include <algorithm>
-#include <optional>
 
 #include "driven_box.hpp"
 #include "falling_frame.hpp"
@@ -18,8 +17,7 @@ struct DrivenWalls {
   double arc_curvature, release_x;
 
   BoxMotion::Point at(double t) const {
-    const FallingFrame::Point& fallen = frame->at(t);
-    const double s = fallen.x[axis], v = fallen.v[axis];
+    const double s = frame->displacement(t)[axis], v = frame->velocity(t)[axis];
     if (axis == 0) {
       const BoxMotion::Point p = box->at(t);
       return {p.x - s, p.v - v};
@@ -42,12 +40,6 @@ struct DrivenWalls {
            falling;
   }
   double top_speed() const { return box->top_speed(); }
-  double angular_frequency() const { return box->angular_frequency(); }
-  /// Where the walls swing harmonically until valid_until(): about what, m.
-  std::optional<double> harmonic_centre() const {
-    if (axis != 0 || !box->is_harmonic() || frame->top(0) != 0) return std::nullopt;
-    return box->centre();
-  }
   double valid_until() const {
     return axis == 0 || (axis == 2 && arc_curvature != 0) ? box->valid_until() : BoxMotion::valid_until();
   }

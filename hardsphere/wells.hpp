@@ -125,7 +125,7 @@ void Wells<Scene>::wall_edge(int i, int axis, int side, Meeting meeting) {
   EndWalls& walls = walls_.across(axis);
   Flight3 flight = partings_.flight_now(i);
   const auto k = static_cast<std::size_t>(axis);
-  const double opening = side * (walls_.now(axis).point.v - flight.v[k]);
+  const double opening = side * (scene_.walls_across(axis).at(scene_.now).v - flight.v[k]);
   if (meeting == Meeting::capture ? opening >= 0 : opening <= 0) return partings_.refuse(i, flight, &walls);
   const bool box_yields = axis == 0 && scene_.has_spring;
   const double m = scene_.grains.mass(i), M = scene_.box.mass(), reduced = box_yields ? m * M / (m + M) : m;

@@ -58,7 +58,8 @@ void apply_viscoelastic(const EffectChoice& choice, Physics& physics) {
 }
 
 /// No contact of LAMMPS remembers the speed at which it began.
-Capability capability_of_restitution(const EffectChoice& choice, std::string_view engine, Capability general) {
+Capability capability_of_restitution(const EffectChoice& choice, std::string_view engine,
+                                     Capability general) {
   if (engine != "lammps" || choice.text("law") == "viscoelastic") return general;
   return {Fidelity::not_modelled,
           "LAMMPS has no restitution that falls as a power of the speed; take law = \"viscoelastic\", or "

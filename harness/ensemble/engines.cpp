@@ -21,10 +21,8 @@ struct NamedEngine {
 
 std::span<const NamedEngine> engines() {
   static const std::vector<NamedEngine> list{
-      {"hard", make_hard_engine},
-      {"soft", [] { return make_soft_engine(); }},
-      {"bullet", make_bullet_engine},
-      {"lammps", make_lammps_engine},
+      {"hard", make_hard_engine},     {"soft", [] { return make_soft_engine(); }},
+      {"bullet", make_bullet_engine}, {"lammps", make_lammps_engine},
       {"apart", make_apart_engine},
   };
   return list;

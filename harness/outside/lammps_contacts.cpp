@@ -51,9 +51,10 @@ std::string LammpsContacts::law(ContactClass kind) const {
                stiffness = spring_dashpot(physics_.contact.restitution[index], reduced_mass(kind),
                                           setup_.soft.contact_time)
                                .stiffness;
-  const std::string tangential =
-      friction == 0 ? "tangential linear_nohistory 0 0"
-                    : fmt::format("tangential linear_history {} 0 {}", physics_.contact.stiffness_ratio * stiffness, friction);
+  const std::string tangential = friction == 0
+                                     ? "tangential linear_nohistory 0 0"
+                                     : fmt::format("tangential linear_history {} 0 {}",
+                                                   physics_.contact.stiffness_ratio * stiffness, friction);
   return normal(kind) + tangential + (physics_.contact.pushes(kind) ? " limit_damping" : "");
 }
 

@@ -109,15 +109,15 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"hard_rubbing", "hard",
              "duration = \"1 s\"\n[[effect]]\nname = \"grain_friction\"\ngrain_grain = 0.2\ngrain_wall = "
              "0.1\n[[effect]]\nname = \"grain_air_drag\"\nlinear = \"2e-4 N s/m\"\n",
-             0x2236d089cc13d387u},
+             0xfdfcba07db0d06a7u},
         Case{"hard_driven", "hard",
              "duration = \"1 s\"\n[[effect]]\nname = \"spring_cubic\"\ncoefficient = 0.1\n[[effect]]\nname = "
              "\"oscillating_acceleration\"\namplitude = {x = \"0.1 m/s^2\"}\n",
-             0x6ec47465597d78f4u},
+             0x8fe12d06b28daa0bu},
         Case{"hard_sticky", "hard",
              "duration = \"1 s\"\n[[effect]]\nname = \"grain_cohesion\"\nforce = \"0.02 N\"\nrange = \"0.02 "
              "mm\"\n[[effect]]\nname = \"clamp_dry_friction\"\nforce = \"0.02 N\"\n",
-             0xffcfbffcb7a96fadu},
+             0x663a67fd0999fb97u},
         Case{"soft", "soft", "duration = \"0.1 s\"\n", 0xe44f71fea863b259u},
         Case{"soft_rubbing", "soft",
              "duration = \"0.05 s\"\n[[effect]]\nname = \"grain_friction\"\ngrain_grain = 0.2\ngrain_wall = "

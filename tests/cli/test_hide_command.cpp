@@ -32,8 +32,9 @@ TEST_F(HideCommand, SaysWhatIsWrongWithItsArguments) {
 }
 
 TEST_F(HideCommand, RefusesAnEffectThatDoesNothingAlone) {
-  const Outcome outcome = shakedown_program({"hide", "--effect", "grain_rolling_resistance", "--lengths",
-                                             "40mm", "--duration", "1 s", "--out", in_folder("case")});
+  const Outcome outcome =
+      shakedown_program({"hide", example("L040.toml"), "--effect", "grain_rolling_resistance", "--lengths",
+                         "40mm", "--duration", "1 s", "--out", in_folder("case")});
   EXPECT_EQ(outcome.code, 2) << outcome.out;
   EXPECT_NE(
       outcome.err.find("grain_rolling_resistance: does nothing without grain_friction; hide both: --effect "

@@ -4,14 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "all_pairs.hpp"
 #include "centre_cells.hpp"
 #include "grain_lines.hpp"
 #include "random.hpp"
-#include "within.hpp"
 
 using namespace shakedown;
 
@@ -109,100 +107,6 @@ TEST(FirstTouch, OfAFewGrainsIsThatOfAllPairsOneByOne) {
           expected);
     }
   }
-}
-
-/// The next of touch, capture and escape of a pair with a square well, s, from roots in long double.
-long double well_time(const State& state, std::size_t i, std::size_t j, double range, bool bonded) {
-  long double a = 0, b = 0, squared = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const long double r = static_cast<long double>(state.position[j][axis]) - state.position[i][axis],
-                      w = static_cast<long double>(state.velocity[j][axis]) - state.velocity[i][axis];
-    a += w * w, b += r * w, squared += r * r;
-  }
-  const long double reach = state.radius[j] + state.radius[i], edge = reach + range;
-  const long double c = squared - reach * reach, c_edge = squared - edge * edge;
-  const long double root_edge = std::sqrt(std::max(b * b - a * c_edge, 0.0L));
-  if (!bonded) return b < 0 && b * b >= a * c_edge ? std::max(c_edge, 0.0L) / (root_edge - b) : never;
-  if (b < 0 && b * b >= a * c) return std::max(c, 0.0L) / (std::sqrt(b * b - a * c) - b);
-  return b > 0 ? std::max(-c_edge, 0.0L) / (root_edge + b) : (root_edge - b) / a;
-}
-
-/// Pairs here and there in each other's wells; every other one a hair inside the edge and on its way out.
-State pairs_in_wells(Random& random, int count, double range) {
-  State state;
-  for (int i = 0; i < count; ++i) {
-    state.radius.push_back(0.5);
-    state.mass.push_back(1);
-    const Vec3 velocity(random.normal(), random.normal(), random.normal());
-    const Vec3 place(between(random, -5, 5), between(random, -5, 5), between(random, -5, 5));
-    if (i % 2 == 0) {
-      state.position.push_back(place);
-      state.velocity.push_back(velocity);
-      continue;
-    }
-    Vec3 way(random.normal(), random.normal(), random.normal());
-    way.normalize();
-    const double inside = i % 4 == 1 ? between(random, 0, 1) : std::pow(10, between(random, -9, -3));
-    state.position.push_back(state.position.back() + way * (1 + range * (1 - inside)));
-    state.velocity.push_back(i % 4 == 1 ? velocity : Vec3(state.velocity.back() + way * random.uniform()));
-  }
-  return state;
-}
-
-TEST(FirstTouch, InWellsIsThatOfAllPairsOneByOne) {
-  constexpr double range = 0.02;
-  Random random(6, 0, Stream::other);
-  double worst = 0;
-  int escapes = 0;
-  for (int round = 0; round < 300; ++round) {
-    const State state = pairs_in_wells(random, 38, range);
-    AllPairs all(state, {never, never}, range);
-    all.predict_all();
-    for (std::size_t i = 0; i < state.size(); ++i) {
-      const GrainEvent found = all.event(static_cast<int>(i));
-      long double expected = never;
-      for (std::size_t j = 0; j < state.size(); ++j) {
-        const double apart = (state.position[i] - state.position[j]).norm();
-        if (j != i) expected = std::min(expected, well_time(state, i, j, range, apart < 1 + range));
-      }
-      ASSERT_EQ(found.time < never, expected < never) << "round " << round << ", grain " << i;
-      if (!(expected < never)) continue;
-      if (expected > 1e-12)
-        worst = std::max(worst, std::abs(static_cast<double>((found.time - expected) / expected)));
-      escapes += found.meeting == Meeting::escape;
-    }
-  }
-  std::printf("waits in wells differ by %.1e\n", worst);
-  EXPECT_GT(escapes, 1000);
-  // What is left to go keeps 1e-16 of 1, of ways down to 2e-11: some 1e-6.
-  WITHIN(worst, 0, 5e-5, 4e-6);
-}
-
-TEST(FirstTouch, OfAllAtOnceIsThatOfEachWhereItComesInTime) {
-  Random random(7, 0, Stream::other);
-  int in_time = 0;
-  for (const double range : {0.0, 0.02})
-    for (int round = 0; round < 100; ++round) {
-      const State state =
-          round % 2 == 0 ? mirrored_grains(random, 37, round % 4 == 0) : pairs_in_wells(random, 38, 0.02);
-      AllPairs each(state, {6, 6}, range), at_once(state, {6, 6}, range);
-      const double end = std::pow(10, between(random, -4, 0));
-      each.predict_all();
-      at_once.predict_all_before(end);
-      for (int i = 0; i < each.size(); ++i) {
-        const GrainEvent expected = each.event(i), found = at_once.event(i);
-        if (expected.time >= end) {
-          ASSERT_GE(found.time, end);
-          continue;
-        }
-        ++in_time;
-        ASSERT_EQ(found.time, expected.time);
-        ASSERT_EQ(found.partner, expected.partner);
-        ASSERT_EQ(found.meeting, expected.meeting);
-      }
-      ASSERT_EQ(at_once.next().time < end, each.next().time < end);
-    }
-  EXPECT_GT(in_time, 1000);
 }
 
 /// Centres move about, out of an open domain as well; of a place all within reach are found, once each, and

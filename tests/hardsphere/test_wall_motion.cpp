@@ -3,12 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
-#include <cstdio>
-
-#include "within.hpp"
-
 using namespace shakedown;
 
 namespace {
@@ -46,52 +40,4 @@ TEST(DrivenWalls, KeepToTheirBoundsOnEveryPiece) {
         if (end < 2) box.go_on();
       }
     }
-}
-
-/// Work and impulse that a box accounts for, against sums over many short times of the forces of its motion.
-TEST(DrivenBox, AccountsForTheIntegralsOfItsForces) {
-  Physics physics;
-  physics.box_mass = 0.434;
-  physics.stiffness = 25.92;
-  physics.box.viscous.add(0.05, 0);
-  physics.box.constant.add(0.3, 1);
-  physics.box.dry_friction.add(0.02, 2);
-  for (const double damping : {0.05, 1e-9, 0.0}) {
-    if (damping != 0.05) physics.box.viscous = {};
-    if (damping == 1e-9) physics.box.viscous.add(damping, 0);
-    DrivenBox box(physics, 0.1, 0.2);
-    std::array<double, 3> work{};
-    double impulse = 0, worst = 0;
-    for (int piece = 0; piece < 12; ++piece) {
-      // whole pieces, and some cut short by a kick
-      const double start = box.time(), kick = start + std::pow(10, -piece / 2) / 20;
-      const bool kicked = piece % 2 == 1 && kick < box.valid_until();
-      const double end = kicked ? kick : box.valid_until();
-      const double direction = box.at(start + (end - start) / 2).v > 0 ? 1 : -1;
-      constexpr int steps = 2000;
-      for (int k = 0; k <= 2 * steps; ++k) {  // Simpson
-        const double weight = (end - start) / (6 * steps) *
-                              (k == 0 || k == 2 * steps ? 1
-                               : k % 2 == 1             ? 4
-                                                        : 2);
-        const BoxMotion::Point at = box.at(start + (end - start) * k / (2 * steps));
-        const double viscous = -damping * at.v, dry = -0.02 * direction;
-        work[0] += weight * viscous * at.v;
-        work[1] += weight * 0.3 * at.v;
-        work[2] += weight * dry * at.v;
-        impulse += weight * (viscous + 0.3 + dry - physics.stiffness * at.x);
-      }
-      box.account(start + (end - start) / 3);
-      box.account(end);
-      for (std::size_t effect = damping == 0 ? 1 : 0; effect < 3; ++effect)
-        worst = std::max(worst, std::abs(box.effect_work()[effect] - work[effect]));
-      worst = std::max(worst, std::abs(box.outer_impulse() - impulse));
-      if (kicked)
-        box.restart(end, box.at(end).x, box.at(end).v + 0.05);
-      else
-        box.go_on();
-    }
-    std::printf("work and impulse differ by %.1e\n", worst);
-    WITHIN(worst, 0, 5e-13, 5e-14);  // J and N s
-  }
 }

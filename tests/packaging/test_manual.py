@@ -99,7 +99,7 @@ class Manual(unittest.TestCase):
             with self.subTest(command=words):
                 told = options_in(output(SHAKEDOWN, *words, "--help"))
                 self.assertLessEqual(told, set(self.completed("shakedown", *words, "-")))
-        self.assertEqual(self.completed("shakedown", "run", "--engine", ""), ["hard", "soft", "bullet", "lammps"])
+        self.assertEqual(self.completed("shakedown", "run", "--engine", ""), ["hard", "soft", "bullet", "lammps", "apart"])
         self.assertIn("clamp_dry_friction", self.completed("shakedown", "effects", "clamp"))
         self.assertEqual(self.completed("shakedown", "bounce", "--as", "tr"), ["track"])
         self.assertEqual(self.completed("shakedown", "check", "lin"), ["linear-decay"])
