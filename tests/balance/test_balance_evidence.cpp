@@ -282,7 +282,7 @@ TEST(BalanceEvidence, SinesStandBehindWhatDampsTheBox) {
 
 TEST(BalanceEvidence, LostFramesMakeNoNaN) {
   PushedBox what;
-  what.viscous = 0.02;
+  what.viscous = 0.02, what.duration = 6;
   Experiment experiment = pushed_box(what, 7);
   Random random(8, 0, Stream::other);
   for (MeasuredRun& run : experiment.runs)

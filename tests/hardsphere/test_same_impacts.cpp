@@ -274,7 +274,7 @@ std::vector<WallImpact> impacts_by_brute_force(Crowd<BoxMotion> crowd, std::size
 
 TEST(SameImpacts, AtEndWallsWatchedByAllThroughWindowsAndByBruteForce) {
   const Crowd crowd(700, 1e-5, BoxMotion(0.434, 25.92, 0.1075, 0));
-  const std::size_t count = 600;
+  const std::size_t count = 250;
   std::size_t of_all = 0, of_windows = 0;
   const auto brute = impacts_by_brute_force(crowd, count),
              all = impacts_by_end_walls(crowd, true, count, of_all),

@@ -93,10 +93,9 @@ void expect_as_stated(const RingDown& one) {
 
 TEST(RingDowns, AreDrawnAsStatedAndTheSameAgain) {
   const auto engine = engine_named("hard");
-  for (int number = 0; number < 2; ++number)
-    expect_as_stated(draw_ring_down(3, number, *engine, all_effects()));
-  const RingDown once = draw_ring_down(3, 7, *engine, all_effects()),
-                 again = draw_ring_down(3, 7, *engine, all_effects());
+  expect_as_stated(draw_ring_down(3, 0, *engine, all_effects()));
+  const RingDown once = draw_ring_down(3, 1, *engine, all_effects()),
+                 again = draw_ring_down(3, 1, *engine, all_effects());
   expect_as_stated(once);
   EXPECT_EQ(write_setup(once.trial.hidden.truth), write_setup(again.trial.hidden.truth));
   EXPECT_EQ(once.signals, again.signals);
