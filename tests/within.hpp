@@ -13,6 +13,10 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
 /// Does not compile when the tolerance is more than twenty times the error that was seen.
 consteval double checked_tolerance(double tolerance, double seen) {
   if (!(tolerance > 0 && tolerance <= 20 * seen)) throw "a tolerance is at most 20 times the error seen";
@@ -21,14 +25,37 @@ consteval double checked_tolerance(double tolerance, double seen) {
 
 /// The two together, for tables of cases.
 struct Tolerance {
-  double size;
-  consteval Tolerance(double tolerance, double seen) : size(checked_tolerance(tolerance, seen)) {}
+  double size, seen;
+  consteval Tolerance(double tolerance, double error)
+      : size(checked_tolerance(tolerance, error)), seen(error) {}
 };
+
+/// With WITHIN_SEEN=FILE in the environment each comparison adds a line: place, error, tolerance, seen.
+inline void note_seen(const char* file, int line, double error, const Tolerance& tolerance) {
+  const char* const path = std::getenv("WITHIN_SEEN");
+  if (path == nullptr) return;
+  static std::ofstream notes(path, std::ios::app);
+  notes << file << ":" << line << " " << error << " " << tolerance.size << " " << tolerance.seen << "\n";
+}
+
+inline testing::AssertionResult within_tolerance(const char* value_text, const char* expected_text,
+                                                 const char*, double value, double expected,
+                                                 const Tolerance& tolerance,
+                                                 const char* file = __builtin_FILE(),
+                                                 int line = __builtin_LINE()) {
+  const double off = value - expected;
+  note_seen(file, line, std::abs(off), tolerance);
+  if (std::abs(off) <= tolerance.size) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << value_text << " is " << value << ", " << expected_text << " is "
+                                     << expected << ": " << off << " off, more than " << tolerance.size;
+}
 
 /// |value - expected| <= tolerance; `seen` is the largest error seen when the test was written. The two may
 /// be a Tolerance, where cases differ: WITHIN(value, expected, exact ? Tolerance(1e-12, 6e-14) : rough).
-#define WITHIN(value, expected, ...) EXPECT_NEAR(value, expected, Tolerance(__VA_ARGS__).size)
-#define ASSERT_WITHIN(value, expected, ...) ASSERT_NEAR(value, expected, Tolerance(__VA_ARGS__).size)
+#define WITHIN(value, expected, ...) \
+  EXPECT_PRED_FORMAT3(within_tolerance, value, expected, Tolerance(__VA_ARGS__))
+#define ASSERT_WITHIN(value, expected, ...) \
+  ASSERT_PRED_FORMAT3(within_tolerance, value, expected, Tolerance(__VA_ARGS__))
 
 /// How many standard errors a drawn number may be off; does not compile when it is more than five.
 consteval double checked_errors(double errors) {

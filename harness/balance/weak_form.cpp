@@ -68,20 +68,21 @@ Eigen::VectorXd coloured(const NoiseFound& noise, const Eigen::VectorXd& weight)
   return out * noise.standard_deviation * noise.standard_deviation;
 }
 
-/// R w for a wandering track, on a stretch that `reach` frames make longer at both ends.
+/// R w for a wandering track, from where the stretch begins to `reach` frames beyond its end: only windows
+/// that begin no earlier are laid over it.
 Stretch wandered(const Wander& wander, double interval, const Stretch& stretch, Eigen::Index reach) {
   const double keep = std::exp(-interval / wander.time);
-  const Eigen::Index n = stretch.weight.size() + 2 * reach;
-  Eigen::VectorXd given = Eigen::VectorXd::Zero(n), out(n);
-  given.segment(reach, stretch.weight.size()) = stretch.weight;
+  const Eigen::Index inside = stretch.weight.size(), n = inside + reach;
+  Eigen::VectorXd out(n);
   double sum = 0;
-  for (Eigen::Index i = 0; i < n; ++i) out[i] = sum = keep * sum + given[i];
+  for (Eigen::Index i = 0; i < inside; ++i) out[i] = sum = keep * sum + stretch.weight[i];
+  for (Eigen::Index i = inside; i < n; ++i) out[i] = sum = keep * sum;
   sum = 0;
-  for (Eigen::Index i = n - 1; i >= 0; --i) {
+  for (Eigen::Index i = inside - 1; i >= 0; --i) {
     out[i] += sum;
-    sum = keep * (sum + given[i]);
+    sum = keep * (sum + stretch.weight[i]);
   }
-  return {stretch.first - reach, out * wander.deviation * wander.deviation};
+  return {stretch.first, out * wander.deviation * wander.deviation};
 }
 
 double overlap_product(const Stretch& a, const Eigen::VectorXd& b, Eigen::Index b_first) {

@@ -81,7 +81,7 @@ TEST(SlowMomentum, EachForceFromOutsideIsNamedAndMeasured) {
   EXPECT_NE(std::find(told.begin(), told.end(), "camera_com_bias"), told.end());
 }
 
-TEST(Momentum, DryFrictionIsJudgedWhereTheBoxMoves) {
+TEST(SlowMomentum, DryFrictionIsJudgedWhereTheBoxMoves) {
   PushedBox what;
   what.dry_friction = 0.02;
   const MomentumAudit audit = audited(what);
@@ -110,7 +110,7 @@ double misfit_of_the_truth(const PushedBox& what, const std::string& effect) {
 
 // A friction turns when the velocity does: what the frames do not tell of that moment is noise of the
 // balance.
-TEST(Momentum, WhatIsNotKnownOfATurningPointIsNoise) {
+TEST(SlowMomentum, WhatIsNotKnownOfATurningPointIsNoise) {
   PushedBox what;
   what.dry_friction = 0.02;
   what.com_noise = 5e-5;  // so that little else is noise
@@ -126,7 +126,7 @@ TEST(Momentum, WhatIsNotKnownOfATurningPointIsNoise) {
   WITHIN(creeping, 1, 0.1, 0.021);
 }
 
-TEST(Momentum, ForcingIsFoundAtItsFrequency) {
+TEST(SlowMomentum, ForcingIsFoundAtItsFrequency) {
   PushedBox what;
   const double mass = 0.434 + 37 * 4.04e-3;
   what.force = [=](double, double, double t) {
@@ -140,7 +140,7 @@ TEST(Momentum, ForcingIsFoundAtItsFrequency) {
 }
 
 /// What no two known strengths stand for is no wander of the track, though it varies like one.
-TEST(Momentum, ForcesAreNoWander) {
+TEST(SlowMomentum, ForcesAreNoWander) {
   PushedBox what;
   const double mass = 0.434 + 37 * 4.04e-3;
   what.cubic = -0.03;
@@ -155,7 +155,7 @@ TEST(Momentum, ForcesAreNoWander) {
 
 /// The longer windows cannot see so fast and strong a sine and choose slow ones in its place; none of them
 /// may stay.
-TEST(Momentum, AStrongFastSineStandsAlone) {
+TEST(SlowMomentum, AStrongFastSineStandsAlone) {
   PushedBox what;
   const double mass = 0.434 + 37 * 4.04e-3;
   what.force = [=](double, double, double t) {
@@ -200,11 +200,12 @@ TEST(SlowMomentum, CameraErrorsAreNotForces) {
   WITHIN(arc.terms[0].value, 0.59, 0.018, 9.4e-4);
 }
 
-TEST(Momentum, GapsOutliersAndColouredNoiseDoNotConvict) {
+TEST(SlowMomentum, GapsOutliersAndColouredNoiseDoNotConvict) {
   PushedBox what;
   what.colour = 0.5;
-  EXPECT_EQ(names(audited(what, 5)), "");
-  WITHIN(audited(what, 5).as_given.chi2_per_degree(), 1, 0.2, 0.16);
+  const MomentumAudit coloured = audited(what, 5);
+  EXPECT_EQ(names(coloured), "");
+  WITHIN(coloured.as_given.chi2_per_degree(), 1, 0.2, 0.16);
   Experiment experiment = pushed_box({}, 6);
   Random random(7, 0, Stream::other);
   for (MeasuredRun& run : experiment.runs)

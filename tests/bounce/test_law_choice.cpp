@@ -12,6 +12,7 @@
 #include "errors.hpp"
 #include "made_drops.hpp"
 #include "row_covariance.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -48,8 +49,8 @@ TEST(RowCovariance, IsTheCovarianceOfItsRows) {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n);
   const BandRoot root = covariance.divided({2.0, 0.3}, one);
   const Eigen::MatrixXd inverse = covariance.divided_back({2.0, 0.3}, root.columns);
-  EXPECT_LT((inverse * full - one).cwiseAbs().maxCoeff(), 1e-13);          // seen: 1e-14
-  EXPECT_NEAR(root.log_determinant, std::log(full.determinant()), 1e-12);  // seen: 2e-14
+  EXPECT_LT((inverse * full - one).cwiseAbs().maxCoeff(), 1e-13);  // seen: 1e-14
+  WITHIN(root.log_determinant, std::log(full.determinant()), 4e-13, 2e-14);
 }
 
 TEST(LawChoice, FindsAConstantExactly) {
@@ -57,7 +58,7 @@ TEST(LawChoice, FindsAConstantExactly) {
   ball.timing = 1e-7;
   const BounceAnswer answer = answer_of(ball, 1);
   EXPECT_EQ(answer.best().model.law, LawKind::constant);
-  EXPECT_NEAR(answer.best().values[0].value, 0.85, 2e-7);  // seen: 1.0e-8
+  WITHIN(answer.best().values[0].value, 0.85, 2e-7, 1.1e-8);
   EXPECT_TRUE(answer.outliers.empty());
 }
 
@@ -87,7 +88,7 @@ TEST(LawChoice, TheAirIsTakenOff) {
   options.reference = 2;
   const BounceAnswer answer = answer_of(ball, 4, options);
   EXPECT_EQ(answer.best().model.law, LawKind::viscoelastic);
-  EXPECT_NEAR(answer.best().values[0].value, 0.93, 6e-4);  // seen: 3.0e-5
+  WITHIN(answer.best().values[0].value, 0.93, 6e-4, 3.1e-5);
   EXPECT_TRUE(answer.best().values[0].low < 0.93 && 0.93 < answer.best().values[0].high);
 }
 
@@ -115,7 +116,7 @@ TEST(LawChoice, AKnownHeightAddsAnImpact) {
   drops[0].height = 1;
   const BounceAnswer answer = choose_law(drops, {});
   EXPECT_EQ(answer.best().at.rows.size(), 2u);
-  EXPECT_NEAR(answer.fastest, 4.43, 0.01);  // seen: 5.5e-4
+  WITHIN(answer.fastest, 4.43, 0.01, 5.6e-4);
 }
 
 TEST(LawChoice, MissedAndExtraInstantsAreNamed) {

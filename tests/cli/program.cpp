@@ -26,11 +26,11 @@ struct Captured {
   Captured& operator=(const Captured&) = delete;
 };
 
-[[noreturn]] void become(const std::vector<std::string>& arguments) {
-  std::vector<char*> words{const_cast<char*>(SHAKEDOWN)};
+[[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments) {
+  std::vector<char*> words{const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
-  ::execv(SHAKEDOWN, words.data());
+  ::execv(program.c_str(), words.data());
   ::_exit(127);
 }
 
@@ -40,13 +40,8 @@ int exit_code_of(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-}  // namespace
-
-Outcome shakedown_program(const std::vector<std::string>& arguments) {
-  return shakedown_program(arguments, RLIM_INFINITY);
-}
-
-Outcome shakedown_program(const std::vector<std::string>& arguments, rlim_t most_seconds) {
+Outcome outcome_of(const std::string& program, const std::vector<std::string>& arguments,
+                   rlim_t most_seconds) {
   const Captured out, err;
   const pid_t child = ::fork();
   if (child == 0) {
@@ -55,10 +50,24 @@ Outcome shakedown_program(const std::vector<std::string>& arguments, rlim_t most
     ::dup2(err.descriptor, STDERR_FILENO);
     const rlimit limit{most_seconds, most_seconds};
     ::setrlimit(RLIMIT_CPU, &limit);
-    become(arguments);
+    become(program, arguments);
   }
   const int code = exit_code_of(child);
   return {code, contents(out.path), contents(err.path)};
+}
+
+}  // namespace
+
+Outcome shakedown_program(const std::vector<std::string>& arguments) {
+  return shakedown_program(arguments, RLIM_INFINITY);
+}
+
+Outcome shakedown_program(const std::vector<std::string>& arguments, rlim_t most_seconds) {
+  return outcome_of(SHAKEDOWN, arguments, most_seconds);
+}
+
+Outcome program_beside(const std::string& name, const std::vector<std::string>& arguments) {
+  return outcome_of((fs::path(SHAKEDOWN).parent_path() / name).string(), arguments, RLIM_INFINITY);
 }
 
 Outcome interrupted_program(const std::vector<std::string>& arguments, const std::string& awaited) {
@@ -71,7 +80,7 @@ Outcome interrupted_program(const std::vector<std::string>& arguments, const std
     ::dup2(out.descriptor, STDOUT_FILENO);
     ::dup2(far_end, STDERR_FILENO);
     ::close(terminal);
-    become(arguments);
+    become(SHAKEDOWN, arguments);
   }
   ::close(far_end);
   std::string seen;

@@ -20,6 +20,9 @@ Outcome shakedown_program(const std::vector<std::string>& arguments);
 /// The same; what takes more than so many seconds of a core is killed (code -SIGXCPU).
 Outcome shakedown_program(const std::vector<std::string>& arguments, rlim_t most_seconds);
 
+/// Another program of the project, by its name: it lies beside `shakedown`.
+Outcome program_beside(const std::string& name, const std::vector<std::string>& arguments);
+
 /// False where the machine has no pseudo terminals (some containers).
 bool has_terminals();
 

@@ -52,14 +52,17 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-/// What a command says of itself; empty: there is no such command.
-const std::string& help_of(const std::string& command) {
-  static std::map<std::string, std::string> known;
-  if (!known.contains(command)) {
-    const std::string help = shakedown_program({command, "--help"}).out;
-    known[command] = help.find("Usage: shakedown " + command + " ") != std::string::npos ? help : "";
+const std::set<std::string> programs{"shakedown", "shakedown-studies"};
+
+/// What a command of one of the two programs says of itself; empty: there is no such command.
+const std::string& help_of(const std::string& program, const std::string& command) {
+  static std::map<std::pair<std::string, std::string>, std::string> known;
+  std::string& text = known[{program, command}];
+  if (text.empty()) {
+    const std::string help = program_beside(program, {command, "--help"}).out;
+    if (help.find("Usage: " + program + " " + command + " ") != std::string::npos) text = help;
   }
-  return known[command];
+  return text;
 }
 
 bool has_word(const std::string& text, const std::string& word) {
@@ -73,7 +76,8 @@ bool has_word(const std::string& text, const std::string& word) {
 /// "" or what is wrong with a line of a ```sh block.
 std::string wrong_with(const std::string& line) {
   const std::vector<std::string> words = words_of(line);
-  const auto program = std::find(words.begin(), words.end(), "shakedown");
+  const auto program = std::find_if(words.begin(), words.end(),
+                                    [](const std::string& word) { return programs.contains(word); });
   for (const std::string& word : words)
     if (word.starts_with("harness/examples/") && !fs::exists(root / word)) return word + " is not there";
   if (program == words.end()) {
@@ -84,8 +88,8 @@ std::string wrong_with(const std::string& line) {
   if (program + 1 == words.end()) return "no command";
   const std::string& command = *(program + 1);
   if (command == "--help") return "";
-  const std::string& help = help_of(command);
-  if (help.empty()) return command + " is no command";
+  const std::string& help = help_of(*program, command);
+  if (help.empty()) return command + " is no command of " + *program;
   for (auto word = program + 2; word != words.end(); ++word)
     if (word->starts_with("--") && !has_word(help, word->substr(0, word->find('='))))
       return command + " has no option " + *word;
@@ -109,6 +113,9 @@ TEST(Documents, TheCheckFindsWhatIsWrong) {
   EXPECT_NE(wrong_with("shakedown run setup.toml --run 16"), "");
   EXPECT_NE(wrong_with("shakedown run harness/examples/L041.toml"), "");
   EXPECT_NE(wrong_with("./harness/quickly"), "");
+  EXPECT_NE(wrong_with("shakedown-studies ring-ups --cases 200"), "");
+  EXPECT_NE(wrong_with("shakedown-studies ring-downs --case 200"), "");
+  EXPECT_EQ(wrong_with("shakedown-studies ring-downs --cases 200 --seed 1"), "");
   EXPECT_EQ(wrong_with("mpirun -n 8 shakedown sweep setup.toml --vary a.b=1:2:1mm --out shared.sqlite"), "");
 }
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
+#include "within.hpp"
 
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -20,9 +21,9 @@ TEST_F(RunCommand, WritesSeriesSummarySetupAndProvenance) {
       "t_s,x_box_m,v_box_m_per_s,x_com_m,total_energy_J,loss_grain_grain_J,loss_end_wall_J,loss_side_wall_J");
   EXPECT_EQ(std::count(series.begin(), series.end(), '\n'), 1 + 1201);
   const json summary = json::parse(contents(folder / "out/summary.json"));
-  EXPECT_NEAR(summary["frequency_hz"], 1.048, 0.002);  // seen: 1.0478 (.0001)
-  EXPECT_NEAR(summary["slope_mm_per_s"], -8.20, 0.3);  // -8.20 (.05) of the full fit to 8 s
-  EXPECT_NEAR(summary["peaks_mm"][7], 76.4, 1.0);
+  WITHIN(summary["frequency_hz"], 1.0478, 0.002, 2e-4);  // 1.0478 (.0001) of many runs
+  WITHIN(summary["slope_mm_per_s"], -8.20, 0.3, 0.035);  // -8.20 (.05) of the full fit to 8 s
+  WITHIN(summary["peaks_mm"][7], 76.4, 1.0, 0.62);
   EXPECT_LT(summary["ledger_error"], 1e-12);
   const json provenance = json::parse(contents(folder / "out/provenance.json"));
   EXPECT_EQ(provenance["seed"], 1);
@@ -116,8 +117,8 @@ TEST_F(RunCommand, AnEmptyBoxSwingsAtItsOwnFrequency) {
       {"run", example("L040.toml"), "--set", "grains.count=0", "--set", "run.duration=8 s", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json summary = json::parse(outcome.out);
-  EXPECT_NEAR(summary["frequency_hz"], 1.23, 1e-9);
-  for (const json& peak : summary["peaks_mm"]) EXPECT_NEAR(std::abs(peak.get<double>()), 107.5, 1e-6);
+  WITHIN(summary["frequency_hz"], 1.23, 9e-14, 4.5e-15);
+  for (const json& peak : summary["peaks_mm"]) WITHIN(std::abs(peak.get<double>()), 107.5, 3e-7, 1.6e-8);
 }
 
 TEST(Help, IsGivenAndSucceeds) {

@@ -10,6 +10,7 @@
 #include "engines.hpp"
 #include "physics.hpp"
 #include "setup_file.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -84,19 +85,19 @@ TEST(Candidates, KnobsStandWhereTheEffectIsAbsent) {
   EXPECT_EQ(friction.levels[2].strength, 0.2);
   EXPECT_EQ(friction.levels[2].value, 0.2);
   const Candidate& walls = candidate_for(list, "side_wall_restitution");
-  EXPECT_NEAR(walls.levels.at(3).value, 0.2, 1e-12);
-  EXPECT_NEAR(walls.levels.at(3).strength, -0.4, 1e-12);
-  EXPECT_NEAR(walls.strengths.low, 0.05 - 0.6, 1e-12);
+  WITHIN(walls.levels.at(3).value, 0.2, 1e-15, 5.6e-17);
+  WITHIN(walls.levels.at(3).strength, -0.4, 1e-15, 8.9e-17);
+  WITHIN(walls.strengths.low, 0.05 - 0.6, 2e-15, 1.3e-16);
   EXPECT_DOUBLE_EQ(walls.strengths.high, 2 * 0.15);  // trusted up to twice a level of that side
   EXPECT_EQ(friction.knobs.at(0).key, "grain_friction.grain_grain&grain_friction.grain_wall");
   const Candidate& arc = candidate_for(list, "blade_arc");
   EXPECT_TRUE(arc.knobs.empty());
   EXPECT_EQ(arc.fitted_knobs().at(0).centre, 0.59);
   // The curvature of a blade of this length, which cannot be negative.
-  EXPECT_NEAR(arc.prior.typical, 1 / (0.59 * 0.59), 1e-12);
+  WITHIN(arc.prior.typical, 1 / (0.59 * 0.59), 1e-14, 6.4e-16);
   EXPECT_TRUE(arc.prior.one_sided);
-  EXPECT_NEAR(arc.levels.at(1).strength, 1 / (0.59 * 0.59), 1e-12);
-  EXPECT_NEAR(arc.value_of(arc.strength_of(0.4)), 0.4, 1e-12);
+  WITHIN(arc.levels.at(1).strength, 1 / (0.59 * 0.59), 1e-14, 6.4e-16);
+  WITHIN(arc.value_of(arc.strength_of(0.4)), 0.4, 1e-15, 8.9e-17);
   EXPECT_LT(candidate_for(list, "grain_air_drag").prior.odds, 0.01);  // air does so little in fact
   EXPECT_FALSE(candidate_for(list, "spring_cubic").prior.one_sided);
 }

@@ -10,6 +10,7 @@
 
 #include "evidence.hpp"
 #include "rules.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -56,7 +57,7 @@ TEST(Evidence, IsTheLikelihoodAveragedOverThePrior) {
       for (const double sigmas : {4.0, 6.0, 12.0, 30.0}) {
         const StrengthSeen seen = seen_at(sigmas * error, error, one_sided);
         const double prior = std::log(rules::expected_effects / 20 / (1 - rules::expected_effects / 20));
-        EXPECT_NEAR(log_odds_of(seen, 20), integrated(seen) + prior, 1.5 * error * error + 1e-4)
+        WITHIN((log_odds_of(seen, 20) - integrated(seen) - prior) / (1.5 * error * error + 1e-4), 0, 1, 0.6)
             << sigmas << " errors of " << error;
       }
 }
@@ -64,7 +65,7 @@ TEST(Evidence, IsTheLikelihoodAveragedOverThePrior) {
 TEST(Evidence, AStrengthKnownWorseThanThePriorTakesNothingOfIt) {
   const StrengthSeen vague = seen_at(1, 50);
   const double prior = std::log(0.05 / 0.95);
-  EXPECT_NEAR(log_odds_of(vague, 10), vague.gain / 2 + prior, 1e-12);
+  WITHIN(log_odds_of(vague, 10), vague.gain / 2 + prior, 1e-14, 6.6e-16);
   // ... and gains no more than the likelihood at its maximum; the average over the prior is near nothing's.
   EXPECT_LT(std::abs(log_odds_of(vague, 10) - prior - integrated(vague)), 0.1);
 }
@@ -74,10 +75,10 @@ TEST(Evidence, ACandidateAmongManyIsLessLikelyBeforehand) {
   const auto prior = [](double candidates) {
     return std::log(rules::expected_effects / candidates / (1 - rules::expected_effects / candidates));
   };
-  EXPECT_NEAR(log_odds_of(seen, 5) - log_odds_of(seen, 50), prior(5) - prior(50), 1e-12);
+  WITHIN(log_odds_of(seen, 5) - log_odds_of(seen, 50), prior(5) - prior(50), 3e-14, 1.8e-15);
   StrengthSeen rare = seen;
   rare.odds = 0.1;
-  EXPECT_NEAR(log_odds_of(seen, 50) - log_odds_of(rare, 5), prior(50) - prior(50), 1e-12);
+  WITHIN(log_odds_of(seen, 50), log_odds_of(rare, 5), 3e-14, 1.8e-15);
 }
 
 TEST(Evidence, TheWrongSignIsImpossible) {
@@ -101,9 +102,9 @@ TEST(Evidence, WhatIsNoNumberIsImpossibleAndNeverAProbability) {
   }
   std::vector<Hypothesis> table = weighed_table(-infinite, 1);
   EXPECT_EQ(table.back().probability, 0);
-  EXPECT_NEAR(sum_of(table), 1, 1e-12);
+  WITHIN(sum_of(table), 1, 4e-15, 2.3e-16);
   table = weighed_table(std::nan(""), 1);
-  EXPECT_NEAR(sum_of(table), 1, 1e-12);
+  WITHIN(sum_of(table), 1, 4e-15, 2.3e-16);
 }
 
 TEST(Evidence, AFavouriteAmongFewStaysAProbability) {
@@ -114,14 +115,14 @@ TEST(Evidence, AFavouriteAmongFewStaysAProbability) {
 
 TEST(Evidence, WeighedHypothesesSumToOneAndTheMostProbableComesFirst) {
   const std::vector<Hypothesis> table = weighed_table(3, 800);  // exp(800) is no double
-  EXPECT_NEAR(sum_of(table), 1, 1e-12);
+  WITHIN(sum_of(table), 1, 4e-15, 2.3e-16);
   EXPECT_EQ(table.front().effects, std::vector<std::string>{"b"});
-  EXPECT_NEAR(table.front().probability, 1, 1e-12);
+  WITHIN(table.front().probability, 1, 4e-15, 2.3e-16);
   const std::vector<Hypothesis> even = weighed_table(0, std::log(2.0));
-  EXPECT_NEAR(even[0].probability, 0.5, 1e-12);
-  EXPECT_NEAR(even[1].probability, 0.25, 1e-12);
+  WITHIN(even[0].probability, 0.5, 2e-15, 1.2e-16);
+  WITHIN(even[1].probability, 0.25, 1e-15, 5.6e-17);
   EXPECT_TRUE(even[1].effects.empty());  // of equals the first stays first
-  EXPECT_NEAR(probability_of_something(even), 0.75, 1e-12);
+  WITHIN(probability_of_something(even), 0.75, 3e-15, 1.7e-16);
   std::vector<Hypothesis> none;
   weigh(none);
   EXPECT_TRUE(none.empty());
@@ -137,14 +138,14 @@ TEST(Evidence, TheAnswerIsTheFewestThatHold95Percent) {
 TEST(Evidence, IndependentTablesMultiply) {
   const std::vector<Hypothesis> a = weighed_table(2, 1), b = weighed_table(0.5, -1), both = combined(a, b);
   ASSERT_EQ(both.size(), 4u);
-  EXPECT_NEAR(sum_of(both), 1, 1e-12);
+  WITHIN(sum_of(both), 1, 4e-15, 2.3e-16);
   for (std::size_t i = 1; i < both.size(); ++i) EXPECT_LE(both[i].probability, both[i - 1].probability);
   for (const Hypothesis& h : both)  // an effect of both tables stands once
     EXPECT_FALSE(h.effects.size() == 2 && h.effects[0] == h.effects[1]);
   const auto nothing =
       std::find_if(both.begin(), both.end(), [](const auto& h) { return h.effects.empty(); });
-  EXPECT_NEAR(nothing->probability, (1 - probability_of_something(a)) * (1 - probability_of_something(b)),
-              1e-12);
+  WITHIN(nothing->probability, (1 - probability_of_something(a)) * (1 - probability_of_something(b)), 6e-16,
+         3.2e-17);
 }
 
 TEST(Evidence, EqualSetsOfTwoTablesAreOneHypothesis) {
@@ -152,12 +153,31 @@ TEST(Evidence, EqualSetsOfTwoTablesAreOneHypothesis) {
   weigh(a), weigh(b);
   const std::vector<Hypothesis> both = combined(a, b);
   ASSERT_EQ(both.size(), 4u);  // none, a, b, a and b
-  EXPECT_NEAR(sum_of(both), 1, 1e-12);
+  WITHIN(sum_of(both), 1, 4e-15, 2.3e-16);
   const auto of_a = std::find_if(both.begin(), both.end(),
                                  [](const auto& h) { return h.effects == std::vector<std::string>{"a"}; });
   const double weights = (1 + std::exp(2)) * (1 + std::exp(-1) + std::exp(1));
-  EXPECT_NEAR(of_a->probability, (std::exp(2) + std::exp(-1) + std::exp(1)) / weights, 1e-12);
-  EXPECT_NEAR(of_a->log_odds, std::log(std::exp(2) + std::exp(-1) + std::exp(1)), 1e-12);
+  WITHIN(of_a->probability, (std::exp(2) + std::exp(-1) + std::exp(1)) / weights, 1e-15, 6.8e-17);
+  WITHIN(of_a->log_odds, std::log(std::exp(2) + std::exp(-1) + std::exp(1)), 1e-14, 5.3e-16);
+}
+
+// Nothing is left to divide by.
+TEST(Evidence, ATableWithoutProbabilityLeavesSomethingInNoListAlone) {
+  EXPECT_EQ(with_something_else_or({{"b"}, {}}, {}, 0.3).front().probability, 0.3);
+  const std::vector<Hypothesis> table = with_something_else_or({{"b"}, {}}, {{{"a"}, -1000, 0}}, 0.3);
+  ASSERT_EQ(table.size(), 2u);
+  EXPECT_EQ(table[0].probability, 0.3);
+  EXPECT_EQ(table[1].probability, 0);
+}
+
+// The pair is the most probable product, and the two ways to have the first effect alone come to more.
+TEST(Evidence, WhatEqualSetsAddUpToSaysWhichGoesFirst) {
+  std::vector<Hypothesis> a{{{}, 0, 0}, {{"a"}, 2, 0}}, b{{{}, 0, 0}, {{"a"}, 0.9, 0}, {{"b"}, 1, 0}};
+  weigh(a), weigh(b);
+  const std::vector<Hypothesis> both = combined(a, b);
+  ASSERT_GE(both.size(), 2u);
+  EXPECT_EQ(both[0].effects, std::vector<std::string>{"a"});
+  EXPECT_EQ(both[1].effects.size(), 2u);
 }
 
 TEST(Evidence, WhatIsTakenBackLeavesTheTableBecauseTheTableSaysSo) {
@@ -166,27 +186,27 @@ TEST(Evidence, WhatIsTakenBackLeavesTheTableBecauseTheTableSaysSo) {
   const double kept = 0.02, odds = std::log(kept / (1 - kept));
   const std::vector<Hypothesis> rest = taken_back(table, "a", odds);
   ASSERT_EQ(rest.size(), 4u);
-  EXPECT_NEAR(sum_of(rest), 1, 1e-12);
+  WITHIN(sum_of(rest), 1, 4e-15, 2.3e-16);
   EXPECT_EQ(rest.front().effects, std::vector<std::string>{"b"});
-  EXPECT_NEAR(rest.front().probability, 0.7 * 0.98 + 0.06, 1e-12);
+  WITHIN(rest.front().probability, 0.7 * 0.98 + 0.06, 3e-15, 1.7e-16);
   double with = 0;
   for (const Hypothesis& h : rest)
     if (std::find(h.effects.begin(), h.effects.end(), "a") != h.effects.end()) with += h.probability;
-  EXPECT_NEAR(with, 0.9 * kept, 1e-12);
+  WITHIN(with, 0.9 * kept, 8e-17, 4e-18);
 }
 
 TEST(Evidence, SomethingInNoListIsWeighedByThePValue) {
   const double prior = rules::something_else;
-  EXPECT_NEAR(probability_of_something_else(0.9), prior, 1e-12);
-  EXPECT_NEAR(probability_of_something_else(std::nan("")), prior, 1e-12);
-  EXPECT_NEAR(probability_of_something_else(0.01), 0.14, 0.01);  // odds of 1/49 over 0.125
+  WITHIN(probability_of_something_else(0.9), prior, 9e-17, 4.5e-18);
+  WITHIN(probability_of_something_else(std::nan("")), prior, 9e-17, 4.5e-18);
+  WITHIN(probability_of_something_else(0.01), 0.14, 3e-3, 1.8e-4);  // odds of 1/49 over 0.125
   EXPECT_GT(probability_of_something_else(1e-6), 0.99);
   EXPECT_LE(probability_of_something_else(0), 1);
   const std::vector<Hypothesis> table = with_something_else({{{"a"}, 3, 0.8}, {{}, 0, 0.2}}, 0.5);
   ASSERT_EQ(table.size(), 3u);
   EXPECT_EQ(table.front().effects, std::vector<std::string>{unlisted_effect});
-  EXPECT_NEAR(sum_of(table), 1, 1e-12);
-  EXPECT_NEAR(table[1].probability, 0.4, 1e-12);
+  WITHIN(sum_of(table), 1, 4e-15, 2.3e-16);
+  WITHIN(table[1].probability, 0.4, 1e-15, 8.9e-17);
 }
 
 // A model that fails while half of the list was not looked at: what was not may be it as well.
@@ -194,22 +214,23 @@ TEST(Evidence, WhatWasNotLookedAtIsRaisedWithSomethingInNoList) {
   const std::vector<Hypothesis> table{{{}, 0, 0.7}, {{"a"}, 0, 0.1}, {{"b"}, 0, 0.1}, {{"c"}, 0, 0.1}};
   const double certain = 1 - 1e-9;
   const std::vector<Hypothesis> all_looked_at = with_something_else_or({}, table, certain);
-  EXPECT_NEAR(sum_of(all_looked_at), 1, 1e-12);
+  WITHIN(sum_of(all_looked_at), 1, 4e-15, 2.3e-16);
   EXPECT_EQ(all_looked_at.front().effects, std::vector<std::string>{unlisted_effect});
   EXPECT_GT(all_looked_at.front().probability, 0.999);
   const std::vector<Hypothesis> half = with_something_else_or({{"b", "c"}, {}}, table, certain);
-  EXPECT_NEAR(sum_of(half), 1, 1e-12);
+  WITHIN(sum_of(half), 1, 4e-15, 2.3e-16);
   // Among what may be, prior odds decide: 0.1 and 0.1 to 0.02 / 0.98.
   const double unlisted = 0.02 / 0.98;
   for (const Hypothesis& h : half)
-    EXPECT_NEAR(h.probability,
-                h.effects == std::vector<std::string>{unlisted_effect} ? unlisted / (0.2 + unlisted)
-                : h.effects == std::vector<std::string>{"b"} || h.effects == std::vector<std::string>{"c"}
-                    ? 0.1 / (0.2 + unlisted)
-                    : 0,
-                1e-6);
+    WITHIN(h.probability,
+           h.effects == std::vector<std::string>{unlisted_effect} ? unlisted / (0.2 + unlisted)
+           : h.effects == std::vector<std::string>{"b"} || h.effects == std::vector<std::string>{"c"}
+               ? 0.1 / (0.2 + unlisted)
+               : 0,
+           1e-9, 6.5e-11);
   // A model that holds gives nothing away.
-  EXPECT_NEAR(with_something_else_or({{"b", "c"}, {}}, table, 0.02).front().probability, 0.7 * 0.98, 1e-12);
+  WITHIN(with_something_else_or({{"b", "c"}, {}}, table, 0.02).front().probability, 0.7 * 0.98, 3e-15,
+         1.6e-16);
 }
 
 TEST(Evidence, APValueSaysNothingAgainstAnEffectThatWasWeighedAndNotFitted) {

@@ -67,5 +67,7 @@ TEST(PackingChoice, SoManyGrainsThatAnotherPackingCannotHoldThem) {
   Experiment experiment = measured({{}, {}, {}, {0.040}, 5, "0.2 s"});
   shakedown::Setup setup = believed();
   setup.grains.count = 80;
-  EXPECT_NO_THROW(packing_before_release(setup, as_measured(experiment), all_effects()));
+  const PackingChoice choice = packing_before_release(setup, as_measured(experiment), all_effects());
+  EXPECT_EQ(choice.packing, setup.release.packing);
+  EXPECT_FALSE(choice.fits);
 }

@@ -48,8 +48,29 @@ TEST(Rules, EachHasAUnitAndASource) {
   }
 }
 
-TEST(Rules, EveryOneIsInTheList) {
-  EXPECT_EQ(count_of(text_of("diagnose/rules.hpp"), "\nconstexpr Rule "), diagnosis_rules().size());
+/// Sources of a folder that decide, without those that list the rules.
+std::string sources_of(const std::string& folder) {
+  std::string text;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(PROJECT_ROOT) + "/harness/" + folder))
+    if (entry.path().extension() == ".cpp" && !entry.path().filename().string().starts_with("rules"))
+      text += text_of(folder + "/" + entry.path().filename().string());
+  return text;
+}
+
+TEST(Rules, EveryOneIsInTheListUnderItsNameAndUsed) {
+  std::set<std::string> listed, written;
+  for (const Rule& rule : diagnosis_rules()) listed.emplace(rule.name);
+  const std::string text = text_of("diagnose/rules.hpp");
+  const std::regex rule(R"re(\nconstexpr Rule (\w+)\{\s*"(\w+)")re");
+  for (std::sregex_iterator one(text.begin(), text.end(), rule), end; one != end; ++one) {
+    EXPECT_EQ((*one)[1], (*one)[2]);
+    written.insert((*one)[1]);
+  }
+  EXPECT_EQ(written, listed);
+  const std::string deciding = sources_of("diagnose");
+  for (const std::string& name : written)
+    EXPECT_GE(count_of(deciding, "rules::" + name + "\\b"), 1u) << name << " decides nothing";
 }
 
 TEST(Rules, AreThoseOfTheDocument) {

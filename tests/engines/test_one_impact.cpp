@@ -224,7 +224,8 @@ TEST(OneStickingImpact, TurnsItsSlipByTheSpringsRatio) {
 TEST_P(OneBulletImpact, IsThatOfRigidBodies) {
   Worst worst;
   scan(GetParam(),
-       [&](const Encounter& it) { worst.enter(it, impact_by("bullet", it), by_rigid_bodies(it)); });
+       [&](const Encounter& it) { worst.enter(it, impact_by("bullet", it), by_rigid_bodies(it)); },
+       {0.02, 20.0});
   EXPECT_LE(worst.gain, checked_tolerance(1e-14, 1e-15)) << worst.gaining;
   WITHIN(worst.energy, 0, 1e-4, 2.1e-5);
   WITHIN(worst.restitution, 0, 1e-3, 3.6e-4);  // a pair's normal is that of the step after the touch

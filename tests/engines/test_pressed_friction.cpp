@@ -31,7 +31,7 @@ TEST(PressedFriction, LosesInTheFirstStrokesWhatSoftContactsLose) {
   )",
                                              "strong friction", all_effects());
   EnsembleOptions options;
-  options.runs = 48;
+  options.runs = 16;
   const Ensemble hard = run_ensemble(*make_hard_engine(), setup, options);
   // The soft engine with contacts of 0.05 ms, 32 runs: errors 0.015, 0.015, 0.024, 0.027 mm. Impacts made
   // elastic without friction gave 103.48, 99.33, 95.17, 91.01 mm.

@@ -8,6 +8,7 @@
 
 #include "ensemble.hpp"
 #include "observables.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -82,6 +83,7 @@ void compare(const char* what, const MeanOfRuns& seen, double expected, double o
   std::printf("  %-22s %9.4f +- %7.4f (sd %.4f), reference %9.4f\n", what, seen.mean(), seen.error(),
               seen.deviation(), expected);
   if (std::isnan(off)) return;
+  // not WITHIN: what the six codes differ by, in the table
   EXPECT_NEAR(seen.mean(), expected, off) << what;
 }
 

@@ -12,6 +12,7 @@
 #include "experiment_file.hpp"
 #include "hidden_case.hpp"
 #include "scratch_folder.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -116,10 +117,10 @@ TEST(Film, ALateClockMissesTheReleaseAndAnEarlyOneSeesTheBoxRest) {
   const Trajectory motion = damper(1000);
   const Recording late = filmed({}, even_frames(500, 3e-3, 3), motion),
                   early = filmed({}, even_frames(500, -3e-3, 3), motion);
-  EXPECT_NEAR(late.x_box.front(), motion.x_box[3], 1e-12);
+  WITHIN(late.x_box.front(), motion.x_box[3], 4e-16, 2.4e-17);
   EXPECT_EQ(early.x_box[0], motion.x_box[0]);
   EXPECT_EQ(early.x_box[1], motion.x_box[0]);
-  EXPECT_NEAR(early.x_box[2], motion.x_box[1], 1e-12);
+  WITHIN(early.x_box[2], motion.x_box[1], 4e-16, 2.4e-17);
 }
 
 TEST(Film, ReleaseAndTriggerScatterByRunAsStated) {
@@ -130,7 +131,7 @@ TEST(Film, ReleaseAndTriggerScatterByRunAsStated) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
     for (const MeasuredRun& run : measured(recording, seed).runs)
       sum += std::pow(run.x_box.front() - 0.1075, 2), ++count;
-  EXPECT_NEAR(std::sqrt(sum / count), 1e-3, 0.35e-3);  // three standard errors of 40 draws
+  WITHIN(std::sqrt(sum / count), 1e-3, 0.35e-3, 0.11e-3);  // standard error of 40 draws
   RecordingSettings scattered = noiseless();
   scattered.trigger = 5e-3;
   const Experiment late = measured(scattered), exact = measured(noiseless());
@@ -147,7 +148,7 @@ TEST(Film, ATableCanStartAnywhereOnAnUnevenClockWithItsOwnOriginAndStep) {
   const MeasuredRun exact = measured(noiseless()).runs[0], late = measured(recording).runs[0];
   ASSERT_EQ(late.time.size(), exact.time.size() - 50);
   EXPECT_EQ(late.time.front(), 0);
-  EXPECT_NEAR(late.x_box[0], exact.x_box[50] + 5e-3, 1.001e-6);
+  WITHIN(late.x_box[0], exact.x_box[50] + 5e-3, 1.001e-6, 5e-7);  // both are rounded
   recording = noiseless();
   recording.jitter = 0.5e-3;
   recording.stamped = true;
@@ -155,12 +156,12 @@ TEST(Film, ATableCanStartAnywhereOnAnUnevenClockWithItsOwnOriginAndStep) {
   double sum = 0;
   for (std::size_t i = 0; i < uneven.time.size(); ++i)
     sum += std::pow(uneven.time[i] - static_cast<double>(i) / 500, 2);
-  EXPECT_NEAR(std::sqrt(sum / static_cast<double>(uneven.time.size())), 0.5e-3, 0.05e-3);
+  WITHIN(std::sqrt(sum / static_cast<double>(uneven.time.size())), 0.5e-3, 0.04e-3, 8e-6);  // standard error
   recording.stamped = false;
   recording.rounding = 1e-3;
   const MeasuredRun unknown = measured(recording).runs[0];
-  EXPECT_NEAR(unknown.time[1], 2e-3, 1e-12);
-  EXPECT_NEAR(unknown.x_box[70] * 1e3, std::round(unknown.x_box[70] * 1e3), 1e-9);
+  WITHIN(unknown.time[1], 2e-3, 9e-18, 4.5e-19);
+  WITHIN(unknown.x_box[70] * 1e3, std::round(unknown.x_box[70] * 1e3), 3e-13, 1.5e-14);
   EXPECT_NE(unknown.x_box[300], exact.x_box[300]);
 }
 
@@ -181,11 +182,11 @@ TEST(Film, TheTrackWandersWithItsMemoryBoxAndCentreApart) {
       box += error(i) * error(i), centre += other * other, both += error(i) * other;
       later += error(i) * error(i + memory);
     }
-  // 8 s hold some 80 independent stretches: the variance is known to 16 %.
-  EXPECT_NEAR(box / count / 1e-8, 1, 0.5);
-  EXPECT_NEAR(centre / count / 1e-8, 1, 0.5);
-  EXPECT_NEAR(both / count / 1e-8, 0, 0.4);
-  EXPECT_NEAR(later / box, std::exp(-1), 0.3);
+  // 8 s hold some 80 independent stretches: standard errors.
+  WITHIN(box / count / 1e-8, 1, 0.5, 0.16);
+  WITHIN(centre / count / 1e-8, 1, 0.5, 0.16);
+  WITHIN(both / count / 1e-8, 0, 0.4, 0.11);
+  WITHIN(later / box, std::exp(-1), 0.3, 0.1);
 }
 
 TEST(Film, OptionsOfACameraAsItIsAreRead) {
@@ -198,8 +199,8 @@ TEST(Film, OptionsOfACameraAsItIsAreRead) {
   stated.wander = 20e-6, stated.wander_time = 0.3;
   stated.release = 0.3e-3;
   stated.frame_rate = 240, stated.missing = 0.01;
-  EXPECT_NEAR(read.wander, stated.wander, 1e-18);
-  EXPECT_NEAR(read.release, stated.release, 1e-18);
+  WITHIN(read.wander, stated.wander, 8e-20, 4.5e-21);
+  WITHIN(read.release, stated.release, 1e-18, 6.7e-20);
   EXPECT_EQ(read.lens, stated.lens);
   EXPECT_EQ(read.shutter, stated.shutter);
   EXPECT_EQ(read.wander_time, stated.wander_time);
@@ -224,7 +225,7 @@ TEST(Film, WhatItsExperimenterKnowsStandsInTheExperimentFile) {
   EXPECT_EQ(find_known(back.known, "release.displacement")->error, 0.5e-3);
   EXPECT_EQ(find_known(back.known, "camera.trigger")->error, 4e-3);
   for (std::size_t i = 0; i < 10; ++i)
-    EXPECT_NEAR(back.runs[0].time[i], static_cast<double>(i) / 240, 0.5001e-6) << "no coarser clock";
+    WITHIN(back.runs[0].time[i], static_cast<double>(i) / 240, 0.5001e-6, 3.4e-7) << "no coarser clock";
   EXPECT_THROW(with_known({}, {"box.mas=437 g +- 2 g"}), InputError);
   EXPECT_THROW(with_known({}, {"box.mass"}), InputError);
 }

@@ -7,16 +7,17 @@
 
 #include "random.hpp"
 #include "trial.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
 TEST(Shares, WilsonsIntervalHasItsClosedFormAndStaysWithinBounds) {
   // (p + z^2/2n +- z sqrt(p q/n + z^2/4n^2)) / (1 + z^2/n), symmetric about 1/2
   const Share half = share_of(5, 10);
-  EXPECT_NEAR(half.low, 0.2366, 1e-4);
-  EXPECT_NEAR(half.high, 0.7634, 1e-4);
+  WITHIN(half.low, 0.2366, 1e-4, 7e-6);
+  WITHIN(half.high, 0.7634, 1e-4, 7e-6);
   EXPECT_EQ(share_of(0, 10).low, 0);
-  EXPECT_NEAR(share_of(0, 10).high, 0.2775, 1e-4);
+  WITHIN(share_of(0, 10).high, 0.2775, 1e-4, 3.3e-5);
   EXPECT_EQ(share_of(10, 10).high, 1);
   EXPECT_EQ(share_of(0, 0).high, 1);
 }
@@ -35,7 +36,7 @@ TEST(Shares, WilsonsIntervalCoversTheTruthAsOftenAsItSays) {
     const Share share = share_of(hits, 60);
     covered += share.low <= 0.3 && 0.3 <= share.high;
   }
-  EXPECT_NEAR(covered / double(experiments), 0.95, 0.02);
+  WITHIN(covered / double(experiments), 0.95, 0.02, 0.016);
 }
 
 TEST(Shares, UniformValuesHaveUniformPValuesAndOthersHaveNone) {
@@ -47,14 +48,14 @@ TEST(Shares, UniformValuesHaveUniformPValuesAndOthersHaveNone) {
     for (int i = 0; i < 60; ++i) values.push_back(random.uniform());
     below += uniformity_p_value(values) < 0.05;
   }
-  EXPECT_NEAR(below / double(experiments), 0.05, 0.02);  // 4 standard errors
+  WITHIN(below / double(experiments), 0.05, 0.02, 4.9e-3);  // standard error
   std::vector<double> squares;
   for (int i = 0; i < 60; ++i) squares.push_back(std::pow((i + 0.5) / 60, 2));
   EXPECT_LT(uniformity_p_value(squares), 0.01);
   // Kolmogorov's table: D = 0.24170 is the 5 % point for n = 30.
   std::vector<double> shifted;
   for (int i = 0; i < 30; ++i) shifted.push_back(std::min(1.0, (i + 1) / 30.0 * (1 - 0.24170)));
-  EXPECT_NEAR(uniformity_p_value(shifted), 0.05, 0.004);
+  WITHIN(uniformity_p_value(shifted), 0.05, 2e-3, 1.1e-4);
 }
 
 TEST(TrialJudgements, AnErrorOfTheCameraIsNamedByTheVerdictMeasurementToo) {

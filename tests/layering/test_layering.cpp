@@ -138,6 +138,19 @@ bool is_standard(const std::string& header) {
 
 const std::set<std::string> generated{"build_info.hpp"};
 
+/// Lines of a test's source, from 1, with a comparison of numbers whose tolerance nobody has measured, and
+/// no reason for it: "not WITHIN: ..." on that line or the one above.
+std::vector<int> bare_comparisons(std::istream& source) {
+  static const std::string bare = "_NEAR(", reason = "// not WITHIN: ";  // of EXPECT and of ASSERT
+  std::vector<int> found;
+  std::string line, above;
+  for (int number = 1; std::getline(source, line); ++number, above = line)
+    if (line.find(bare) != std::string::npos && line.find(reason) == std::string::npos &&
+        above.find(reason) == std::string::npos)
+      found.push_back(number);
+  return found;
+}
+
 using Names = std::map<std::string, std::string>;  ///< with the line that gives each
 
 const std::regex type_named("(?:struct|class|enum class|enum|using|namespace) (\\w+).*");
@@ -305,4 +318,21 @@ TEST(Layering, EverySourceNamesItsLicence) {
       std::getline(stream, first);
       EXPECT_EQ(first, "// SPDX-License-Identifier: MIT") << file;
     }
+}
+
+TEST(Layering, TestsCompareNumbersWithinWhatWasSeen) {
+  const fs::path tests = fs::path(PROJECT_ROOT) / "tests";
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(tests)) {
+    const fs::path& file = entry.path();
+    if ((file.extension() != ".cpp" && file.extension() != ".hpp") || file == tests / "within.hpp" ||
+        file.filename() == "test_layering.cpp")
+      continue;
+    std::ifstream source(file);
+    for (const int line : bare_comparisons(source))
+      ADD_FAILURE() << file << ":" << line << ": WITHIN of tests/within.hpp names the error seen";
+  }
+  std::istringstream source(
+      "EXPECT_NEAR(a, b, 1);\nEXPECT_NEAR(a, b, c);  // not WITHIN: c is drawn\n\n// not WITHIN: drawn\n"
+      "ASSERT_NEAR(a, b, c);\nASSERT_NEAR(a, b, c);\n");
+  EXPECT_EQ(bare_comparisons(source), (std::vector<int>{1, 6}));
 }

@@ -9,6 +9,7 @@
 #include "damper_errors.hpp"
 #include "effects.hpp"
 #include "random.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -92,8 +93,8 @@ TEST(DamperErrors, ColumnsHaveNoNoiseForTheMicrostatesAreTheSame) {
   for (Eigen::Index f = 0; f < measured[0].values.size(); ++f) {
     const double t = measured[0].plan.features[static_cast<std::size_t>(f)].time;
     // A parabola's level in a bin of 0.1 s is not quite the cosine's at its middle. Seen: 4e-8.
-    EXPECT_NEAR(measured[0].own(f, 0), 4e-4 * std::cos(7 * t), 5e-7);
-    EXPECT_NEAR(measured[0].by_camera.at("box.mass")[f], 0.2 * t, 5e-13);  // seen: 3e-14
+    WITHIN(measured[0].own(f, 0), 4e-4 * std::cos(7 * t), 5e-7, 4.1e-8);
+    WITHIN(measured[0].by_camera.at("box.mass")[f], 0.2 * t, 2e-13, 1.3e-14);
   }
   const std::vector<Knob> knobs = knobs_of(errors, measurement.runs.front().setup);
   ASSERT_EQ(knobs.size(), 1u);
@@ -110,8 +111,8 @@ TEST(DamperErrors, RepeatsShareSimulationsFromTheMeanOfTheirReleases) {
   measurement.runs[1].setup.release.displacement = 0.1078;
   const std::vector<DamperError> errors = damper_errors(measurement);
   ASSERT_EQ(errors[0].shift.size(), 2u);
-  EXPECT_NEAR(errors[0].shift[0], -3e-4, 1e-16);  // rounding
-  EXPECT_NEAR(errors[0].shift[1], 3e-4, 1e-16);
+  WITHIN(errors[0].shift[0], -3e-4, 1e-16, 8.7e-18);  // rounding
+  WITHIN(errors[0].shift[1], 3e-4, 1e-16, 5.3e-18);
   std::vector<MeasuredFeatures> measured = features_of(measurement);
   const Eigen::VectorXd before = measured[0].values;
   const Swing engine;
@@ -128,7 +129,7 @@ TEST(DamperErrors, RepeatsShareSimulationsFromTheMeanOfTheirReleases) {
   for (Eigen::Index f = 0; f < before.size(); ++f) {
     const double t = measured[0].plan.features[static_cast<std::size_t>(f)].time;
     // What it would have shown, let go where its repeats are. Seen: 3e-8 (the level in a bin).
-    EXPECT_NEAR(measured[0].values[f], before[f] + 3e-4 * std::cos(7 * t), 3e-7);
+    WITHIN(measured[0].values[f], before[f] + 3e-4 * std::cos(7 * t), 3e-7, 3.1e-8);
   }
 }
 

@@ -26,7 +26,7 @@ TEST(Refit, RefusesRecordingsThatHoldNoMotion) {
   Experiment experiment;
   experiment.runs.emplace_back();
   MeasuredRun& run = experiment.runs.front();
-  for (int i = 0; i < 8000; ++i) run.time.push_back(i * 2e-6), run.x_box.push_back(0.1);  // s read as ms
+  for (int i = 0; i < 2000; ++i) run.time.push_back(i * 2e-6), run.x_box.push_back(0.1);  // s read as ms
   EXPECT_THROW(features_of(measurement_of({believed_setup()}, experiment)), InputError);
 }
 
@@ -43,7 +43,7 @@ TEST(Refit, GrainsThatTheSetupHasNotAreNotCompared) {
   EXPECT_EQ(features_of(measurement_of({setup}, experiment)).front().plan.features.size(), both / 2);
 }
 
-TEST(Refit, HoldsForDataOfTheModelItself) {
+TEST(SlowRefit, HoldsForDataOfTheModelItself) {
   const DampedOscillation engine;
   const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
   int rejected = 0;
@@ -65,14 +65,17 @@ TEST(Refit, GivesNoProbabilityOfWhatIsNoNumber) {
   }
 }
 
-TEST(Refit, FindsHiddenValuesInsideItsIntervals) {
+/// Of three values a run at most so many lie outside their intervals of 95 %.
+void expect_hidden_values_found(int runs, int outside) {
   const DampedOscillation engine;
   const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
   shakedown::Setup truth = believed_setup();
   truth.restitution = {0.85, 0.70};
   truth.spring.frequency = 1.2345;
+  const std::map<std::string, double> errors{
+      {"restitution.grain_grain", 5.3e-5}, {"restitution.grain_wall", 8.9e-4}, {"spring.frequency", 2.4e-6}};
   int inside = 0, all = 0;
-  for (int run = 0; run < 6; ++run) {
+  for (int run = 0; run < runs; ++run) {
     const std::vector<MeasuredFeatures> measured = measured_on(truth, believed_setup(), run);
     EXPECT_LT(refit(measured, {}, workshop, {}).p_value, 0.01);
     const Refit fit = refit(measured, theta, workshop, {});
@@ -82,11 +85,14 @@ TEST(Refit, FindsHiddenValuesInsideItsIntervals) {
       const double hidden = get_number(truth, value.key);
       inside += value.low <= hidden && hidden <= value.high;
       ++all;
-      EXPECT_NEAR(value.value, hidden, 5 * value.error) << value.key;
+      WITHIN_ERRORS(value.value, hidden, 5, value.error, errors.at(value.key)) << value.key;
     }
   }
-  EXPECT_GE(inside, all - 4);  // 95 % intervals: one of 18 outside expected
+  EXPECT_GE(inside, all - outside);
 }
+
+TEST(Refit, FindsHiddenValuesInsideItsIntervals) { expect_hidden_values_found(1, 1); }
+TEST(SlowRefit, FindsHiddenValuesInsideItsIntervals) { expect_hidden_values_found(6, 4); }
 
 /// Root mean square of error over floor, of the box and of the centre: chaos of two shapes has a skew
 /// distribution, whose median is less.
@@ -99,7 +105,7 @@ std::array<double, 2> times_floor_of(const std::vector<RunComparison>& runs) {
   return {std::sqrt(squares[0]), std::sqrt(squares[1])};
 }
 
-TEST(Refit, FloorIsWhatRecordingsOfTheModelItselfLeave) {
+TEST(SlowRefit, FloorIsWhatRecordingsOfTheModelItselfLeave) {
   const DampedOscillation engine;
   const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
   RefitOptions quick;
@@ -134,7 +140,7 @@ TEST(Refit, RejectsWhatRefittingCannotExplainAndAcceptsTheEffect) {
   knobs.push_back({"blade_viscous_damping.damping", 0.05, 0.08, 0, 10, true});
   const Refit fit = refit(measured, knobs, workshop, {});
   EXPECT_GT(fit.p_value, 0.01);
-  EXPECT_NEAR(fit.values.back().value, 0.1, 5 * fit.values.back().error);
+  WITHIN_ERRORS(fit.values.back().value, 0.1, 5, fit.values.back().error, 1.2e-4);
 }
 
 TEST(FitRound, TellsHowFarItsEmulatorsNoiseMovesTheMinimum) {
@@ -208,18 +214,24 @@ TEST(Refit, SimulationsAtTheSolutionJudgeItAndWhatPromisedTooMuchLooksAgain) {
   const TwoFits fits(step, truth);
   const Refit at_promised = fits.simulated_at(fits.promised),
               at_confirmed = fits.simulated_at(fits.confirmed);
-  // seen: 0.017
-  EXPECT_NEAR(fits.confirmed.error_box(), at_confirmed.error_box(), 0.05 * at_confirmed.error_box());
+  WITHIN(fits.confirmed.error_box() / at_confirmed.error_box(), 1, 0.05, 0.014);
   // the emulator promised far too much; seen: 190
   EXPECT_GT(at_promised.scatter, 20 * fits.promised.scatter);
   EXPECT_LT(at_confirmed.scatter, 0.2 * at_promised.scatter);  // nearer boxes found better; seen: 0.02
-  EXPECT_NEAR(fits.confirmed.values[0].value, truth, 0.005);   // seen: 4e-4
+  WITHIN(fits.confirmed.values[0].value, truth, 0.005, 4.1e-4);
+}
+
+/// Where a parabola over a part of the box follows.
+constexpr double truth_of_curve = 0.85;
+const TwoFits& fits_of_curve() {
+  static const Bent curve(0.75, 0.12);
+  static const TwoFits fits(curve, truth_of_curve);
+  return fits;
 }
 
 TEST(Refit, SimulationsAtTheSolutionMoveItToTheMinimum) {
-  const Bent curve(0.75, 0.12);
-  const double truth = 0.85;
-  const TwoFits fits(curve, truth);
+  const TwoFits& fits = fits_of_curve();
+  const double truth = truth_of_curve;
   const double before = std::abs(fits.promised.values[0].value - truth),
                after = std::abs(fits.confirmed.values[0].value - truth);
   EXPECT_LT(after, 0.2 * before);  // seen: 0.015
@@ -227,8 +239,7 @@ TEST(Refit, SimulationsAtTheSolutionMoveItToTheMinimum) {
 }
 
 TEST(Refit, KeepsWhatSimulationsAtItsSolutionTold) {
-  const Bent curve(0.75, 0.12);
-  const TwoFits fits(curve, 0.85);
+  const TwoFits& fits = fits_of_curve();
   const Refit& fit = fits.confirmed;
   EXPECT_TRUE(fits.promised.at_solution.empty());
   ASSERT_EQ(fit.at_solution.size(), fits.measured.size());
@@ -242,8 +253,7 @@ TEST(Refit, KeepsWhatSimulationsAtItsSolutionTold) {
 }
 
 TEST(Refit, LooksBesideADoubtfulFitAndKeepsTheBetter) {
-  const Bent curve(0.75, 0.12);
-  const TwoFits fits(curve, 0.85);
+  const TwoFits& fits = fits_of_curve();
   RefitOptions options = fits.confirming;
   options.first_run = 70000;
   options.most_looks = 2;

@@ -8,6 +8,7 @@
 
 #include "random.hpp"
 #include "signature.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -48,15 +49,15 @@ TEST(Signature, OfAnExactLineIsTheClosedForm) {
   const Signature signature({{1.0, line, 0}}, {residual, 0}, true);
   const double b = line.dot(residual), a = line.squaredNorm();
   for (const double s : {-0.4, 0.3, 0.7, 1.5})  // seen: 1e-13
-    EXPECT_NEAR(signature.log_likelihood(s), s * b - s * s * a / 2, 1e-11);
+    WITHIN(signature.log_likelihood(s), s * b - s * s * a / 2, 1e-12, 5.7e-14);
   const StrengthPosterior found = posterior_of(signature, {0.5, -2, 2});
-  EXPECT_NEAR(found.strength, b / a, 2e-3);  // a step of the sum there; seen: 4e-4
-  EXPECT_NEAR(found.error, 1 / std::sqrt(a), 1e-4);
-  EXPECT_NEAR(found.gain, b * b / a, 1e-2);
+  WITHIN(found.strength, b / a, 1e-3, 8.1e-5);  // a step of the sum there; seen: 4e-4
+  WITHIN(found.error, 1 / std::sqrt(a), 2e-16, 1.4e-17);
+  WITHIN(found.gain, b * b / a, 5e-5, 2.6e-6);
   // Laplace, the prior being wide: the largest likelihood times the share of the prior under it.
   const double share = std::sqrt(2 * std::numbers::pi / a) / (std::numbers::pi * 0.5) /
                        (1 + std::pow(b / a / 0.5, 2)) / (2 / std::numbers::pi * std::atan(4.0));
-  EXPECT_NEAR(found.log_evidence, b * b / a / 2 + std::log(share), 0.02);
+  WITHIN(found.log_evidence, b * b / a / 2 + std::log(share), 0.02, 5.5e-3);
 }
 
 TEST(Signature, IsAParabolaThroughItsLevels) {
@@ -89,7 +90,7 @@ TEST(Signature, FindsAStrengthThatNoLineAboutNothingShows) {
   const Signature signature(simulated({0.5, 1, 2}, 32, 40, change, nothing), {residual, features / 96.0});
   const StrengthPosterior found = posterior_of(signature, {1, 0, 3});
   EXPECT_GT(found.log_evidence, 100);
-  EXPECT_NEAR(found.strength, 1.2, 0.06);  // seen: 0.016
+  WITHIN(found.strength, 1.2, 0.06, 0.019);
 }
 
 // Of many null experiments ln evidence is below zero on average, and large by no more than chance allows: the
@@ -122,14 +123,14 @@ TEST(PairSignature, IsTheSumOfItsParts) {
     for (const double y : {0.0, 0.7}) {
       const Eigen::VectorXd sum = x * first + y * second;
       // seen: 3e-14
-      EXPECT_NEAR(both.log_likelihood(x, y), sum.dot(residual) - sum.squaredNorm() / 2, 5e-13);
+      WITHIN(both.log_likelihood(x, y), sum.dot(residual) - sum.squaredNorm() / 2, 5e-13, 4.1e-14);
     }
-  EXPECT_NEAR(both.log_likelihood(0.4, 0), one.log_likelihood(0.4), 1e-13);  // seen: 0
+  WITHIN(both.log_likelihood(0.4, 0), one.log_likelihood(0.4), 1e-13, 2.2e-14);
   // Each alone takes up what both share; together each has its own.
   const StrengthPrior prior{0.5, 0, 4};
   const PairPosterior found = posterior_of(one, prior, other, prior);
-  EXPECT_NEAR(found.first, 0.8, 0.2);   // three standard errors; seen: 0.04
-  EXPECT_NEAR(found.second, 0.6, 0.2);  // seen: 0.02
+  WITHIN(found.first, 0.8, 0.2, 0.067);  // standard error
+  WITHIN(found.second, 0.6, 0.2, 0.067);
   EXPECT_GT(posterior_of(one, prior).strength, 1);
   EXPECT_GT(found.log_evidence, posterior_of(one, prior).log_evidence + 10);
 }
@@ -155,7 +156,7 @@ TEST(PairSignature, TakesOffTheNoiseThatBothShareOnce) {
         other(simulated({1}, runs, 5000 + 10 * seed, none, error), without);
     sum += PairSignature(one, other).log_likelihood(1, 1);
   }
-  EXPECT_NEAR(sum / cases, 0, 1);  // seen: 0.06
+  WITHIN(sum / cases, 0, 1, 0.056);
 }
 
 TEST(Signature, WhatIsNoNumberIsNoEvidence) {
@@ -171,6 +172,7 @@ TEST(Signature, TheShareSeenIsThatOfTheSquareWithoutNoise) {
   const Signature signature({{1.0, line, nu}}, {0.5 * line, 0}, false);
   const double square = line.squaredNorm() - nu;
   // As long as the residual leaves less than one a feature, straight: the same at every strength.
-  for (const double s : {0.2, 1.0, 1.7}) EXPECT_NEAR(signature.share_seen(s), square / (square + nu), 1e-12);
+  for (const double s : {0.2, 1.0, 1.7})
+    WITHIN(signature.share_seen(s), square / (square + nu), 2e-15, 1.2e-16);
   EXPECT_EQ(Signature({{1.0, line, 200}}, {line, 0}).share_seen(1), 0);
 }

@@ -13,6 +13,7 @@
 #include "force_likeness.hpp"
 #include "force_shapes.hpp"
 #include "signal_law.hpp"
+#include "within.hpp"
 
 using namespace shakedown;
 
@@ -170,7 +171,7 @@ TEST(BlindCases, HideWhatTheirKindSays) {
     EXPECT_EQ(one.twin.empty(), one.kind != BlindKind::twins);
   }
   EXPECT_EQ(singles.size(), singles_of_the_list());
-  EXPECT_NEAR(as_believed / double(with_any), 0.25, 4 * std::sqrt(0.25 * 0.75 / with_any));
+  WITHIN_ERRORS(as_believed / double(with_any), 0.25, 4, std::sqrt(0.25 * 0.75 / with_any), 0.026);
 }
 
 TEST(BlindCases, DampersAreEachAnotherOneThatTheModelRuns) {
@@ -248,7 +249,7 @@ TEST(BlindCases, AreAtTheSignalsOfTheDesign) {
   for (const BlindCase& one : draw_cases({}, {0, 0, 30, 0, 0, 0, 0}, design, viscous, 1, all_effects())) {
     if (one.ids.at(0) != "blade_viscous_damping") continue;
     ++met;
-    EXPECT_NEAR(one.signal_to_noise, 9, 1e-12);
+    WITHIN(one.signal_to_noise, 9, 4e-14, 2e-15);
   }
   EXPECT_EQ(met, 2);
 }
@@ -277,10 +278,10 @@ TEST(BlindCases, AreThoseThatTheLaboratoryCanMake) {
 
 TEST(SignalLaw, IsAPowerOfTheStrengthAndOfTheBalanceAloneInverseToTheNoise) {
   const SignalLaw contact{3, 18, 2, false}, force{0.1, 20, 1, true};
-  EXPECT_NEAR(contact.signal_at(1.5, 2), 4.5, 1e-12);
-  EXPECT_NEAR(contact.strength_for(4.5, 2), 1.5, 1e-12);
-  EXPECT_NEAR(force.signal_at(0.2, 2), 20, 1e-12);
-  EXPECT_NEAR(force.strength_for(20, 2), 0.2, 1e-12);
+  WITHIN(contact.signal_at(1.5, 2), 4.5, 2e-14, 1e-15);
+  WITHIN(contact.strength_for(4.5, 2), 1.5, 6e-15, 3.4e-16);
+  WITHIN(force.signal_at(0.2, 2), 20, 9e-14, 4.5e-15);
+  WITHIN(force.strength_for(20, 2), 0.2, 9e-16, 4.5e-17);
 }
 
 TEST(SignalLaw, NoiseCountsWithTheMassesThatTheBalanceMultipliesItBy) {
@@ -288,18 +289,18 @@ TEST(SignalLaw, NoiseCountsWithTheMassesThatTheBalanceMultipliesItBy) {
   RecordingSettings camera;
   EXPECT_DOUBLE_EQ(relative_noise(camera, setup), 1);
   camera.box_noise *= 3, camera.centre_noise *= 3;
-  EXPECT_NEAR(relative_noise(camera, setup), 3, 1e-12);
+  WITHIN(relative_noise(camera, setup), 3, 1e-14, 6.7e-16);
   camera.centre = false;
   // 3 M s_b / hypot(M s_b, N m s_c) with M = 434 g, N m = 149.48 g, s_b = .2 mm, s_c = .5 mm
-  EXPECT_NEAR(relative_noise(camera, setup), 3 * 86.8 / std::hypot(86.8, 74.74), 1e-6);
+  WITHIN(relative_noise(camera, setup), 3 * 86.8 / std::hypot(86.8, 74.74), 1e-14, 5.1e-16);
 }
 
 TEST(BlindCases, StrengthsGiveTheSignalOfTheTable) {
   for (const BlindCase& one : drawn()) {
     if (one.kind != BlindKind::single || one.ids[0] != "blade_viscous_damping") continue;
     // Typical strength (0.05 N s/m) has a signal of 20 in this table.
-    EXPECT_NEAR(get_number(one.trial.hidden.truth, "blade_viscous_damping.damping"),
-                0.05 * one.signal_to_noise / 20, 1e-12);
+    WITHIN(get_number(one.trial.hidden.truth, "blade_viscous_damping.damping"),
+           0.05 * one.signal_to_noise / 20, 4e-16, 2e-17);
   }
 }
 
@@ -331,10 +332,10 @@ TEST(ForceLikeness, IsThatOfTheShapeWithoutItsLinearPart) {
   }
   const auto force = [&](const char* formula) { return force_along(formula, {{"c", 2.0}}, motion); };
   const std::vector<double> cubic = force("-c*x^3");
-  EXPECT_NEAR(force_likeness(cubic, force("c*x^3+5*x"), motion.x_box), 1, 1e-9);
+  WITHIN(force_likeness(cubic, force("c*x^3+5*x"), motion.x_box), 1, 9e-15, 4.5e-16);
   EXPECT_LT(force_likeness(cubic, force("-c*v"), motion.x_box), 0.05);
   // One is even about a turning point, the other odd.
   EXPECT_LT(force_likeness(cubic, force("-c*v^3"), motion.x_box), 0.05);
   // v and v^3 share 3/4 of the fundamental: cos = (3/4) / sqrt(5/8) = 0.9487.
-  EXPECT_NEAR(force_likeness(force("c*v"), force("c*v^3"), motion.x_box), 0.75 / std::sqrt(0.625), 5e-3);
+  WITHIN(force_likeness(force("c*v"), force("c*v^3"), motion.x_box), 0.75 / std::sqrt(0.625), 5e-3, 6.9e-4);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a judge can reach who knows everything but what is hidden.
 #include "ideal_judge.hpp"
+#include "within.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +18,8 @@ constexpr int draws = 2000;
 TEST(IdealJudge, WhatLeavesNoTraceKeepsItsPrior) {
   // Three effects that nobody can see: nothing keeps one half, each a sixth.
   const std::vector<std::vector<double>> none(3, std::vector<double>(3, 0.0));
-  EXPECT_NEAR(ideal_log_score(none, {}, 0, 10, 1), std::log(2), 0.01);
-  EXPECT_NEAR(ideal_log_score(none, 1, 1, 10, 1), std::log(6), 0.01);
+  WITHIN(ideal_log_score(none, {}, 0, 10, 1), std::log(2), 9e-7, 4.7e-8);
+  WITHIN(ideal_log_score(none, 1, 1, 10, 1), std::log(6), 1e-6, 5.8e-8);
 }
 
 TEST(IdealJudge, AStrongTraceIsNamedAndAWeakOneIsNot) {
@@ -35,7 +36,7 @@ TEST(IdealJudge, AStrongTraceIsNamedAndAWeakOneIsNot) {
 
 TEST(IdealJudge, TwoThatLookAlikeShareTheProbability) {
   const std::vector<std::vector<double>> alike{{100, 100}, {100, 100}};
-  EXPECT_NEAR(ideal_log_score(alike, 0, 1, draws, 1), std::log(2), 0.05);
+  WITHIN(ideal_log_score(alike, 0, 1, draws, 1), std::log(2), 4e-6, 2.5e-7);
 }
 
 TEST(IdealJudge, ItsProbabilitiesAreHonest) {
