@@ -51,6 +51,26 @@ int threads_of(const BlindSuiteArguments& arguments, const JobShare& share) {
   return share.of > 1 && share.source != "--shard" ? 1 : 0;
 }
 
+BlindSuiteOptions options_of(const BlindSuiteArguments& arguments, const JobShare& share) {
+  BlindSuiteOptions options;
+  options.counts = !arguments.cases.empty() ? parse_counts(arguments.cases)
+                   : arguments.small        ? small_counts
+                   : arguments.full         ? full_counts
+                                            : lunch_counts;
+  options.share = share;
+  options.small = arguments.small;
+  options.fault = arguments.mutation;
+  options.signals = arguments.signals;
+  options.variant = arguments.variant;
+  options.seed = arguments.seed;
+  options.baselines = arguments.baselines;
+  options.resume = arguments.resume;
+  options.strengths = arguments.strengths;
+  options.ledger = arguments.ledger;
+  options.told = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  return options;
+}
+
 int blind_suite(const BlindSuiteArguments& arguments) {
   if (arguments.score_only) expect_suite(arguments.out);
   const JobShare share =
@@ -69,22 +89,7 @@ int blind_suite(const BlindSuiteArguments& arguments) {
                    .strength_uncertainty = &strength_uncertainty,
                    .ensembles = &ensembles};
   const FaultyParts faulty(arguments.mutation, believed, tools);
-  BlindSuiteOptions options;
-  options.counts = !arguments.cases.empty() ? parse_counts(arguments.cases)
-                   : arguments.small        ? small_counts
-                   : arguments.full         ? full_counts
-                                            : lunch_counts;
-  options.share = share;
-  options.small = arguments.small;
-  options.fault = arguments.mutation;
-  options.signals = arguments.signals;
-  options.variant = arguments.variant;
-  options.seed = arguments.seed;
-  options.baselines = arguments.baselines;
-  options.resume = arguments.resume;
-  options.strengths = arguments.strengths;
-  options.ledger = arguments.ledger;
-  options.told = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  const BlindSuiteOptions options = options_of(arguments, share);
   bool interrupted = false;
   if (!arguments.score_only) {
     try {
@@ -114,6 +119,41 @@ int blind_suite(const BlindSuiteArguments& arguments) {
   return interrupted ? exit_interrupted : exit_done;
 }
 
+/// What is hidden, and what the diagnosis has to bear.
+void add_design_options(CLI::App& command, BlindSuiteArguments& a) {
+  command
+      .add_option(
+          "--signals", a.signals,
+          "signal to noise of what is hidden, in turn; default: log-uniform from 2 to 40 (--small: 25)")
+      ->delimiter(',')
+      ->check(CLI::Range(0.1, 1000.0))
+      ->type_name("RATIO,...");
+  command.add_flag("--full", a.full,
+                   "all 464: nulls=60,parameters=60,singles=120,camera=30,pairs=30,unlisted=24,twins=20,"
+                   "films=60,dampers=60; some four hours of two cores");
+  command.add_flag("--small", a.small, "a few cases, two short runs each, strong signals");
+  command
+      .add_option(
+          "--variant", a.variant,
+          "a worse experiment: one-repeat, two-lengths, half-duration, 250fps, missing, outliers, no-centre")
+      ->type_name("NAME");
+  command.add_flag(
+      "--baselines", a.baselines,
+      "ask simpler methods the same: smallest error, Akaike's criterion with white noise, one seed");
+  command
+      .add_option("--mutation", a.mutation,
+                  "a faulty part given to the diagnosis, to see which figures notice: no-refit, no-centre, "
+                  "wrong-sign, smoothed")
+      ->check(CLI::IsMember(std::vector<std::string>(fault_names.begin(), fault_names.end())))
+      ->type_name("NAME");
+  command
+      .add_option(
+          "--shard", a.shard,
+          "answer the i-th of n shares only; without it the launcher's environment says (mpirun, srun, "
+          "job arrays). Processes share the folder")
+      ->type_name("i/n");
+}
+
 }  // namespace
 
 Command add_blind_suite_command(CLI::App& program) {
@@ -130,37 +170,7 @@ Command add_blind_suite_command(CLI::App& program) {
                   "how many of each kind: "
                   "nulls=8,parameters=8,singles=20,camera=6,pairs=6,unlisted=6,films=12,dampers=12")
       ->type_name("KIND=N,...");
-  command
-      .add_option(
-          "--signals", a->signals,
-          "signal to noise of what is hidden, in turn; default: log-uniform from 2 to 40 (--small: 25)")
-      ->delimiter(',')
-      ->check(CLI::Range(0.1, 1000.0))
-      ->type_name("RATIO,...");
-  command.add_flag("--full", a->full,
-                   "all 464: nulls=60,parameters=60,singles=120,camera=30,pairs=30,unlisted=24,twins=20,"
-                   "films=60,dampers=60; some four hours of two cores");
-  command.add_flag("--small", a->small, "a few cases, two short runs each, strong signals");
-  command
-      .add_option(
-          "--variant", a->variant,
-          "a worse experiment: one-repeat, two-lengths, half-duration, 250fps, missing, outliers, no-centre")
-      ->type_name("NAME");
-  command.add_flag(
-      "--baselines", a->baselines,
-      "ask simpler methods the same: smallest error, Akaike's criterion with white noise, one seed");
-  command
-      .add_option("--mutation", a->mutation,
-                  "a faulty part given to the diagnosis, to see which figures notice: no-refit, no-centre, "
-                  "wrong-sign, smoothed")
-      ->check(CLI::IsMember(std::vector<std::string>(fault_names.begin(), fault_names.end())))
-      ->type_name("NAME");
-  command
-      .add_option(
-          "--shard", a->shard,
-          "answer the i-th of n shares only; without it the launcher's environment says (mpirun, srun, "
-          "job arrays). Processes share the folder")
-      ->type_name("i/n");
+  add_design_options(command, *a);
   command.add_flag("--resume", a->resume, "go on where an interrupted suite stopped");
   command.add_flag(
       "--ideal", a->ideal,

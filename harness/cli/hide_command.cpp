@@ -177,6 +177,20 @@ void add_map_options(CLI::App& command, MapArguments& map) {
   command.get_option("--report")->needs(asked);
 }
 
+void add_power_options(CLI::App& command, HideArguments& a) {
+  command.add_flag(
+      "--power", a.power,
+      "write nothing; repeat measurement and diagnosis: how often is the effect seen, how often named?");
+  command.add_option("--repeats", a.repeats, "with --power")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command
+      .add_option("--budget", a.budget,
+                  "with --power: simulations of one diagnosis at most; default: as `shakedown diagnose`")
+      ->check(positive_number())
+      ->type_name("RUNS");
+}
+
 }  // namespace
 
 Command add_hide_command(CLI::App& program) {
@@ -229,17 +243,7 @@ Command add_hide_command(CLI::App& program) {
   add_seed_option(command, a->question.seed, "of initial states and noise");
   add_strict_option(command, a->strict);
   add_threads_option(command, a->question.threads);
-  command.add_flag(
-      "--power", a->power,
-      "write nothing; repeat measurement and diagnosis: how often is the effect seen, how often named?");
-  command.add_option("--repeats", a->repeats, "with --power")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command
-      .add_option("--budget", a->budget,
-                  "with --power: simulations of one diagnosis at most; default: as `shakedown diagnose`")
-      ->check(positive_number())
-      ->type_name("RUNS");
+  add_power_options(command, *a);
   add_map_options(command, a->map);
   add_json_option(command, a->json);
   return {&command, [a] { return hide_or_measure_power(*a); }};

@@ -90,40 +90,58 @@ Json forced_json(const std::vector<DecayComparison>& runs) {
   return list;
 }
 
+Json parameters_json(const std::vector<DiagnosedParameter>& parameters) {
+  Json all = Json::object();
+  for (const DiagnosedParameter& p : parameters)
+    all[p.name] = p.word.empty() ? Json{{"value", number(p.value)},
+                                        {"low", number(p.low)},
+                                        {"high", number(p.high)},
+                                        {"unit", p.unit}}
+                                 : Json{{"value", p.word}, {"low", nullptr}, {"high", nullptr}, {"unit", ""}};
+  return all;
+}
+
+Json ranking_json(const std::vector<RankedEffect>& ranking) {
+  Json list = Json::array();
+  for (const RankedEffect& r : ranking)
+    list.push_back({{"effect", r.effect},
+                    {"gain", number(r.gain)},
+                    {"held_out_gain", number(r.held_out_gain)},
+                    {"standard_error", number(r.standard_error)},
+                    {"value", number(r.value)},
+                    {"look_alikes", r.look_alikes}});
+  return list;
+}
+
+Json steps_json(const std::vector<LadderStep>& ladder) {
+  Json list = Json::array();
+  for (const LadderStep& s : ladder)
+    list.push_back({{"step", s.step},
+                    {"error_box_mm", number(s.error_box * 1e3)},
+                    {"error_com_mm", number(s.error_centre * 1e3)},
+                    {"held_out_error_box_mm", number(s.held_out_error_box * 1e3)},
+                    {"p_value", number(s.p_value)},
+                    {"scatter", number(s.scatter)}});
+  return list;
+}
+
+Json failures_json(const std::vector<FailureCell>& where) {
+  Json list = Json::array();
+  for (const FailureCell& c : where)
+    list.push_back({{"run", c.run.empty() ? Json(nullptr) : Json(c.run)},
+                    {"observable", c.observable},
+                    {"what", c.what},
+                    {"from_s", c.from},
+                    {"to_s", c.to},
+                    {"error_mm", number(c.error * 1e3)},
+                    {"sigmas", number(c.sigmas)},
+                    {"p_value", number(c.p_value)}});
+  return list;
+}
+
 }  // namespace
 
 std::string diagnosis_json(const Diagnosis& d) {
-  Json parameters = Json::object(), ranking = Json::array(), ladder = Json::array(), where = Json::array();
-  for (const DiagnosedParameter& p : d.parameters)
-    parameters[p.name] = p.word.empty()
-                             ? Json{{"value", number(p.value)},
-                                    {"low", number(p.low)},
-                                    {"high", number(p.high)},
-                                    {"unit", p.unit}}
-                             : Json{{"value", p.word}, {"low", nullptr}, {"high", nullptr}, {"unit", ""}};
-  for (const RankedEffect& r : d.ranking)
-    ranking.push_back({{"effect", r.effect},
-                       {"gain", number(r.gain)},
-                       {"held_out_gain", number(r.held_out_gain)},
-                       {"standard_error", number(r.standard_error)},
-                       {"value", number(r.value)},
-                       {"look_alikes", r.look_alikes}});
-  for (const LadderStep& s : d.ladder)
-    ladder.push_back({{"step", s.step},
-                      {"error_box_mm", number(s.error_box * 1e3)},
-                      {"error_com_mm", number(s.error_centre * 1e3)},
-                      {"held_out_error_box_mm", number(s.held_out_error_box * 1e3)},
-                      {"p_value", number(s.p_value)},
-                      {"scatter", number(s.scatter)}});
-  for (const FailureCell& c : d.where)
-    where.push_back({{"run", c.run.empty() ? Json(nullptr) : Json(c.run)},
-                     {"observable", c.observable},
-                     {"what", c.what},
-                     {"from_s", c.from},
-                     {"to_s", c.to},
-                     {"error_mm", number(c.error * 1e3)},
-                     {"sigmas", number(c.sigmas)},
-                     {"p_value", number(c.p_value)}});
   const LadderStep last = d.ladder.empty() ? LadderStep{} : d.ladder.back();
   Json all{{"schema_version", 2},
            {"engine", d.engine},
@@ -139,12 +157,12 @@ std::string diagnosis_json(const Diagnosis& d) {
            {"forced", forced_json(d.forced)},
            {"explained", number(d.explained)},
            {"camera", camera_json(d.camera)},
-           {"parameters", parameters},
-           {"ranking", ranking},
-           {"ladder", ladder},
+           {"parameters", parameters_json(d.parameters)},
+           {"ranking", ranking_json(d.ranking)},
+           {"ladder", steps_json(d.ladder)},
            {"noise_floor",
             {{"box_mm", number(last.floor_box * 1e3)}, {"com_mm", number(last.floor_centre * 1e3)}}},
-           {"where", where},
+           {"where", failures_json(d.where)},
            {"momentum", momentum_json(d.momentum)},
            {"curves", d.last_fit ? curves_json(*d.last_fit) : Json::array()},
            {"force_formula", d.force_formula.empty() ? Json(nullptr) : Json(d.force_formula)},

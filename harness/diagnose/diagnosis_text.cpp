@@ -43,6 +43,25 @@ std::string camera_text(const Diagnosis& d) {
 /// "-" where nothing was measured.
 std::string in_mm(double metres) { return std::isfinite(metres) ? fmt::format("{:.3f}", metres * 1e3) : "-"; }
 
+std::string suspects_text(const std::vector<RankedEffect>& ranking) {
+  constexpr std::size_t most_told = 12;
+  std::string text = ranking.empty()
+                         ? ""
+                         : "\n  suspects                                 gain  held-out gain   look-alikes\n";
+  for (std::size_t i = 0; i < ranking.size() && i < most_told; ++i) {
+    const RankedEffect& r = ranking[i];
+    std::string alike;
+    for (const std::string& name : r.look_alikes) alike += (alike.empty() ? "" : ", ") + name;
+    text += fmt::format("    {:<34} {:>10.1f} {:>14} {}\n", r.effect, r.gain,
+                        std::isfinite(r.held_out_gain) ? fmt::format("{:.1f}", r.held_out_gain)
+                        : r.by_balance                 ? "(balance)"
+                        : r.fitted                     ? "-"
+                                                       : "(signature)",
+                        alike);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string diagnosis_text(const Diagnosis& d) {
@@ -78,21 +97,7 @@ std::string diagnosis_text(const Diagnosis& d) {
         d.momentum.as_given.chi2_per_degree(), d.momentum.final_fit.chi2_per_degree());
   else
     text += "\n  momentum balance: not possible (" + d.momentum.why_not + ")\n";
-  if (!d.ranking.empty()) {
-    text += "\n  suspects                                 gain  held-out gain   look-alikes\n";
-    constexpr std::size_t most_told = 12;
-    for (std::size_t i = 0; i < d.ranking.size() && i < most_told; ++i) {
-      const RankedEffect& r = d.ranking[i];
-      std::string alike;
-      for (const std::string& name : r.look_alikes) alike += (alike.empty() ? "" : ", ") + name;
-      text += fmt::format("    {:<34} {:>10.1f} {:>14} {}\n", r.effect, r.gain,
-                          std::isfinite(r.held_out_gain) ? fmt::format("{:.1f}", r.held_out_gain)
-                          : r.by_balance                 ? "(balance)"
-                          : r.fitted                     ? "-"
-                                                         : "(signature)",
-                          alike);
-    }
-  }
+  text += suspects_text(d.ranking);
   if (!d.where.empty()) {
     text += "\n  where it fails\n";
     for (const FailureCell& c : d.where) text += line_of(c);

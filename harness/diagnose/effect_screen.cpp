@@ -82,38 +82,59 @@ std::vector<ScreenedPair> EffectScreen::pairs(const std::vector<Candidate>& cand
   return list;
 }
 
+struct EffectScreen::Weighed {
+  ScreenedEffect effect;
+  Looked looked;
+  Eigen::VectorXd change{};  ///< at the strength found
+};
+
+void EffectScreen::weigh_again(const Candidate& candidate, Weighed& one) {
+  const Signature signature = simulations_->signature_of(one.looked);
+  weigh_by(signature, candidate, one.effect);
+  if (!one.looked.exact) signatures_.insert_or_assign(one.effect.candidate, signature);
+  one.change = signature.change(candidate.strength_of(one.effect.value));
+}
+
+bool EffectScreen::may_be_missing(const ScreenedEffect& effect, double best) const {
+  return is_left_open(effect, best, static_cast<double>(known_));
+}
+
+bool EffectScreen::glance(const Candidate& candidate, Weighed& one) {
+  simulations_->look_at_the_middle(candidate, effort_.glance, one.looked);
+  if (!one.looked.levels.empty()) weigh_again(candidate, one);
+  // Beside nothing alone, while the best one is not known.
+  if (!one.looked.whole && (one.looked.levels.empty() || may_be_missing(one.effect, 0))) {
+    simulations_->look(candidate, effort_.glance, one.looked);
+    if (!one.looked.levels.empty()) weigh_again(candidate, one);
+  }
+  return !one.looked.levels.empty();
+}
+
+void EffectScreen::look_closer(const std::vector<Candidate>& candidates, std::vector<Weighed>& list) {
+  std::stable_sort(list.begin(), list.end(), [](const Weighed& a, const Weighed& b) {
+    return a.effect.log_evidence > b.effect.log_evidence;
+  });
+  double most = 0;
+  for (const Weighed& one : list)
+    if (one.effect.weighed) most = std::max(most, one.effect.log_evidence);
+  for (Weighed& one : list)
+    if (one.looked.whole && may_be_missing(one.effect, most)) {
+      const Candidate& candidate = candidates[one.effect.candidate];
+      simulations_->look(candidate, effort_.look, one.looked);
+      weigh_again(candidate, one);
+    }
+}
+
 Screening EffectScreen::weigh(const std::vector<Candidate>& candidates) {
   signatures_.clear();
-  struct Weighed {
-    ScreenedEffect effect;
-    Looked looked;
-    Eigen::VectorXd change{};  ///< at the strength found
-  };
   std::vector<Weighed> list;
   Screening screening;
-  const auto weigh_again = [&](Weighed& one) {
-    const Candidate& candidate = candidates[one.effect.candidate];
-    const Signature signature = simulations_->signature_of(one.looked);
-    weigh_by(signature, candidate, one.effect);
-    if (!one.looked.exact) signatures_.insert_or_assign(one.effect.candidate, signature);
-    one.change = signature.change(candidate.strength_of(one.effect.value));
-  };
-  // Beside nothing alone, while the best one is not known.
-  const auto is_open = [&](const ScreenedEffect& effect) {
-    return is_left_open(effect, 0, static_cast<double>(known_));
-  };
   bool spent = false;
   for (const std::size_t c : by_odds_for_cost(candidates)) {
     const Candidate& candidate = candidates[c];
     Weighed one{{c, candidate.effect, 0, candidate.levels.front().value, 0, candidate.prior}, {}};
     if (!spent) try {
-        simulations_->look_at_the_middle(candidate, effort_.glance, one.looked);
-        if (!one.looked.levels.empty()) weigh_again(one);
-        if (!one.looked.whole && (one.looked.levels.empty() || is_open(one.effect))) {
-          simulations_->look(candidate, effort_.glance, one.looked);
-          if (!one.looked.levels.empty()) weigh_again(one);
-        }
-        if (one.looked.levels.empty()) {
+        if (!glance(candidate, one)) {
           screening.left_out.push_back({candidate.effect, one.looked.reason});
           continue;
         }
@@ -122,20 +143,10 @@ Screening EffectScreen::weigh(const std::vector<Candidate>& candidates) {
       }
     list.push_back(std::move(one));
   }
-  std::stable_sort(list.begin(), list.end(), [](const Weighed& a, const Weighed& b) {
-    return a.effect.log_evidence > b.effect.log_evidence;
-  });
-  double most = 0;
-  for (const Weighed& one : list)
-    if (one.effect.weighed) most = std::max(most, one.effect.log_evidence);
-  try {
-    for (Weighed& one : list)
-      if (!spent && one.looked.whole && is_left_open(one.effect, most, static_cast<double>(known_))) {
-        simulations_->look(candidates[one.effect.candidate], effort_.look, one.looked);
-        weigh_again(one);
-      }
-  } catch (const BudgetSpent&) {  // a glance has to do
-  }
+  if (!spent) try {
+      look_closer(candidates, list);
+    } catch (const BudgetSpent&) {  // a glance has to do
+    }
   std::stable_sort(list.begin(), list.end(),
                    [](const Weighed& a, const Weighed& b) { return a.effect.gain > b.effect.gain; });
   std::vector<Eigen::VectorXd> changes;

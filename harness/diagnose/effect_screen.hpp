@@ -89,6 +89,14 @@ class EffectScreen {
                               int count);
 
  private:
+  struct Weighed;
+  void weigh_again(const Candidate& candidate, Weighed& one);
+  /// False: it cannot be simulated here.
+  bool glance(const Candidate& candidate, Weighed& one);
+  bool may_be_missing(const ScreenedEffect& effect, double best) const;
+  /// Those worth more simulations than a glance, best first.
+  void look_closer(const std::vector<Candidate>& candidates, std::vector<Weighed>& list);
+
   std::unique_ptr<ScreenSimulations> simulations_;
   std::map<std::size_t, Signature> signatures_;  ///< of candidates that were simulated, by index
   ScreenEffort effort_;

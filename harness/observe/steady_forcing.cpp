@@ -108,6 +108,23 @@ Setup long_enough_for_forcing(const Setup& setup) {
   return changed;
 }
 
+namespace {
+
+/// Half the way from the lowest to the highest place of each of the last cycles, of `cycle` samples from
+/// sample `begin` on.
+Statistic amplitude_of_cycles(const std::vector<double>& x, double begin, double cycle) {
+  std::vector<double> amplitudes;
+  for (int c = 0; c < steady_cycles; ++c) {
+    const auto from = x.begin() + static_cast<std::ptrdiff_t>(begin + c * cycle);
+    const auto to = x.begin() + static_cast<std::ptrdiff_t>(begin + (c + 1) * cycle) + 1;
+    const auto [lowest, highest] = std::minmax_element(from, to);
+    amplitudes.push_back((*highest - *lowest) / 2);
+  }
+  return statistic_of(amplitudes);
+}
+
+}  // namespace
+
 SteadyState steady_state(const Setup& setup, const Trajectory& trajectory) {
   const std::optional<SteadyForcing> forcing = steady_forcing_of(setup);
   EXPECT(forcing && trajectory.time.size() > 2);
@@ -124,14 +141,7 @@ SteadyState steady_state(const Setup& setup, const Trajectory& trajectory) {
            (grains > 0 ? grains * value_at(trajectory.x_com, place) : 0.0);
   };
 
-  std::vector<double> amplitudes;
-  for (int c = 0; c < steady_cycles; ++c) {
-    const auto from = trajectory.x_box.begin() + static_cast<std::ptrdiff_t>(begin + c * cycle);
-    const auto to = trajectory.x_box.begin() + static_cast<std::ptrdiff_t>(begin + (c + 1) * cycle) + 1;
-    const auto [lowest, highest] = std::minmax_element(from, to);
-    amplitudes.push_back((*highest - *lowest) / 2);
-  }
-  const Statistic amplitude = statistic_of(amplitudes);
+  const Statistic amplitude = amplitude_of_cycles(trajectory.x_box, begin, cycle);
   SteadyState state{amplitude.mean, amplitude.sd / amplitude.mean};
 
   using Complex = std::complex<double>;
@@ -169,9 +179,8 @@ SteadyState steady_state(const Setup& setup, const Trajectory& trajectory) {
       (boundary(end) - boundary(begin) -
        omega / rate *
            integral([&](double place) { return std::cos(angle(place)) * worked_on(place); }, begin, end));
-  const double growth = trajectory.total_energy.empty() ? 0
-                                                        : value_at(trajectory.total_energy, end) -
-                                                              value_at(trajectory.total_energy, begin);
+  const std::vector<double>& energy = trajectory.total_energy;
+  const double growth = energy.empty() ? 0 : value_at(energy, end) - value_at(energy, begin);
   state.loss_factor = (work - growth) / steady_cycles /
                       (full_turn * physics.stiffness * state.amplitude * state.amplitude / 2);
   return state;

@@ -76,12 +76,32 @@ void RunCurves::add(const Trajectory& t) {
   }
 }
 
+namespace {
+
+std::vector<ReportFact> facts_of_run(const Ensemble& ensemble, const Statistic& gone) {
+  const auto decay = ensemble.over_runs([](const RunResult& r) { return r.observables.slope; });
+  const auto frequency = ensemble.over_runs([](const RunResult& r) { return r.observables.frequency; });
+  std::vector<ReportFact> facts{
+      {"Fall of the peaks", plus_minus(decay, 1e3, "mm/s"), "straight line, t < 8 s", Tone::plain},
+      {"Frequency", plus_minus(frequency, 1, "Hz"), "first ten zero crossings", Tone::plain},
+      {"95 % of the energy gone", plus_minus(gone, 1, "s"), "", Tone::plain}};
+  const std::array<const char*, contact_classes> classes{"Lost between grains", "Lost at end walls",
+                                                         "Lost at side walls"};
+  for (std::size_t c = 0; c < contact_classes; ++c)
+    facts.push_back(
+        {classes[c],
+         plus_minus(ensemble.over_runs([c](const RunResult& r) { return r.observables.energy_loss[c]; }), 100,
+                    "%"),
+         "of the initial energy", Tone::plain});
+  return facts;
+}
+
+}  // namespace
+
 Report RunCurves::report(const Ensemble& ensemble, const Setup& setup, const std::string& name) const {
   Report report;
   report.kind = "run";
   report.title = name;
-  const auto decay = ensemble.over_runs([](const RunResult& r) { return r.observables.slope; });
-  const auto frequency = ensemble.over_runs([](const RunResult& r) { return r.observables.frequency; });
   const auto gone =
       ensemble.over_runs([](const RunResult& r) { return r.observables.seconds_to_energy_fraction[3]; });
   report.sentence = gone.n > 0
@@ -91,18 +111,7 @@ Report RunCurves::report(const Ensemble& ensemble, const Setup& setup, const std
                                       setup.box.length * 1e3, setup.run.duration);
   report.subtitle = fmt::format("Engine {}, {} run{}, seed {}.", ensemble.engine, ensemble.runs.size(),
                                 ensemble.runs.size() == 1 ? "" : "s", setup.run.seed);
-  report.facts = {
-      {"Fall of the peaks", plus_minus(decay, 1e3, "mm/s"), "straight line, t < 8 s", Tone::plain},
-      {"Frequency", plus_minus(frequency, 1, "Hz"), "first ten zero crossings", Tone::plain},
-      {"95 % of the energy gone", plus_minus(gone, 1, "s"), "", Tone::plain}};
-  const std::array<const char*, contact_classes> classes{"Lost between grains", "Lost at end walls",
-                                                         "Lost at side walls"};
-  for (std::size_t c = 0; c < contact_classes; ++c)
-    report.facts.push_back(
-        {classes[c],
-         plus_minus(ensemble.over_runs([c](const RunResult& r) { return r.observables.energy_loss[c]; }), 100,
-                    "%"),
-         "of the initial energy", Tone::plain});
+  report.facts = facts_of_run(ensemble, gone);
   const auto means = [&](std::size_t s) {
     std::vector<double> values;
     for (const RunningStatistic& running : statistics_[s]) values.push_back(running.statistic().mean);

@@ -151,6 +151,32 @@ std::vector<int> bare_comparisons(std::istream& source) {
   return found;
 }
 
+/// Lines from the brace that opens a function at the margin, or in a class at the margin, to the one that
+/// closes it; tables are no functions.
+struct LongFunction {
+  int line = 0, lines = 0;
+  std::string head;
+};
+std::vector<LongFunction> functions_of(const fs::path& file) {
+  static const std::regex head("(  )?[A-Za-z_~][^=;#]*\\)[^=;()]*\\{"),
+      no_function("\\s*(if|for|while|switch|else|try|namespace|TEST\\w*)\\b.*"),
+      table(".*\\b(table|force_shapes)\\(\\) \\{");
+  std::vector<LongFunction> found;
+  std::vector<std::string> lines;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!std::regex_match(lines[i], head) || std::regex_match(lines[i], no_function) ||
+        std::regex_match(lines[i], table))
+      continue;
+    const std::string end = lines[i].starts_with(' ') ? "  }" : "}";
+    std::size_t last = i + 1;
+    while (last < lines.size() && !lines[last].starts_with(end)) ++last;
+    found.push_back({static_cast<int>(i) + 1, static_cast<int>(last - i) + 1, lines[i]});
+  }
+  return found;
+}
+
 using Names = std::map<std::string, std::string>;  ///< with the line that gives each
 
 const std::regex type_named("(?:struct|class|enum class|enum|using|namespace) (\\w+).*");
@@ -318,6 +344,19 @@ TEST(Layering, EverySourceNamesItsLicence) {
       std::getline(stream, first);
       EXPECT_EQ(first, "// SPDX-License-Identifier: MIT") << file;
     }
+}
+
+TEST(Layering, NoFunctionIsLongerThanItIsReadAtOnce) {
+  constexpr int most = 60;
+  std::size_t seen = 0;
+  for (const Layer& layer : layers())
+    for (const fs::path& file : sources_of(layer.folder))
+      for (const LongFunction& one : functions_of(file)) {
+        ++seen;
+        EXPECT_LE(one.lines, most) << fs::relative(file, PROJECT_ROOT).string() << ":" << one.line << ": "
+                                   << one.head << " has a part that is worth a name";
+      }
+  EXPECT_GT(seen, 2000u);  // of some four thousand: it finds them
 }
 
 TEST(Layering, TestsCompareNumbersWithinWhatWasSeen) {
