@@ -95,14 +95,6 @@ class Forces(unittest.TestCase):
         with self.assertRaises(shakedown.InputError):
             setup.with_force(lambda x, v, t: "none")
 
-    def test_is_judged_as_a_part_of_the_model(self):
-        films = LEAF_SPRING / "experiment.toml"
-        rubbed = shakedown.Setup(LEAF_SPRING / "setup.toml").with_force(lambda x, v, t: -0.02 * v)
-        found = shakedown.diagnose(rubbed, films)
-        self.assertEqual(found.missing, ["clamp_dry_friction"])
-        self.assertTrue(found.page().startswith("<!doctype html>"))
-        self.assertEqual(found.setup.effects, ["user_force", "clamp_dry_friction"])
-
 
 class Runs(unittest.TestCase):
     def test_gives_the_numbers_of_the_command(self):
