@@ -75,7 +75,7 @@ class Forces(unittest.TestCase):
             lent.changed({"box.length": "65 mm"}).with_force(drag)
 
     def test_on_grains_by_soft_contacts(self):
-        short = {"run.duration": "0.2 s"}
+        short = {"run.duration": "0.01 s"}
         lent = shakedown.Setup(L040, set=short).with_force(lambda x, v, t: -0.02 * v, on="grains")
         formula = shakedown.Setup(L040, set={**short, "user_force.on": "grains", "user_force.force": "-0.02*v"})
         np.testing.assert_allclose(*(shakedown.run(setup, engine="soft").box for setup in (lent, formula)), atol=1e-12)
