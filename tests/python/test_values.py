@@ -57,7 +57,7 @@ class Forces(unittest.TestCase):
     """A force of Python beside the same force as a formula."""
 
     def test_moves_as_the_formula_does(self):
-        short = {"run.duration": "2 s", "grains.count": 0}
+        short = {"run.duration": "0.2 s", "grains.count": 0}
         formula = shakedown.Setup(L040, set={**short, "user_force.force": "-0.3*v*abs(v)"})
         threads = set()
 
