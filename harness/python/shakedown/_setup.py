@@ -52,8 +52,9 @@ class Setup:
         on        "box" or "grains"; on grains only the soft engine follows it
 
         It is the effect user_force with a name for a formula. The function stays in this process: such a setup can
-        be written, and read here only. It is called from several threads, one at a time, a thousand times and more
-        for a second of motion (about 1 us each); an exception in it ends the work with PhysicsError.
+        be written, and read here only. It is called from several threads, one at a time, ten thousand times for a
+        second of motion (about 10 us each), by a diagnosis millions of times; an exception in it ends the work with
+        PhysicsError.
 
         Raises InputError where it has no finite value at usual places, speeds and times, ValueError where the setup
         has a user_force already.
