@@ -38,7 +38,9 @@ void expect_honest(const MomentumAudit& audit) {
 
 TEST(NoNumbers, InSomeFramesLeaveTheRest) {
   for (const double bad : {std::nan(""), static_cast<double>(INFINITY)}) {
-    Experiment experiment = pushed_box({.duration = 6}, 3);
+    PushedBox what;
+    what.duration = 6;
+    Experiment experiment = pushed_box(what, 3);
     for (MeasuredRun& run : experiment.runs)
       for (std::size_t i = 100; i < run.x_box.size(); i += 50) run.x_box[i] = bad, run.x_com[i + 7] = bad;
     const MomentumAudit audit = audited(experiment);

@@ -39,7 +39,7 @@ TEST(PressedFriction, LosesInTheFirstStrokesWhatSoftContactsLose) {
   for (std::size_t k = 0; k < soft.size(); ++k) {
     const Statistic peak =
         hard.over_runs([&](const RunResult& run) { return std::abs(run.observables.peaks.at(k).position); });
-    WITHIN(peak.mean, soft[k], 0.25e-3, 0.14e-3) << k;  // m
+    WITHIN(peak.mean, soft[k], 0.25e-3, 0.16e-3) << k;  // m
   }
 }
 

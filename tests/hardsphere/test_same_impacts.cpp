@@ -281,7 +281,7 @@ TEST(SameImpacts, AtEndWallsWatchedByAllThroughWindowsAndByBruteForce) {
              windows = impacts_by_end_walls(crowd, false, count, of_windows);
   for (std::size_t n = 0; n < count; ++n)
     for (const WallImpact& seen : {all[n], windows[n]}) {
-      ASSERT_WITHIN(seen.time, brute[n].time, 8e-14, 4.2e-15) << n;  // second
+      ASSERT_WITHIN(seen.time, brute[n].time, 5e-14, 2.6e-15) << n;  // second
       ASSERT_EQ(seen.grain, brute[n].grain) << n;
       ASSERT_EQ(seen.side, brute[n].side) << n;
     }
