@@ -60,7 +60,8 @@ const std::string& help_of(const std::string& program, const std::string& comman
   std::string& text = known[{program, command}];
   if (text.empty()) {
     const std::string help = program_beside(program, {command, "--help"}).out;
-    if (help.find("Usage: " + program + " " + command + " ") != std::string::npos) text = help;
+    // Both are called shakedown there: it hands words on to the other one.
+    if (help.find("Usage: shakedown " + command + " ") != std::string::npos) text = help;
   }
   return text;
 }

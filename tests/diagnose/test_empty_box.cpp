@@ -84,15 +84,15 @@ void expect_named(RingDown what, const std::string& effect, double truth, Tolera
 }
 
 TEST(SlowEmptyBox, ViscousDampingIsNamed) {
-  expect_named({.viscous = 0.03}, "blade_viscous_damping", 0.03, {4e-4, 2.5e-5});
+  expect_named({.viscous = 0.03}, "blade_viscous_damping", 0.03, {4e-4, 7.7e-5});
 }
 
 TEST(SlowEmptyBox, DryFrictionIsNamed) {
-  expect_named({.dry = 0.01}, "clamp_dry_friction", 0.01, {2.5e-4, 1.3e-5});
+  expect_named({.dry = 0.01}, "clamp_dry_friction", 0.01, {2.5e-4, 4.2e-5});
 }
 
 TEST(SlowEmptyBox, QuadraticDragIsNamed) {
-  expect_named({.quadratic = 0.1}, "blade_quadratic_drag", 0.1, {1e-3, 5.5e-5});
+  expect_named({.quadratic = 0.1}, "blade_quadratic_drag", 0.1, {1e-3, 1.8e-4});
 }
 
 TEST(EmptyBox, WithoutFrictionNothingIsMissing) {
@@ -121,7 +121,7 @@ TEST(EmptyBox, AnOriginIsToldThoughTheFrequencyWasGivenWrong) {
     return n.name.starts_with("camera_origin");
   });
   ASSERT_NE(origin, d.camera.end());
-  WITHIN_ERRORS(origin->value, 0.012, 4, origin->error, 1.8e-6);
+  WITHIN_ERRORS(origin->value, 0.012, 4, origin->error, 4e-6);
   EXPECT_LT(origin->error, 2e-4);
 }
 
@@ -175,7 +175,7 @@ TEST(SlowEmptyBox, ABadlyKnownScaleShrinksNothing) {
   const FoundTerm &viscous = term_of(usual, "blade_viscous_damping"),
                   &with_bad = term_of(bad, "blade_viscous_damping");
   WITHIN(with_bad.value / viscous.value, 1, 4e-15, 2.3e-16);
-  WITHIN(half_width(with_bad) / half_width(viscous), 1, 6e-4, 3.2e-5);
+  WITHIN(half_width(with_bad) / half_width(viscous), 1, 2e-4, 1.1e-5);
   // Dry friction is as uncertain as the lengths.
   EXPECT_GT(half_width(term_of(bad, "clamp_dry_friction")), 0.19);
   EXPECT_LT(half_width(term_of(usual, "clamp_dry_friction")), 0.1);
@@ -192,7 +192,7 @@ TEST(SlowEmptyBox, TheMassOfKnownIsTheBoxs) {
   const Diagnosis usual = of_damped_box({}, of_all_effects()),
                   heavy = of_damped_box({{"box.mass", 1.1 * mass, 0.001 * mass, {}}}, of_all_effects());
   WITHIN(term_of(heavy, "blade_viscous_damping").value / term_of(usual, "blade_viscous_damping").value, 1.1,
-         1.2e-13, 6.9e-15);
+         1.2e-13, 1.4e-14);
 }
 
 TEST(SlowEmptyBox, AFrequencyKnownExactlyStays) {
@@ -206,7 +206,7 @@ TEST(SlowEmptyBox, AFrequencyKnownExactlyStays) {
   const double right = empty_box().spring.frequency;
   WITHIN(
       of_damped_box({{"spring.frequency", right, 0, {}}}, of_all_effects(), 1.02).momentum.frequency / right,
-      1, 6e-11, 3.3e-12);
+      1, 1e-9, 8.9e-11);
 }
 
 TEST(EmptyBox, OnlyTheEffectsAskedForAreAdded) {
@@ -226,7 +226,7 @@ TEST(Swing, IsCountedFromItsFirstTurnAboutItsOwnOrigin) {
   const Measurement started = from_first_turns(recorded_anywhere, *engine);
   const Measurement::Run& run = started.runs.front();
   // undamped: it turns as far away as it was released
-  WITHIN(std::abs(run.setup.release.displacement), empty_box().release.displacement, 2e-5, 1.6e-6);
+  WITHIN(std::abs(run.setup.release.displacement), empty_box().release.displacement, 2e-5, 3e-6);
   const double omega = 2 * std::numbers::pi * run.setup.spring.frequency;
   double squares = 0;
   for (std::size_t i = 0; i < run.recorded.time.size(); ++i)
