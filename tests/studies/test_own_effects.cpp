@@ -50,7 +50,8 @@ TEST(SlowOwnEffect, ABrakeOfTheBoxIsFound) {
 // that it cannot be ruled out, and names nothing else.
 TEST(SlowOwnEffect, AContactEffectIsInQuestion) {
   const Diagnosis found = diagnosis_of(effect::felt_end_walls, "felt_end_walls.loss", 0.5);
-  for (const std::string& effect : found.missing) EXPECT_EQ(effect, "felt_end_walls") << diagnosis_text(found);
+  for (const std::string& effect : found.missing)
+    EXPECT_EQ(effect, "felt_end_walls") << diagnosis_text(found);
   const bool in_question =
       std::any_of(found.answers.begin(), found.answers.end(), [](const Hypothesis& answer) {
         return std::find(answer.effects.begin(), answer.effects.end(), "felt_end_walls") !=
