@@ -26,6 +26,8 @@ Knob knob_of(const EffectRecord& record, const SearchedStrength& strength, const
     knob.width = strength.typical / 2;
   } else {
     knob.centre = strength.even ? strength.typical : absent_value(record, strength, setup);
+    // What is looked for from a strength on is scattered beyond it too.
+    knob.width = std::max(knob.width, 2 * (strength.low - knob.centre));
   }
   knob.absent = absent_value(record, strength, setup);
   knob.absent_key = strength.absent_key;

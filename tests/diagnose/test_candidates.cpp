@@ -63,6 +63,8 @@ TEST(Candidates, AttractionIsLookedForFromWhereCodesDoNotDiffer) {
     const double range = candidate.fixed.at(0).second, least = range < 1e-4 ? 20e-3 : 4e-3;
     EXPECT_EQ(candidate.fixed.at(0).first, "grain_cohesion.range");
     EXPECT_EQ(candidate.knobs.at(0).low, least);
+    // Half of the box lies there: a scatter of which all lies below would be none.
+    EXPECT_GE(candidate.knobs.at(0).at(1), 2 * least);
     EXPECT_EQ(candidate.levels.front().value, range < 1e-4 ? 24e-3 : 4e-3);
     ++(range < 1e-4 ? short_ones : long_ones);
   }
