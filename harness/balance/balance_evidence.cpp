@@ -236,7 +236,7 @@ Eigen::MatrixXd columns_of(const SelectionProblem& p, const std::vector<ChosenTe
 
 Selection fit_terms(SelectionProblem& p, std::vector<ChosenTerm> chosen) {
   Selection selection{std::move(chosen), {}, 0};
-  constexpr int iterations = 3;  // the noise that the forces let in depends on them by a few per cent
+  constexpr int iterations = 3;  // an assumption: noise and strengths follow each other
   for (int iteration = 0; iteration < iterations; ++iteration) {
     selection.fit = regress(p.problem.impulse(), columns_of(p, selection.chosen));
     if (iteration > 0) derive_again(p, selection);
@@ -283,7 +283,8 @@ SineFound best_sine(const SelectionProblem& p, const Selection& beside, double l
   const Eigen::MatrixXd basis = orthonormal_basis(columns_of(p, beside.chosen));
   const Eigen::VectorXd residual = p.problem.impulse() - basis * (basis.transpose() * p.problem.impulse());
   const double step = 0.25 / std::max(p.problem.longest(), 1.0);
-  const double resolved = 3 / std::max(p.problem.longest(), 1.0);  // of a recording: three turns of beats
+  const double resolved =
+      3 / std::max(p.problem.longest(), 1.0);  // Hz: three beats in a recording, an assumption
   for (std::size_t run = 0; run < p.problem.runs(); ++run)
     highest = std::min(highest, 0.2 / p.problem.form(run).run().interval);
   struct Seen {

@@ -67,8 +67,8 @@ bool in_bounds(const ForceShape& shape, const ShapeValues& values, const MotionS
 
 /// Climbs from a start by steps that shrink where no direction helps.
 void climb(const ForceMap& map, const ForceShape& shape, ShapeValues& values, double& gain) {
-  constexpr int most_rounds = 60, fewest_rounds = 10;
-  constexpr double fine = 1e-5;  // in units of the shape
+  constexpr int most_rounds = 60, fewest_rounds = 10;  // cost: sixty halvings are below rounding
+  constexpr double fine = 1e-5;                        // in units of the shape
   ShapeValues step{};
   for (std::size_t i = 0; i < shape.parameters.size(); ++i)
     step[i] = 0.2 * std::max(std::abs(values[i]), 0.2 * scale_of(shape.parameters[i], map.scales()));
@@ -146,7 +146,7 @@ void sharpen(SelectionProblem& p, const MotionScales& scales, Selection& selecti
   const auto line = static_cast<std::size_t>(selection.chosen[which].term);
   const std::size_t count = p.terms[line].shape->parameters.size();
   if (count == 0) return;
-  constexpr int most_iterations = 6;
+  constexpr int most_iterations = 6;          // cost; it stops where nothing is gained
   constexpr double shortest_step = 1 / 16.0;  // of Gauss and Newton's
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const Eigen::MatrixXd columns = tangent_columns(p, selection, which);

@@ -50,7 +50,7 @@ MomentumProblem::MomentumProblem(const std::vector<MomentumRun>& runs, double wi
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs[i].time.size() == 0) continue;
     WeakForm form(runs[i], window, hop);
-    constexpr int fewest_windows = 4;  // more than the frequency and an origin use up
+    constexpr int fewest_windows = 4;  // an assumption
     if (form.windows() < fewest_windows) continue;
     forms_.push_back(std::move(form));
     source_.push_back(i);

@@ -46,7 +46,7 @@ void judge_at(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z,
 
 /// The emulator promised much more than its solution keeps.
 bool misled(const Refit& result) {
-  constexpr double more = 0.3;  // what codes of one physics differ by
+  constexpr double more = 0.3;  // codes of one physics differ by 0.1 to 0.33 (rules.hpp)
   return result.scatter > (1 + more) * result.promised_scatter + more;
 }
 
@@ -188,6 +188,7 @@ std::vector<Knob> next_box(std::vector<Knob> knobs, const Minimum& minimum, cons
     const double z = minimum.z[i], open = 2 * std::sqrt(covariance(i, i));
     knobs[k].centre = knobs[k].at(z);
     // From the edge the next box is no narrower, or the solution would lie outside.
+    // Shares of the box, assumptions.
     constexpr double edge = 0.8, narrowest = 0.25, widest = 1.5, of_the_first = 0.6;
     knobs[k].width = std::min(knobs[k].width * std::clamp(open, std::abs(z) < edge ? narrowest : 1.0, widest),
                               of_the_first * first[k].width);
@@ -239,7 +240,7 @@ Refit refit_by_rounds(const std::vector<MeasuredFeatures>& measured, std::vector
     const FitRound round(
         measured, here, emulate(measured, here, count, options.first_run + 10000 * number, pooling), options);
     const Minimum minimum = minimum_of(round.objective(), reach, nothing_to_scatter ? 1 : 6);
-    constexpr double outside = 1.05;  // of the box: a line is as good a twentieth beyond it
+    constexpr double outside = 1.05;  // of the box: an assumption
     bool left_the_box = false;
     for (std::size_t k = 0; k < knobs.size(); ++k) {
       const double z = minimum.z[static_cast<Eigen::Index>(k)];
