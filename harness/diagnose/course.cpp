@@ -7,6 +7,7 @@
 
 #include "camera_features.hpp"
 #include "empty_box.hpp"
+#include "engine_choice.hpp"
 #include "experiment_file.hpp"
 #include "from_balance.hpp"
 #include "in_order.hpp"
@@ -60,6 +61,7 @@ Diagnosis Course::run() {
     judge();
   }
   compare_forced_runs();
+  result_.engine = tools_.workshop().engine->name();
   result_.runs_simulated = tools_.runs();
   return result_;
 }
@@ -96,8 +98,7 @@ void Course::judge_empty_box(const MomentumOptions& whole) {
 }
 
 void Course::judge() {
-  DiagnosisState state = with_packing();
-  state.camera = camera_knobs(state.setup, tools_.measurement(), tools_.known());
+  DiagnosisState state = with_engine(with_packing());
   tools_.limit_to(share::model_as_given / 2);
   state = unless_spent(damper_weighed, state, [&] {
     DiagnosisState weighed = state;
@@ -153,7 +154,7 @@ void Course::judge() {
 DiagnosisState Course::with_packing() {
   DiagnosisState state;
   state.setup = quick(user_);
-  state.dear = tools_.workshop().engine == tools_.options().lasting_contacts.get();
+  state.camera = camera_knobs(state.setup, tools_.measurement(), tools_.known());
   const auto [packing, apart, fits] = packing_before_release(user_, tools_.measurement(), tools_.known());
   if (!fits)
     result_.notes.push_back(
@@ -169,14 +170,36 @@ DiagnosisState Course::with_packing() {
   return state;
 }
 
+DiagnosisState Course::with_engine(DiagnosisState state) {
+  const std::shared_ptr<const Engine>& lasting = tools_.options().lasting_contacts;
+  const EngineChoice choice =
+      chosen_engine(with_what_was_found(state, result_.momentum.terms, frequency_found()), tools_);
+  if (choice.lasting_contacts) tools_.workshop().engine = lasting.get();
+  first_periods_ = choice.fit;
+  if (!choice.note.empty()) result_.notes.push_back(choice.note);
+  state.dear = tools_.workshop().engine == lasting.get();
+  return state;
+}
+
+double Course::frequency_found() const {
+  const MomentumAudit& balance = result_.momentum;
+  return balance.possible && balance.frequency > 0 ? balance.frequency : user_.spring.frequency;
+}
+
 DiagnosisState Course::with_terms(DiagnosisState state, const std::vector<FoundTerm>& terms,
                                   double frequency) {
   const MomentumAudit& balance = result_.momentum;
   state.theta = free_parameters(state.setup, frequency, (balance.possible ? 0.004 : 0.01) * frequency);
   state.theta = believed(std::move(state.theta), tools_.measurement().known, tools_.known());
   state.before_fits = state.theta;
-  return with_balance(state, terms, tools_.measurement(), *tools_.workshop().engine, tools_.options(),
-                      result_.notes);
+  state = with_balance(state, terms, tools_.measurement(), *tools_.workshop().engine, tools_.options(),
+                       result_.notes);
+  if (!first_periods_) return state;
+  // A layer of lasting contacts begins almost without chance: a box as wide as what is believed is no line.
+  state.fit = *first_periods_;
+  state = state.settled(tools_.known());
+  state.fit = {};
+  return state;
 }
 
 DiagnosisState Course::with_what_was_found(DiagnosisState state, const std::vector<FoundTerm>& terms,
@@ -190,8 +213,7 @@ DiagnosisState Course::with_what_was_found(DiagnosisState state, const std::vect
 
 DiagnosisState Course::refit_of(const DiagnosisState& before) {
   const MomentumAudit& balance = result_.momentum;
-  const double frequency =
-      balance.possible && balance.frequency > 0 ? balance.frequency : user_.spring.frequency;
+  const double frequency = frequency_found();
   DiagnosisState state = with_what_was_found(before, balance.terms, frequency);
   const bool nothing_found = state.missing.empty() && !balance.unlisted;
   const std::string stage =

@@ -29,7 +29,11 @@ class Course {
   void judge_empty_box(const MomentumOptions& whole);
   void judge();
   DiagnosisState with_packing();
-  /// Parameters free, and these strengths that the balance found.
+  /// Who simulates from now on, after the question which engine makes what the films show.
+  DiagnosisState with_engine(DiagnosisState state);
+  double frequency_found() const;
+  /// Parameters free, and these strengths that the balance found; about what the first periods told, where
+  /// they were fitted.
   DiagnosisState with_terms(DiagnosisState state, const std::vector<FoundTerm>& terms, double frequency);
   /// with_terms, and the formula that the balance wrote for a force of no list.
   DiagnosisState with_what_was_found(DiagnosisState state, const std::vector<FoundTerm>& terms,
@@ -74,6 +78,7 @@ class Course {
   DiagnosisTools tools_;
   Diagnosis result_;
   RunnerUp runner_up_;
+  std::optional<Refit> first_periods_;      ///< the fit that chose the engine
   std::optional<DiagnosisState> accepted_;  ///< before the last effect was added, where the data accept that
   std::vector<std::string> wholly_fitted_;  ///< effects beside which the last fit was made already
 };

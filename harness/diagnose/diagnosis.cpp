@@ -5,8 +5,6 @@
 #include <chrono>
 
 #include "course.hpp"
-#include "effort.hpp"
-#include "engine_choice.hpp"
 #include "experiment_file.hpp"
 #include "known_setup.hpp"
 #include "release_known.hpp"
@@ -53,18 +51,7 @@ Diagnosis diagnose(const Setup& setup, const Measurement& measurement, const Eng
   constexpr double periods = 1.5;  // the first swing and its way back
   const bool empty = is_empty(user, released);
   const Measurement started = empty ? released : from_first_turns(released, engine, periods);
-  const EngineChoice choice = empty ? EngineChoice{} : chosen_engine(user, started, engine, options);
-  const Engine& chosen = choice.lasting_contacts ? *options.lasting_contacts : engine;
-  DiagnoseOptions rest = options;
-  if (options.seconds > 0 && choice.runs > 0) {
-    const double taken = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    rest.seconds = std::max(share::first_refit * options.seconds, options.seconds - taken);
-  }
-  if (options.budget > 0) rest.budget -= choice.runs;
-  Diagnosis result = Course(user, released, started, chosen, rest).run();
-  result.engine = chosen.name();
-  result.runs_simulated += choice.runs;
-  if (!choice.note.empty()) result.notes.push_back(choice.note);
+  Diagnosis result = Course(user, released, started, engine, options).run();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -4,21 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 
-#include "camera_features.hpp"
 #include "effort.hpp"
 #include "errors.hpp"
-#include "judged_as_given.hpp"
-#include "state.hpp"
 
 namespace shakedown {
 
 namespace {
 
-constexpr int runs_of_each = 24;  // spread is known to a seventh, and the misfits in question differ by tens
+/// A layer lands twice a period, and contacts that last cost a hundred times a hard impact.
+constexpr double first_periods = 2;
 
 }  // namespace
 
@@ -32,42 +29,35 @@ bool lie_in_one_layer(const Measurement& measurement) {
          });
 }
 
-EngineChoice chosen_engine(const Setup& user, const Measurement& measurement, const Engine& engine,
-                           const DiagnoseOptions& options) {
+EngineChoice chosen_engine(const DiagnosisState& model, DiagnosisTools& tools) {
   EngineChoice choice;
+  const DiagnoseOptions& options = tools.options();
+  const Measurement& measurement = tools.measurement();
   if (options.lasting_contacts == nullptr || !lie_in_one_layer(measurement)) return choice;
   // It counts in the limits: where they are too narrow for the question it is not asked.
   if (options.budget > 0 &&
-      options.budget < least_budget(measurement) + 2 * runs_of_each * std::ssize(measurement.runs))
+      options.budget < least_budget(measurement) + 2 * effort::least.count * std::ssize(measurement.runs))
     return choice;
-  const auto start = std::chrono::steady_clock::now();
-  const auto by = [&](const Engine& one) {
-    Workshop workshop{&one,   options.known, options.threads, options.stop, [&](int n) { choice.runs += n; },
-                      nullptr};
-    workshop.ask_for = [&](std::int64_t) {
-      const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-      if (options.seconds > 0 && spent.count() > share::model_as_given * options.seconds)
-        throw BudgetSpent("the time is up");
-    };
-    return judged_as_given(user, measurement, features_with_camera(measurement, options.known), workshop,
-                           runs_of_each);
-  };
+  const double first = first_periods / model.setup.spring.frequency;
+  tools.begin("which engine");
+  tools.limit_to(share::model_as_given);
   try {
-    const Refit hard = by(engine);
+    const Refit hard = tools.fit_of_first(first, model, *tools.workshop().engine, effort::least);
     if (!is_rejected(hard)) return choice;
-    const Refit soft = by(*options.lasting_contacts);
+    const Refit soft = tools.fit_of_first(first, model, *options.lasting_contacts, effort::least);
     choice.lasting_contacts = soft.scatter < hard.scatter;
     choice.note = fmt::format(
-        "all grains lie in one layer, which lands at once: the model as given leaves {:.2g} times the misfit "
-        "of its "
-        "own runs by hard spheres, {:.2g} times with contacts that last, so that {} are simulated",
-        hard.scatter, soft.scatter,
+        "all grains lie in one layer, which lands at once: fitted to the first {:.0f} periods the model "
+        "leaves "
+        "{:.2g} times the misfit of its own runs by hard spheres, {:.2g} times with contacts that last, so "
+        "that {} are simulated",
+        first_periods, hard.scatter, soft.scatter,
         choice.lasting_contacts ? "these (engine soft, which takes longer)" : "hard spheres");
+    if (choice.lasting_contacts) choice.fit = soft;
   } catch (const BudgetSpent&) {
     choice.note =
         "all grains lie in one layer, which lands at once where contacts last; there was no time to ask "
-        "whether hard "
-        "spheres make what the films show: allow more --seconds";
+        "whether hard spheres make what the films show: allow more --seconds";
   } catch (const InputError&) {  // an effect of the setup that it does not model
   } catch (const PhysicsError&) {
   }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Which engine a diagnosis simulates with.
 #pragma once
+#include <optional>
 #include <string>
 
-#include "diagnosis.hpp"
+#include "state.hpp"
 
 namespace shakedown {
 
@@ -15,13 +16,14 @@ bool lie_in_one_layer(const Measurement& measurement);
 struct EngineChoice {
   bool lasting_contacts = false;  ///< DiagnoseOptions::lasting_contacts, not the engine that was asked for
   std::string note;               ///< why; empty: the question did not arise
-  int runs = 0;                   ///< simulations that it took
+  /// Of `model` to the first periods by the engine chosen, where contacts last.
+  std::optional<Refit> fit{};
 };
 
-/// Where all grains lie in one layer and the data reject the model as given by `engine`, it is simulated with
-/// contacts that last too, and the engine that leaves the smaller misfit is chosen. `measurement`: each run
-/// from where simulations begin. Throws Interrupted.
-EngineChoice chosen_engine(const Setup& user, const Measurement& measurement, const Engine& engine,
-                           const DiagnoseOptions& options);
+/// Where all grains lie in one layer and the data reject `model` by the engine of the tools, fitted to their
+/// first periods, it is fitted with contacts that last too, and the engine that leaves the smaller misfit is
+/// chosen. `model`: its parameters free, and what the momentum balance found in it; else a restitution or a
+/// force that is wrong in both engines decides instead of the contacts. Throws Interrupted.
+EngineChoice chosen_engine(const DiagnosisState& model, DiagnosisTools& tools);
 
 }  // namespace shakedown

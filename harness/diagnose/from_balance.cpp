@@ -35,6 +35,11 @@ void add_sine(const FoundTerm& term, const SearchedHarmonic& harmonic, double lo
   knob(harmonic.phase, term.phase, 2 * relative, about_a_line);
 }
 
+/// The same terms go in beside several states of one diagnosis.
+void add_once(std::vector<std::string>& notes, const std::string& note) {
+  if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+}
+
 }  // namespace
 
 bool allowed(const DiagnoseOptions& options, const std::string& effect) {
@@ -54,14 +59,15 @@ DiagnosisState with_balance(DiagnosisState state, const std::vector<FoundTerm>& 
     const EffectRecord* record = find_record(options.known, term.effect);
     if (record == nullptr) continue;
     if (!is_modelled(engine, *record)) {
-      notes.push_back("the momentum balance finds " + term.effect + ", which the " +
-                      std::string(engine.name()) + " engine does not model: ensembles are fitted without it");
+      add_once(notes, "the momentum balance finds " + term.effect + ", which the " +
+                          std::string(engine.name()) +
+                          " engine does not model: ensembles are fitted without it");
       state.missing.push_back(term.effect);
       continue;
     }
     const bool had_already = find_choice(state.setup, term.effect) != nullptr;
     if (had_already)
-      notes.push_back("the momentum balance asks for another " + term.key() + ": it is refitted");
+      add_once(notes, "the momentum balance asks for another " + term.key() + ": it is refitted");
     else
       state.missing.push_back(term.effect);
     if (term.frequency > 0) {

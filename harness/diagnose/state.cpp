@@ -165,8 +165,13 @@ void DiagnosisTools::without_limit() {
 }
 
 std::vector<MeasuredFeatures> DiagnosisTools::features(const Setup& setup) const {
+  return features_of(measurement_, setup);
+}
+
+std::vector<MeasuredFeatures> DiagnosisTools::features_of(const Measurement& measurement,
+                                                          const Setup& setup) const {
   std::vector<MeasuredFeatures> list =
-      features_with_camera(with_setup(measurement_, setup, options_.known), options_.known);
+      features_with_camera(with_setup(measurement, setup, options_.known), options_.known);
   add_wander(wander_, list);
   add_columns(damper_errors_, damper_columns_, options_.known, list);
   return list;
@@ -205,6 +210,15 @@ Refit DiagnosisTools::fit(const DiagnosisState& state, const std::string& stage,
   options.judged_by = judged_by;
   options.look_again_below = look_again_below;
   return refit(features(state.setup), knobs, workshop_, options);
+}
+
+Refit DiagnosisTools::fit_of_first(double seconds, const DiagnosisState& state, const Engine& engine,
+                                   Effort effort) {
+  Workshop workshop = workshop_;
+  workshop.engine = &engine;
+  workshop.pool = nullptr;  // it does not tell engines apart
+  return refit(features_of(up_to(measurement_, seconds), state.setup), state.knobs(), workshop,
+               options_of(state, effort));
 }
 
 Refit DiagnosisTools::look_beside(const DiagnosisState& state, const std::string& stage) {

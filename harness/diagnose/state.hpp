@@ -67,6 +67,9 @@ class DiagnosisTools {
 
   /// The measured runs beside this setup, with what the camera does to them.
   std::vector<MeasuredFeatures> features(const Setup& setup) const;
+  /// Of the measured runs up to so many seconds after release, by another engine than the tools' own, whose
+  /// simulations stay apart.
+  Refit fit_of_first(double seconds, const DiagnosisState& state, const Engine& engine, Effort effort);
   Refit fit(const DiagnosisState& state, const std::string& stage, const std::vector<Knob>& knobs,
             Effort effort, const Refit* judged_by = nullptr,
             double look_again_below = std::numeric_limits<double>::infinity());
@@ -78,6 +81,7 @@ class DiagnosisTools {
   const DiagnoseOptions& options_;
   double share_of_time() const;
   RefitOptions options_of(const DiagnosisState& state, Effort effort);
+  std::vector<MeasuredFeatures> features_of(const Measurement& measurement, const Setup& setup) const;
 
   std::int64_t budget_, runs_ = 0;
   std::chrono::steady_clock::time_point start_;

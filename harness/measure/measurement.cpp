@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "measurement.hpp"
 
+#include <algorithm>
+
 #include <cmath>
 #include <map>
 
@@ -107,6 +109,18 @@ std::vector<KnownValue> known_of(const Measurement& measurement, const Measureme
 Measurement with_setup(Measurement measurement, const Setup& changed,
                        std::span<const EffectRecord* const> known) {
   for (Measurement::Run& run : measurement.runs) run.setup = setup_of_run(changed, run.recorded, known);
+  return measurement;
+}
+
+Measurement up_to(Measurement measurement, double seconds) {
+  for (Measurement::Run& run : measurement.runs) {
+    std::vector<double>& time = run.recorded.time;
+    const auto kept =
+        static_cast<std::size_t>(std::upper_bound(time.begin(), time.end(), seconds) - time.begin());
+    for (std::vector<double>* series :
+         {&time, &run.recorded.x_box, &run.recorded.x_com, &run.audit.x_box, &run.audit.x_com})
+      series->resize(std::min(series->size(), kept));
+  }
   return measurement;
 }
 

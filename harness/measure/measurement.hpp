@@ -56,4 +56,7 @@ std::vector<KnownValue> known_of(const Measurement& measurement, const Measureme
 Measurement with_setup(Measurement measurement, const Setup& changed,
                        std::span<const EffectRecord* const> known);
 
+/// What the frames show up to so many seconds after release.
+Measurement up_to(Measurement measurement, double seconds);
+
 }  // namespace shakedown
