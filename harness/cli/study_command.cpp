@@ -3,21 +3,18 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <string>
-#include <system_error>
 
 #include "command.hpp"
 #include "errors.hpp"
+#include "program_place.hpp"
 
 namespace shakedown {
 
 namespace {
 
 int run_study(const std::string& name, std::vector<std::string> words) {
-  std::error_code unreadable;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unreadable);
-  std::string studies = (self.parent_path() / "shakedown-studies").string(), study = name;
+  std::string studies = (program_folder() / "shakedown-studies").string(), study = name;
   std::vector<char*> arguments{studies.data(), study.data()};
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

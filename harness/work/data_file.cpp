@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "program_place.hpp"
+
 namespace shakedown {
 
 namespace {
@@ -11,8 +13,7 @@ namespace {
 /// `share/shakedown` of the prefix in which this program stands; empty where there is none.
 std::filesystem::path installed_data() {
   std::error_code unreadable;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unreadable);
-  const std::filesystem::path folder = program.parent_path().parent_path() / "share/shakedown";
+  const std::filesystem::path folder = program_folder().parent_path() / "share/shakedown";
   return std::filesystem::is_directory(folder, unreadable) ? folder : std::filesystem::path();
 }
 

@@ -129,10 +129,10 @@ bool starts_with_any(const std::string& header, const std::set<std::string>& pre
 /// Headers of C++ have no dot; of C and the system a few are allowed by name.
 bool is_standard(const std::string& header) {
   static const std::set<std::string> system{
-      "unistd.h",    "signal.h",     "spawn.h",     "stdlib.h",     "experimental/simd",
-      "immintrin.h", "sys/wait.h",   "sys/types.h", "sys/stat.h",   "sys/mman.h",
-      "sys/file.h",  "sys/statfs.h", "sys/ioctl.h", "sys/socket.h", "netinet/in.h",
-      "arpa/inet.h", "poll.h",       "fcntl.h",     "iconv.h"};
+      "unistd.h",     "signal.h",    "spawn.h",      "stdlib.h",    "experimental/simd",
+      "immintrin.h",  "cpuid.h",     "sys/wait.h",   "sys/types.h", "sys/stat.h",
+      "sys/mman.h",   "sys/file.h",  "sys/statfs.h", "sys/ioctl.h", "sys/socket.h",
+      "netinet/in.h", "arpa/inet.h", "poll.h",       "fcntl.h",     "iconv.h"};
   return header.find_first_of("./") == std::string::npos || system.contains(header);
 }
 

@@ -13,6 +13,10 @@ Quantities are SI (m, s, kg, J, Hz) unless a key says otherwise (`_mm`); where a
 "65 mm" are taken. Long work runs without Python's lock, tells its progress, and stops at Ctrl-C with KeyboardInterrupt.
 """
 
+from ._processor import faster_folder
+
+__path__[:0] = faster_folder(__path__[0])  # the compiled part for this processor, where it is installed
+
 from ._core import FileError, InputError, PhysicsError
 from ._core import version_line as _version_line
 from ._laboratory import Hidden, hide
