@@ -16,6 +16,9 @@ namespace {
 
 /// A layer lands twice a period, and contacts that last cost a hundred times a hard impact.
 constexpr double first_periods = 2;
+/// Before chance has grown, half as many simulations as elsewhere tell a line; misfits in question differ by
+/// tens.
+constexpr Effort first_look{1, effort::least.count / 2, 0, false, true};
 
 }  // namespace
 
@@ -36,15 +39,15 @@ EngineChoice chosen_engine(const DiagnosisState& model, DiagnosisTools& tools) {
   if (options.lasting_contacts == nullptr || !lie_in_one_layer(measurement)) return choice;
   // It counts in the limits: where they are too narrow for the question it is not asked.
   if (options.budget > 0 &&
-      options.budget < least_budget(measurement) + 2 * effort::least.count * std::ssize(measurement.runs))
+      options.budget < least_budget(measurement) + 2 * first_look.count * std::ssize(measurement.runs))
     return choice;
   const double first = first_periods / model.setup.spring.frequency;
   tools.begin("which engine");
-  tools.limit_to(share::model_as_given);
+  tools.limit_to(share::engine_choice);
   try {
-    const Refit hard = tools.fit_of_first(first, model, *tools.workshop().engine, effort::least);
+    const Refit hard = tools.fit_of_first(first, model, *tools.workshop().engine, first_look);
     if (!is_rejected(hard)) return choice;
-    const Refit soft = tools.fit_of_first(first, model, *options.lasting_contacts, effort::least);
+    const Refit soft = tools.fit_of_first(first, model, *options.lasting_contacts, first_look);
     choice.lasting_contacts = soft.scatter < hard.scatter;
     choice.note = fmt::format(
         "all grains lie in one layer, which lands at once: fitted to the first {:.0f} periods the model "
