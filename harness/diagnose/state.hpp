@@ -67,8 +67,8 @@ class DiagnosisTools {
 
   /// The measured runs beside this setup, with what the camera does to them.
   std::vector<MeasuredFeatures> features(const Setup& setup) const;
-  /// Of the measured runs up to so many seconds after release, by another engine than the tools' own, whose
-  /// simulations stay apart.
+  /// Of the measured runs up to so many seconds after release, by this engine; its simulations stay apart
+  /// from those of other fits.
   Refit fit_of_first(double seconds, const DiagnosisState& state, const Engine& engine, Effort effort);
   Refit fit(const DiagnosisState& state, const std::string& stage, const std::vector<Knob>& knobs,
             Effort effort, const Refit* judged_by = nullptr,

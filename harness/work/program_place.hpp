@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Where the running program stands, and the one beside it that was compiled for this machine's processor.
 // Packages hold programs for any x86-64 of the last fifteen years and the same ones for processors with AVX2
-// (x86-64-v3), in which the hard engine takes half the time; numbers are the same to the byte.
+// (x86-64-v3), by which the hard engine takes three quarters of the time (harness/packaging/README.md);
+// numbers are the same to the byte.
 #pragma once
 #include <filesystem>
 #include <string_view>
