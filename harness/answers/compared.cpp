@@ -255,7 +255,7 @@ ReportKnobs knobs_of_comparison(const LastFit& last, const Setup& setup, const E
 
 Report report_of(const Compared& compared, const Setup& setup, const Engine& engine, int threads,
                  const std::atomic<bool>* stop) {
-  return report_of(compared.fit, compared.momentum, compared.judgement, compared.measurement, setup,
+  return report_of({compared.fit, compared.momentum, compared.judgement}, compared.measurement, setup,
                    drawn_curves(compared.measurement, nullptr, setup, engine, threads, stop),
                    knobs_of_comparison(compared.last, setup, engine, threads, stop));
 }

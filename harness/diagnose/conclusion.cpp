@@ -175,8 +175,8 @@ void advise_by_simulation(const DiagnosisState& final, DiagnosisTools& tools, Di
   std::vector<Advice> list;
   try {
     list = advise(possible_designs(d.amended, tools.features(final.setup)), found, rival.setup,
-                  camera.box.standard_deviation, camera.com.standard_deviation, tools.workshop(), count,
-                  tools.next_batch());
+                  {camera.box.standard_deviation, camera.com.standard_deviation, count, tools.next_batch()},
+                  tools.workshop());
   } catch (const BudgetSpent&) {
     d.not_tried.push_back("which experiment would decide");
   } catch (const PhysicsError& error) {

@@ -150,7 +150,7 @@ double share_explained(const SwingError& given, const SwingError& final) {
 
 /// The verdict of an empty box, by the same rule as all others.
 void judge(const Measurement& final_model, const Engine& engine, std::span<const EffectRecord* const> known,
-           const SwingError& given_in_phase, const SwingError& final, double floor, Diagnosis& d) {
+           const SwingError& given_in_phase, const SwingError& final, Diagnosis& d) {
   const MomentumAudit& balance = d.momentum;
   Findings findings;
   findings.features = no_ensembles();
@@ -161,7 +161,8 @@ void judge(const Measurement& final_model, const Engine& engine, std::span<const
   findings.camera_stands_out = !standing_out(d.camera).empty();
   findings.explained = std::min(d.explained, share_explained(given_in_phase, final));
   if (final.why_not.empty()) d.validation = validation_by_compare(final_model, engine, known, d);
-  findings.left = {{"box", final.error, floor, given_in_phase.error, final.amplitude, final.looks_like}};
+  findings.left = {
+      {"box", final.error, balance.noise(), given_in_phase.error, final.amplitude, final.looks_like}};
   for (Difference& row : differences_of(d.validation)) findings.left.push_back(std::move(row));
   d.left = findings.left;
   d.judgement = judgement_of(findings.features, findings.balance, findings.left);
@@ -316,7 +317,7 @@ void conclude_empty_box(const Setup& user, const Measurement& measurement, const
   if (balance.unlisted) step += " + the force of the formula";
   d.ladder.push_back(step_of("as given", given, floor, balance.as_given));
   d.ladder.push_back(step_of(step, final, floor, balance.final_fit));
-  judge(final_model, engine, known, swing_error(measurement, engine, false), final, floor, d);
+  judge(final_model, engine, known, swing_error(measurement, engine, false), final, d);
   if (d.verdict == Verdict::adequate) d.amended = user;
   complete_ranking(d);
   d.sentence = sentence_of(d, known);

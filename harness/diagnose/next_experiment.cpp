@@ -103,8 +103,7 @@ FittedModel fitted_model(Setup setup, const Refit& fit) {
 }
 
 std::vector<Advice> advise(const std::vector<Design>& designs, const FittedModel& found, const Setup& rival,
-                           double noise_box, double noise_centre, const Workshop& workshop, int count,
-                           int first_run) {
+                           const AdviceTrial& trial, const Workshop& workshop) {
   std::vector<Knob> knobs = found.knobs;
   Eigen::VectorXd per_width(static_cast<Eigen::Index>(knobs.size()));
   for (std::size_t k = 0; k < knobs.size(); ++k) {
@@ -117,13 +116,14 @@ std::vector<Advice> advise(const std::vector<Design>& designs, const FittedModel
   std::vector<Advice> list;
   for (const Design& design : designs) {
     try {
-      const MeasuredFeatures m = seen(in_design(found.setup, design), noise_box, noise_centre, workshop);
+      const MeasuredFeatures m =
+          seen(in_design(found.setup, design), trial.noise_box, trial.noise_centre, workshop);
       MeasuredFeatures other = m;
       other.setup = in_design(rival, design);
       other.setup.run = m.setup.run;
-      const int first = first_run + 5000 * static_cast<int>(list.size());
-      const std::vector<Emulator> model = emulate({m}, knobs, count, first, workshop),
-                                  imitation = emulate({other}, {}, count, first + 2500, workshop);
+      const int first = trial.first_run + 5000 * static_cast<int>(list.size());
+      const std::vector<Emulator> model = emulate({m}, knobs, trial.count, first, workshop),
+                                  imitation = emulate({other}, {}, trial.count, first + 2500, workshop);
       list.push_back({design.words(), distance(model.front(), imitation.front(), m.plan, covariance,
                                                RefitOptions{}.model_error * std::abs(design.release))});
     } catch (const InputError&) {    // the grains do not fit into the box: no such design

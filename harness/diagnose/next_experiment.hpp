@@ -36,11 +36,17 @@ struct Advice {
   double sigmas = 0;  ///< by which one run of the design tells the one model from the other
 };
 
-/// One entry a design, best first; designs whose grains do not fit into the box are left out. `noise_box`,
-/// `noise_centre`: of a frame, m. Linear in what is open in the parameters of `found`. Simulates 2 `count`
-/// runs a design, whose noise is allowed for: what is told by less than about one sigma reads 0.
+/// How a design is looked at.
+struct AdviceTrial {
+  double noise_box = 0, noise_centre = 0;  ///< of a frame, m
+  int count = 0;                           ///< simulations of each model in each design
+  int first_run = 0;                       ///< number of their microstates
+};
+
+/// One entry a design, best first; designs whose grains do not fit into the box are left out. Linear in what
+/// is open in the parameters of `found`. The simulations' noise is allowed for: what is told by less than
+/// about one sigma reads 0.
 std::vector<Advice> advise(const std::vector<Design>& designs, const FittedModel& found, const Setup& rival,
-                           double noise_box, double noise_centre, const Workshop& workshop, int count,
-                           int first_run);
+                           const AdviceTrial& trial, const Workshop& workshop);
 
 }  // namespace shakedown

@@ -63,13 +63,17 @@ std::vector<PairRival> pairs_beyond(const std::vector<Rival>& rivals, const std:
 }
 
 void fit_pair(PairRival& pair, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
-              double lowest, Effort effort, double known) {
+              double lowest, Effort effort) {
   fit_rival(pair.second, with_rival(before, pair.first, tools), tools, screen, lowest, effort);
   if (!std::isfinite(pair.second.log_ratio)) return;  // no time to weigh it
   pair.fitted = true;
   pair.first.state = pair.second.state;
   pair.first.log_ratio = pair.first.nothing_gained;  // the ratio of both is told with the second
   pair.first.fitted = true;
+}
+
+void weigh_pair(PairRival& pair, double known) {
+  if (!pair.fitted) return;
   weigh_rival(pair.first, known);
   weigh_rival(pair.second, known);
   pair.log_odds = pair.first.log_odds + pair.second.log_odds;

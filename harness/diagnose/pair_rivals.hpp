@@ -27,8 +27,12 @@ std::vector<PairRival> pairs_beyond(const std::vector<Rival>& rivals, const std:
 /// Its signatures make it more probable than any single rival by more than signatures err.
 bool is_far_beyond(const PairRival& pair, const std::vector<Rival>& rivals);
 
-/// Fits both beside the state `before` and weighs them, as fit_rival does with one.
+/// Fits both beside the state `before`, as fit_rival does with one.
 void fit_pair(PairRival& pair, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
-              double lowest, Effort effort, double known);
+              double lowest, Effort effort);
+
+/// The odds of a pair by its fit, as weigh_rival has those of one; what was not fitted keeps its own. `known`
+/// as for pairs_beyond.
+void weigh_pair(PairRival& pair, double known);
 
 }  // namespace shakedown

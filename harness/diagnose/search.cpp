@@ -224,8 +224,8 @@ class Round {
   void fit_pairs() {
     for (PairRival& pair : pairs_) try {
         const bool dear = pair.first.candidate->dear || pair.second.candidate->dear;
-        fit_pair(pair, from_, tools_, *screen_, lowest_, dear ? effort::attempt_when_dear : effort::attempt,
-                 known_);
+        fit_pair(pair, from_, tools_, *screen_, lowest_, dear ? effort::attempt_when_dear : effort::attempt);
+        weigh_pair(pair, known_);
         lowest_ = std::min(lowest_, pair.second.state.fit.judged_chi2);
         if (holds(pair.second)) return;
       } catch (const BudgetSpent&) {

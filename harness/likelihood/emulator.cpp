@@ -141,6 +141,7 @@ Trajectory run_surely(const Setup& setup, int run, const Workshop& workshop) {
 struct Group {
   std::vector<std::size_t> members;
   Setup setup;
+  std::uint64_t stream = 0;  ///< of random numbers: its place among the groups
 };
 
 std::vector<Group> groups_of(const std::vector<MeasuredFeatures>& measured) {
@@ -150,7 +151,7 @@ std::vector<Group> groups_of(const std::vector<MeasuredFeatures>& measured) {
     Setup key = measured[m].setup;
     key.run.duration = 1;
     const auto [found, fresh] = place.emplace(digest(key), groups.size());
-    if (fresh) groups.push_back({{}, measured[m].setup});
+    if (fresh) groups.push_back({{}, measured[m].setup, groups.size()});
     Group& group = groups[found->second];
     group.members.push_back(m);
     group.setup.run.duration = std::max(group.setup.run.duration, measured[m].setup.run.duration);
@@ -239,11 +240,11 @@ struct Simulated {
   std::vector<Eigen::VectorXd> features;  // of each member
 };
 
-Simulated simulate(const Group& group, std::uint64_t stream, const std::vector<MeasuredFeatures>& measured,
+Simulated simulate(const Group& group, const std::vector<MeasuredFeatures>& measured,
                    const std::vector<Knob>& knobs, int run, double sparse, const Workshop& workshop) {
-  Simulated simulated{scatter(knobs, group.setup.run.seed + 7919 * stream, run, sparse), {}};
+  Simulated simulated{scatter(knobs, group.setup.run.seed + 7919 * group.stream, run, sparse), {}};
   Setup setup = setup_at(group.setup, knobs, simulated.z, workshop.known);
-  setup.run.seed += 104729 * stream;
+  setup.run.seed += 104729 * group.stream;
   std::string name;
   if (workshop.journal) {
     name = std::string(workshop.engine->name()) + ' ' + digest(setup) + ' ' + std::to_string(run);
@@ -312,7 +313,7 @@ std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, con
         if (workshop.stop && *workshop.stop) throw Interrupted("interrupted");
         if (workshop.ask_for) workshop.ask_for(0);
         simulated[g][static_cast<std::size_t>(row)] =
-            simulate(groups[g], g, measured, knobs, first_run + row, sparse, workshop);
+            simulate(groups[g], measured, knobs, first_run + row, sparse, workshop);
         return [&] {
           if (workshop.runs) ++*workshop.runs;
           if (workshop.done) workshop.done(1);

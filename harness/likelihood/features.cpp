@@ -49,18 +49,23 @@ double end_of_motion(const MeasuredRun& run, const std::vector<double>& x_box, d
   return std::min(end + 1.0, run.time.back());
 }
 
+struct Bins {
+  double width = 0;  ///< s, of equal ones from the first frame on to plan.end
+  std::size_t frames = 0;
+};
+
 void add_features(Observable observable, const std::vector<double>& time, const std::vector<double>& x,
-                  const NoiseFound& noise, double end, double bin, std::size_t frames_of_a_bin,
-                  FeaturePlan& plan) {
+                  const NoiseFound& noise, const Bins& bins, FeaturePlan& plan) {
+  const double bin = bins.width;
   std::size_t i = 0;
-  for (int k = 0; (k + 1) * bin <= end + 1e-9; ++k) {
+  for (int k = 0; (k + 1) * bin <= plan.end + 1e-9; ++k) {
     const double middle = (k + 0.5) * bin;
     FeaturePlan::Reading reading;
     for (; i < time.size() && time[i] < (k + 1) * bin - 1e-9; ++i)
       if (time[i] >= k * bin - 1e-9 && std::isfinite(x[i])) reading.time.push_back(time[i]);
     const bool spans = !reading.time.empty() && reading.time.front() < middle - bin / 5 &&
                        reading.time.back() > middle + bin / 5;
-    if (reading.time.size() < std::max<std::size_t>(4, frames_of_a_bin / 2) || !spans) continue;
+    if (reading.time.size() < std::max<std::size_t>(4, bins.frames / 2) || !spans) continue;
     reading.weight = level_weights(reading.time, middle);
     plan.features.push_back({observable, middle, noise_of(reading, noise)});
     plan.readings.push_back(std::move(reading));
@@ -77,10 +82,10 @@ FeaturePlan plan_features(const Measurement::Run& measurement, Observed observed
   const double interval = audit.frame_interval > 0 ? audit.frame_interval : 1 / run.frame_rate;
   // Slow cameras get wider bins, so that a bin has frames enough for a parabola.
   const double width = std::max(bin, 8 * interval);
-  const auto frames = static_cast<std::size_t>(width / interval);
-  add_features(Observable::box, run.time, audit.x_box, audit.box, plan.end, width, frames, plan);
+  const Bins bins{width, static_cast<std::size_t>(width / interval)};
+  add_features(Observable::box, run.time, audit.x_box, audit.box, bins, plan);
   if (run.has_com() && observed == Observed::all)
-    add_features(Observable::centre, run.time, audit.x_com, audit.com, plan.end, width, frames, plan);
+    add_features(Observable::centre, run.time, audit.x_com, audit.com, bins, plan);
   return plan;
 }
 

@@ -46,6 +46,7 @@ class FitRound {
            std::vector<Emulator> emulators, const RefitOptions& options);
 
   const Objective& objective() const { return objective_; }
+  const std::vector<Knob>& knobs() const { return knobs_; }
 
   /// Linear emulators about z, of simulations made there (regressions on nothing) and this round's slopes, by
   /// one width of each knob.

@@ -75,8 +75,8 @@ struct Confirmed {
 
   Confirmed(const Eigen::VectorXd& z, int first_run, const FitRound& emulated,
             const std::vector<MeasuredFeatures>& measured, const Workshop& workshop,
-            const RefitOptions& options, const std::vector<Knob>& knobs)
-      : about(centred_at(z, knobs)),
+            const RefitOptions& options)
+      : about(centred_at(z, emulated.knobs())),
         round(measured, about,
               emulated.recentred(z, simulated(about, options.confirming, first_run, measured, workshop)),
               options),
@@ -100,10 +100,10 @@ void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& meas
   result.promised_scatter = result.scatter;
   result.promised_chi2 = result.judged_chi2;
   const int first_run = options.first_run + 9000;
-  const Confirmed first(z, first_run, emulated, measured, workshop, options, result.knobs);
+  const Confirmed first(z, first_run, emulated, measured, workshop, options);
   std::optional<Confirmed> second;
   if (first.worth_a_step())
-    second.emplace(z + first.minimum, first_run + 250, emulated, measured, workshop, options, result.knobs);
+    second.emplace(z + first.minimum, first_run + 250, emulated, measured, workshop, options);
   // what the slopes promised may not be there
   const Confirmed& best = second && second->chi2() < first.chi2() ? *second : first;
   const Eigen::VectorXd solution = best.solution();

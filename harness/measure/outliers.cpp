@@ -78,10 +78,11 @@ class OutlierJudge {
 };
 
 /// Robust line through up to six kept frames on one side (step -1 or +1) or three on each (0): the median of
-/// all slopes (Theil, Sen), which two wrong frames of six do not move. Returns the misfit of `value` at frame
-/// i less what an acceleration bends, in units of its standard deviation; 0 where there are too few frames.
+/// all slopes (Theil, Sen), which two wrong frames of six do not move. Returns by how much `value` at frame i
+/// misses it less what an acceleration bends, in standard deviations of a frame; 0 where there are too few
+/// frames.
 double misfit_to_robust_line(const std::vector<double>& time, const std::vector<double>& kept, std::size_t i,
-                             int step, double value, double deviation, double acceleration) {
+                             int step, double value, double acceleration) {
   constexpr int wanted = 6;
   std::vector<double> t, y;
   const auto gather = [&](int direction, int count) {
@@ -111,8 +112,7 @@ double misfit_to_robust_line(const std::vector<double>& time, const std::vector<
   for (const double at : t) square += (at - middle) * (at - middle);
   // medians scatter by a tenth more
   const double variance = 1 + 1.2 * (1 / static_cast<double>(t.size()) + middle * middle / square);
-  return std::max(0.0, std::abs(median(offsets)) - acceleration * reach * reach / 2) /
-         (deviation * std::sqrt(variance));
+  return std::max(0.0, std::abs(median(offsets)) - acceleration * reach * reach / 2) / std::sqrt(variance);
 }
 
 /// Distance from the local cubic through the frames kept within 20 ms (at least 5 frames) on either side, the
@@ -192,8 +192,8 @@ std::vector<double> without_outliers(const std::vector<double>& time, const std:
   // Two wrong frames side by side may support each other, which no line through six frames does.
   const auto supported = [&](std::size_t i) {
     const auto by = [&](int step) {
-      return misfit_to_robust_line(time, kept, i, step, x[i], deviation, judge.acceleration()) <=
-             certain * usual;
+      return misfit_to_robust_line(time, kept, i, step, x[i], judge.acceleration()) <=
+             certain * usual * deviation;
     };
     return by(0) || by(-1) || by(1);  // both sides together support all but frames at landings
   };

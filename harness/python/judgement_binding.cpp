@@ -95,25 +95,32 @@ Answer diagnosed(const Setup& setup, const Experiment& experiment, const Diagnos
           report};
 }
 
-Answer fitted(const Setup& setup, const Experiment& experiment, const std::string& free,
-              const std::vector<std::string>& on, int runs, int threads, const py::object& listener) {
+struct FitAsked {
+  std::string free;             ///< keys, as on the command line
+  std::vector<std::string> on;  ///< names of runs; none: all
+  int runs = 160, threads = 0;
+};
+
+Answer fitted(const Setup& setup, const Experiment& experiment, const FitAsked& how,
+              const py::object& listener) {
   const std::shared_ptr<const Question> asked = question_of(setup, experiment);
   const std::shared_ptr<const Engine> engine = shared_engine("hard");
-  free_parameters(free, asked->setup, all_effects());  // throws before long work
+  free_parameters(how.free, asked->setup, all_effects());  // throws before long work
   const auto work = [&](ToldProgress& told, const std::atomic<bool>* stop) {
     FitOptions options = usual_fit_options();
-    options.on = on;
-    options.count = runs;
-    options.threads = threads;
+    options.on = how.on;
+    options.count = how.runs;
+    options.threads = how.threads;
     options.stop = stop;
-    const double about = 12.0 * runs;  // rounds; more when the start is far off
+    const double about = 12.0 * how.runs;  // rounds; more when the start is far off
     options.progress = [&](const std::string& stage, std::int64_t done) {
       told.tell(stage, std::min(0.99, static_cast<double>(done) / about));
     };
     return std::make_shared<const Fit>(
-        fitted_and_judged(asked->setup, asked->measurement, free, *engine, options));
+        fitted_and_judged(asked->setup, asked->measurement, how.free, *engine, options));
   };
   const std::shared_ptr<const Fit> found = released(listener, work);
+  const int threads = how.threads;
   const auto report = [=](const std::atomic<bool>* stop) {
     return report_of(*found, asked->setup, asked->measurement, *engine, threads, stop);
   };
@@ -135,6 +142,7 @@ void bind_judgement(py::module_& module) {
   py::class_<DiagnosisAsked>(module, "DiagnosisAsked")
       .def(py::init<std::vector<std::string>, std::vector<std::string>, std::int64_t, double, int>());
   module.def("diagnose", &diagnosed);
+  py::class_<FitAsked>(module, "FitAsked").def(py::init<std::string, std::vector<std::string>, int, int>());
   module.def("fit", &fitted);
   py::class_<DropQuestion>(module, "DropQuestion")
       .def(py::init<>())

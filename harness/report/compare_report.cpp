@@ -51,9 +51,9 @@ ReportTable validation_table(const std::vector<Validation>& rows) {
   return table;
 }
 
-Report report_of(const Refit& fit, const MomentumAudit& momentum, const ModelJudgement& judgement,
-                 const Measurement& measurement, const Setup& setup,
+Report report_of(const ComparedModel& found, const Measurement& measurement, const Setup& setup,
                  const std::vector<MeasuredAgainstModel>& curves, ReportKnobs knobs) {
+  const auto& [fit, momentum, judgement] = found;
   const bool holds = judgement.holds();
   Report report;
   report.kind = "compare";

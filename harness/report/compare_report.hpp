@@ -9,10 +9,16 @@
 
 namespace shakedown {
 
+/// What a comparison found. All outlive it.
+struct ComparedModel {
+  const Refit& fit;
+  const MomentumAudit& momentum;
+  const ModelJudgement& judgement;
+};
+
 /// The report of a comparison; the curves must come from measured_against_model() with this setup alone;
 /// `knobs`: what the reader may turn.
-Report report_of(const Refit& fit, const MomentumAudit& momentum, const ModelJudgement& judgement,
-                 const Measurement& measurement, const Setup& setup,
+Report report_of(const ComparedModel& found, const Measurement& measurement, const Setup& setup,
                  const std::vector<MeasuredAgainstModel>& curves, ReportKnobs knobs = {});
 
 /// Error of each run as bars beside what noise and spread make.

@@ -177,6 +177,34 @@ std::vector<LongFunction> functions_of(const fs::path& file) {
   return found;
 }
 
+/// Of a function's definition or of a declaration in a header, the number of its parameters.
+struct ParameterList {
+  int line = 0, parameters = 0;
+  std::string name;
+};
+std::vector<ParameterList> parameter_lists_of(const std::string& text) {
+  // A name, parentheses with commas and without statements, and what may follow a list. What overrides has
+  // the parameters of another's function.
+  static const std::regex list(
+      "\\b(\\w+)\\(((?:[^(){};]|\\([^(){};]*\\))*,(?:[^(){};]|\\([^(){};]*\\))*)\\)"
+      "\\s*(?:const|noexcept|\\s)*[{;:]"),
+      named("(?:\\w[&*]+|>|\\b(?:double|int|bool|float|size_t|Index|\\w+_t)) \\w+(?: = [^,]*)?(?:,|$)");
+  std::vector<ParameterList> found;
+  for (std::sregex_iterator one(text.begin(), text.end(), list), none; one != none; ++one) {
+    const std::string inside = (*one)[2];
+    if (!std::regex_search(inside, named)) continue;  // a call
+    int depth = 0, parameters = 1;
+    for (const char c : inside) {
+      if (c == '<' || c == '(') ++depth;
+      if (c == '>' || c == ')') --depth;
+      if (c == ',' && depth == 0) ++parameters;
+    }
+    const auto line = std::count(text.begin(), text.begin() + one->position(), '\n') + 1;
+    found.push_back({static_cast<int>(line), parameters, (*one)[1]});
+  }
+  return found;
+}
+
 using Names = std::map<std::string, std::string>;  ///< with the line that gives each
 
 const std::regex type_named("(?:struct|class|enum class|enum|using|namespace) (\\w+).*");
@@ -357,6 +385,27 @@ TEST(Layering, NoFunctionIsLongerThanItIsReadAtOnce) {
                                    << one.head << " has a part that is worth a name";
       }
   EXPECT_GT(seen, 2000u);  // of some four thousand: it finds them
+}
+
+TEST(Layering, NoFunctionHasMoreParametersThanAreKeptInMind) {
+  constexpr int most = 6;
+  std::size_t seen = 0;
+  for (const Layer& layer : layers())
+    for (const fs::path& file : sources_of(layer.folder)) {
+      std::ifstream stream(file);
+      std::string text;
+      for (std::string line; std::getline(stream, line);) text += line.substr(0, line.find("//")) + '\n';
+      for (const ParameterList& one : parameter_lists_of(text)) {
+        ++seen;
+        EXPECT_LE(one.parameters, most) << fs::relative(file, PROJECT_ROOT).string() << ":" << one.line
+                                        << ": " << one.name << " takes things that are worth a type";
+      }
+    }
+  EXPECT_GT(seen, 1000u);
+  const std::vector<ParameterList> found = parameter_lists_of(
+      "void f(int a, const std::map<int, int>& b,\n       double c = g(1, 2)) {\n  h(a, b, c);\n}\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].parameters, 3);
 }
 
 TEST(Layering, TestsCompareNumbersWithinWhatWasSeen) {

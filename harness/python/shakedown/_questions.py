@@ -101,8 +101,8 @@ def fit(setup: SetupLike, data: MeasurementLike, free: Union[str, Sequence[str]]
     """
     of, measured = as_setup(setup), _measured(data)
     keys = free if isinstance(free, str) else ",".join(free)
-    return Fit(_core.fit(of._setup, measured._experiment, keys, list(on), _whole("runs", runs, 32, 100000),
-                         _whole("threads", threads, 0, 1024), progress), measured.name)
+    asked = _core.FitAsked(keys, list(on), _whole("runs", runs, 32, 100000), _whole("threads", threads, 0, 1024))
+    return Fit(_core.fit(of._setup, measured._experiment, asked, progress), measured.name)
 
 
 def bounce(files: Union[Path, Sequence[Path]], *, recorded_as: str = "", columns: Sequence[str] = (), unit: str = "",
