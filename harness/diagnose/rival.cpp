@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <tuple>
 
@@ -44,6 +45,10 @@ std::vector<Knob> without(std::vector<Knob> knobs, const std::vector<Knob>& thes
     return std::any_of(these.begin(), these.end(), [&](const Knob& other) { return other.key == knob.key; });
   });
   return knobs;
+}
+
+std::vector<Knob> knobs_of_fit(const DiagnosisState& before, const DiagnosisState& with) {
+  return together(together(covering_the_users_values(before.theta), with.found), with.camera);
 }
 
 /// The fitted strength of a rival, as the prior counts it.
@@ -106,12 +111,20 @@ DiagnosisState with_rival(const DiagnosisState& before, const Rival& rival, Diag
   return state;
 }
 
+void fit_shortly(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools) {
+  const DiagnosisState state = with_rival(before, rival, tools);
+  rival.chi2_without = before.fit.judged_chi2;
+  rival.short_chi2 = tools
+                         .fit(state, "looking at " + rival.candidate->effect, knobs_of_fit(before, state),
+                              effort::least, &before.fit)
+                         .judged_chi2;
+}
+
 void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
                double lowest, Effort effort) {
   const Candidate& candidate = *rival.candidate;
   DiagnosisState& state = rival.state = with_rival(before, rival, tools);
-  const std::vector<Knob> knobs =
-      together(together(covering_the_users_values(before.theta), state.found), state.camera);
+  const std::vector<Knob> knobs = knobs_of_fit(before, state);
   const std::string stage = "trying " + candidate.effect;
   state.fit = tools.fit(state, stage, knobs, effort, &before.fit, lowest);
   rival.fitted = true;
@@ -161,6 +174,24 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
           from + prior(rival) +
           averaged_over(signatures_err_by(signature)) * (rival.screened.log_evidence - signature);
   }
+}
+
+std::vector<Rival*> in_question(std::vector<Rival>& rivals) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Rival& rival : rivals) least = std::fmin(least, rival.short_chi2);
+  std::vector<Rival*> list;
+  for (Rival& rival : rivals)
+    if (!rival.attempted && rival.short_chi2 <= effort::short_fits_err * least) list.push_back(&rival);
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Rival* a, const Rival* b) { return a->short_chi2 < b->short_chi2; });
+  return list;
+}
+
+bool is_alone_in_question(const std::vector<Rival>& rivals, const Rival& one) {
+  double second = one.chi2_without;
+  for (const Rival& rival : rivals)
+    if (rival.candidate->effect != one.candidate->effect) second = std::fmin(second, rival.short_chi2);
+  return effort::short_fits_err * one.short_chi2 < second;
 }
 
 Rival* first_to_fit(const std::vector<Rival*>& by_odds) {

@@ -20,6 +20,9 @@ struct Rival {
   DiagnosisState state{};  ///< where it was fitted
   bool weighed = false;    ///< log_odds is more than its prior
   bool attempted = false;  ///< its fit had its turn
+  /// What its short fit left and what the model without leaves, in the metric of that one; NaN: none was
+  /// made.
+  double short_chi2 = std::nan(""), chi2_without = std::nan("");
   /// ln likelihood of the model without it where it was fitted, over that where the screen is.
   double nothing_gained = 0;
 };
@@ -49,6 +52,10 @@ DiagnosisState with_rival(const DiagnosisState& before, const Rival& rival, Diag
 void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
                double lowest, Effort effort);
 
+/// A fit of little effort, which says whether a fit that weighs it is worth its cost; nothing but what it
+/// leaves is kept. BudgetSpent, PhysicsError and InputError pass.
+void fit_shortly(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools);
+
 /// Its odds beside nothing by what is known so far: its prior, its signature, its fitted model. `candidates`:
 /// the number of known effects.
 void weigh_rival(Rival& rival, double candidates);
@@ -57,6 +64,13 @@ void weigh_rival(Rival& rival, double candidates);
 /// a model that is wrong: 2 % of thousands. Fitted rivals which the data accept are weighed beside the best
 /// of them by what each leaves, in the metric of that one; what was not fitted, by the signatures of both.
 void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates);
+
+/// Those whose fit has not had its turn and whose short fits left as little as any as far as short fits tell,
+/// least first; none where no short fit was made.
+std::vector<Rival*> in_question(std::vector<Rival>& rivals);
+
+/// No other short fit left as little as this one's as far as short fits tell, nor did the model without.
+bool is_alone_in_question(const std::vector<Rival>& rivals, const Rival& one);
 
 /// Of these, most probable first, the one to fit next: signatures that differ by less than they err by say
 /// nothing, and the effect that was most probable beforehand has its turn. Null: of none.

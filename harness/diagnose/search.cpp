@@ -94,6 +94,7 @@ class Round {
         candidates_(open_candidates(from_, tools, seen_by_balance)),
         known_(static_cast<double>(tools.known().size())),
         rejected_(is_rejected(state.fit)),
+        far_off_(rejected_ && state.fit.scatter > effort::far_off),
         lowest_(state.fit.judged_chi2) {
     round_.next = state;
   }
@@ -102,6 +103,7 @@ class Round {
     if (!candidates_.empty()) {
       tools_.begin("ranking the effects");
       rank();
+      if (far_off_) fit_each_shortly();
       fit_the_most_probable();
       if (rejected_) weigh_beside_the_best(rivals_, known_);
     }
@@ -121,7 +123,8 @@ class Round {
       nothing_gained_ = std::max(
           0.0, screen_->log_likelihood_ratio(tools_.features(state_.setup), state_.knobs(), ranking.nothing));
     const double whole = tools_.limit(), spent = std::min(whole, tools_.share_spent());
-    tools_.limit_to(spent + share::ranking_of_a_round * (whole - spent));
+    tools_.limit_to(spent +
+                    (far_off_ ? share::ranking_when_far_off : share::ranking_of_a_round) * (whole - spent));
     const Screening screening = screen_->weigh(candidates_);
     tools_.limit_to(whole);
     for (const ScreenedEffect& screened : screening.list)
@@ -143,6 +146,29 @@ class Round {
     if (pairs_.size() > effort::most_pairs) pairs_.resize(effort::most_pairs);
   }
 
+  /// About parameters that are far off no line reaches what is missing, and what a signature promises says
+  /// little. Short fits of all, the cheap ones first, say which are worth one that weighs them.
+  void fit_each_shortly() {
+    sort_by_odds();
+    std::vector<Rival*> open;
+    for (Rival* rival : order_)
+      if (rival->weighed && !is_arithmetic(*rival)) open.push_back(rival);
+    if (open.size() < 2) return;
+    std::stable_sort(open.begin(), open.end(), [](const Rival* a, const Rival* b) {
+      return a->candidate->plain_runs() < b->candidate->plain_runs();
+    });
+    const double whole = tools_.limit(), spent = std::min(whole, tools_.share_spent());
+    tools_.limit_to(spent + share::short_fits_of_the_rest * (whole - spent));
+    for (Rival* rival : open) try {
+        fit_shortly(*rival, from_, tools_);
+      } catch (const BudgetSpent&) {
+        break;
+      } catch (const PhysicsError&) {  // the fit that weighs it will say so
+      } catch (const InputError&) {
+      }
+    tools_.limit_to(whole);
+  }
+
   /// Fits confirm the most probable, and what has more than a tenth of its probability; where a fit takes
   /// back what a signature promised, the next has its turn.
   void fit_the_most_probable() {
@@ -152,10 +178,10 @@ class Round {
     for (const Rival& rival : rivals_)
       if (rival.weighed) promised = std::max(promised, rival.log_odds);
     bool pairs_due = !pairs_.empty();
-    const bool pairs_first = pairs_due && is_far_beyond(pairs_.front(), rivals_);
+    const bool pairs_first = pairs_due && !far_off_ && is_far_beyond(pairs_.front(), rivals_);
     while (tried_ < static_cast<int>(rules::most_tried)) {
       // Two that the data reject each alone may hold together.
-      if (pairs_due && (tried_ > 0 || pairs_first) && none_holds()) {
+      if (pairs_due && (tried_ > 0 || pairs_first) && none_holds() && in_question(rivals_).empty()) {
         pairs_due = false;
         fit_pairs();
         if (std::any_of(pairs_.begin(), pairs_.end(), [](const PairRival& p) { return holds(p.second); }))
@@ -184,6 +210,8 @@ class Round {
     const double best = std::min(promised, order_.front()->log_odds);
     const double worth_a_fit = all_bad ? -std::numeric_limits<double>::infinity()
                                        : std::max(worth_asking, best - signatures_err_by(best));
+    if (const std::vector<Rival*> shortly = in_question(rivals_); !shortly.empty() && none_holds())
+      return shortly.front();
     std::vector<Rival*> open;
     for (Rival* rival : order_) {
       // Of what is arithmetic only the fit that is to be added is needed.
@@ -207,7 +235,8 @@ class Round {
         fit(rival.candidate->dear ? effort::attempt_when_dear : effort::attempt);
       } catch (const BudgetSpent&) {
         // What is sure is fitted with what was kept for the last fit.
-        if (probability_among(rivals_, rival) <= rules::adds_effect) throw;
+        if (probability_among(rivals_, rival) <= rules::adds_effect && !is_alone_in_question(rivals_, rival))
+          throw;
         tools_.limit_to(1);
         fit(effort::least);
       }
@@ -294,6 +323,7 @@ class Round {
   const std::vector<Candidate> candidates_;
   const double known_;   ///< number of known effects
   const bool rejected_;  ///< the state before
+  const bool far_off_;   ///< so far that signatures say little
   double lowest_;        ///< chi2 of the best fit so far
   double nothing_gained_ = 0;
   std::unique_ptr<EffectScreen> screen_;

@@ -88,6 +88,48 @@ TEST(Rival, OfSignaturesAsGoodWhatWasMoreProbableBeforehandIsFittedFirst) {
   EXPECT_EQ(first_to_fit({}), nullptr);
 }
 
+namespace {
+
+Rival shortly_fitted(const Candidate& candidate, double chi2, double without) {
+  Rival rival{&candidate, {}};
+  rival.short_chi2 = chi2, rival.chi2_without = without;
+  return rival;
+}
+
+}  // namespace
+
+// Two films, what the model without left 3391 and 2561: in the one a restitution that falls with speed is
+// alone, in the other unequal grains seem to leave less.
+TEST(Rival, ThoseWhoseShortFitsLeaveLeastHaveTheirTurnFirst) {
+  const Candidate arc = named("arc"), law = named("law"), unequal = named("unequal"), other = named("other");
+  std::vector<Rival> alone{shortly_fitted(arc, 4265, 3391), shortly_fitted(law, 693, 3391), {&other, {}}};
+  EXPECT_EQ(in_question(alone), std::vector<Rival*>{&alone[1]});
+  EXPECT_TRUE(is_alone_in_question(alone, alone[1]));
+  EXPECT_FALSE(is_alone_in_question(alone, alone[0]));
+  EXPECT_FALSE(is_alone_in_question(alone, alone[2]));
+
+  std::vector<Rival> two{shortly_fitted(law, 1130, 2561), shortly_fitted(unequal, 1029, 2561),
+                         shortly_fitted(arc, 1569, 2561)};
+  EXPECT_EQ(in_question(two), (std::vector<Rival*>{&two[1], &two[0]}));
+  EXPECT_FALSE(is_alone_in_question(two, two[1]));
+  two[1].attempted = true;
+  EXPECT_EQ(in_question(two), std::vector<Rival*>{&two[0]});
+}
+
+TEST(Rival, WithoutShortFitsNoneIsInQuestion) {
+  const Candidate one = named("one");
+  std::vector<Rival> rivals{{&one, {}}};
+  EXPECT_TRUE(in_question(rivals).empty());
+  EXPECT_FALSE(is_alone_in_question(rivals, rivals[0]));
+}
+
+// The model without it leaves hardly more.
+TEST(Rival, AShortFitThatGainsNothingIsNotSure) {
+  const Candidate one = named("one");
+  const std::vector<Rival> rivals{shortly_fitted(one, 900, 1000)};
+  EXPECT_FALSE(is_alone_in_question(rivals, rivals[0]));
+}
+
 TEST(Rival, WhatTheDataRejectKeepsItsOdds) {
   const Candidate first = named("a"), second = named("b");
   std::vector<Rival> rivals{fitted(first, 1, 2600, {1, 1}), fitted(second, 1, 2400, {0, 0}, 0.001)};
