@@ -40,7 +40,8 @@ ScreenedEffect screened(const std::string& hidden, const std::string& candidate)
 }
 
 /// Every effect that leaves no trace in the momentum balance ranked about the true parameters, through a
-/// camera of which the usual is known.
+/// camera of which the usual is known. Effects of which a run costs ten plain ones are ranked where they are
+/// hidden.
 std::vector<ScreenedEffect> ranking_with(const std::string& hidden) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const shakedown::Setup setup = believed("8 s");
@@ -57,7 +58,8 @@ std::vector<ScreenedEffect> ranking_with(const std::string& hidden) {
   std::vector<Candidate> candidates = candidates_for(setup, {}, all_effects(), *engine);
   const std::vector<std::string> seen = audit_momentum(measurement, all_effects()).seen;
   std::erase_if(candidates, [&](const Candidate& candidate) {
-    return std::find(seen.begin(), seen.end(), candidate.fitted_knobs().front().key) != seen.end();
+    return std::find(seen.begin(), seen.end(), candidate.fitted_knobs().front().key) != seen.end() ||
+           (candidate.dear && !hidden.starts_with(candidate.effect));
   });
   return EffectScreen(features_with_camera(measurement, all_effects()), fitted, workshop, {}, 1000)
       .weigh(candidates)
