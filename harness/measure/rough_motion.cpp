@@ -65,6 +65,7 @@ void set_swing(const std::vector<Point>& turns, RoughMotion& motion) {
   const std::size_t from = turns.size() > 3 ? 1 : 0;
   motion.frequency =
       static_cast<double>(turns.size() - 1 - from) / (2 * (turns.back().time - turns[from].time));
+  motion.first_frequency = 1 / (turns[from + 2].time - turns[from].time);
   std::vector<double> centres;  // a decay that is linear in time drops out
   for (std::size_t i = 1; i + 1 < turns.size(); ++i)
     centres.push_back((turns[i - 1].x + 2 * turns[i].x + turns[i + 1].x) / 4);
@@ -80,9 +81,16 @@ double noise_of_points(const std::vector<Point>& points) {
   return differences.empty() ? nothing : robust_deviation(differences) / std::sqrt(6.0);
 }
 
+/// That of the whole is better known, where both are of one swing.
+double frequency_at_start(const RoughMotion& motion) {
+  constexpr double another = 1.5;  // times: grains that come along change it by less
+  const double ratio = motion.first_frequency / motion.frequency;
+  return ratio > another || ratio < 1 / another ? motion.first_frequency : motion.frequency;
+}
+
 /// Least squares x = a + b t + c t^2 over the first twelfth of a swing: what speed the first frame has.
 void set_delay(const std::vector<Point>& points, RoughMotion& motion) {
-  const double omega = 2 * std::numbers::pi * motion.frequency;
+  const double omega = 2 * std::numbers::pi * frequency_at_start(motion);
   const double begin = points.front().time;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -107,8 +115,9 @@ void set_delay(const std::vector<Point>& points, RoughMotion& motion) {
 /// a swing from rest takes for that.
 double lead_in_of(const std::vector<Point>& points, double interval, const RoughMotion& motion) {
   constexpr double frames_needed = 50;  // a period: with fewer the first ones differ by motion, not by noise
-  if (motion.frequency * interval * frames_needed > 1) return 0;
-  const double omega = 2 * std::numbers::pi * motion.frequency;
+  const double frequency = frequency_at_start(motion);
+  if (frequency * interval * frames_needed > 1) return 0;
+  const double omega = 2 * std::numbers::pi * frequency;
   const double left = 5 * std::max(motion.noise, 1e-3 * motion.amplitude);
   double sum = 0;
   std::size_t count = 0;
@@ -145,7 +154,7 @@ double unbroken_share(const std::vector<Point>& points, double interval) {
 }  // namespace
 
 RoughMotion rough_motion(const std::vector<double>& time, const std::vector<double>& x) {
-  RoughMotion motion{nothing, nothing, nothing, nothing, nothing, nothing, 0, nothing, nothing, 0};
+  RoughMotion motion{nothing, nothing, nothing, nothing, nothing, nothing, 0, nothing, nothing, 0, nothing};
   const std::vector<Point> points = points_of(time, x);
   if (points.size() < 5) return motion;
   const double interval = typical_interval(points);

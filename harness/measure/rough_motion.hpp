@@ -17,6 +17,9 @@ struct RoughMotion {
   double start_delay;   ///< s that a swing from rest would have taken to the first frame's speed
   double delay_error;   ///< s
   double unbroken;      ///< share of the recording's time in stretches of five frames and more without a gap
+  /// Hz, of the first whole swing after the first half: the free one, where a force drives the box later at
+  /// its own frequency.
+  double first_frequency;
 };
 
 /// Time s (increasing), position m (NaN where missing).

@@ -40,8 +40,8 @@ ScreenedEffect screened(const std::string& hidden, const std::string& candidate)
 }
 
 /// Every effect that leaves no trace in the momentum balance ranked about the true parameters, through a
-/// camera of which the usual is known. Effects of which a run costs ten plain ones are ranked where they are
-/// hidden.
+/// camera of which the usual is known. Effects of which a run costs more than a plain one are ranked where
+/// they are hidden.
 std::vector<ScreenedEffect> ranking_with(const std::string& hidden) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const shakedown::Setup setup = believed("8 s");
@@ -59,7 +59,7 @@ std::vector<ScreenedEffect> ranking_with(const std::string& hidden) {
   const std::vector<std::string> seen = audit_momentum(measurement, all_effects()).seen;
   std::erase_if(candidates, [&](const Candidate& candidate) {
     return std::find(seen.begin(), seen.end(), candidate.fitted_knobs().front().key) != seen.end() ||
-           (candidate.dear && !hidden.starts_with(candidate.effect));
+           (candidate.plain_runs() > 1 && !hidden.starts_with(candidate.effect));
   });
   return EffectScreen(features_with_camera(measurement, all_effects()), fitted, workshop, {}, 1000)
       .weigh(candidates)

@@ -113,6 +113,28 @@ TEST(RecordingCheck, PowersOfTenAreNamedWithTheUnit) {
   expect_parts(half.impossible, {"swings at 0.55", "frame_rate = \"", "spring.frequency"});
 }
 
+// An acceleration of the laboratory at a third of the spring's frequency: the release has died away after
+// three seconds, and the box swings at the pace of what drives it.
+TEST(RecordingCheck, ADrivenSwingThatOutlastsTheReleaseIsNoWrongClock) {
+  Experiment driven = three_runs();
+  driven.runs.pop_back();  // grains of the long box fly: they swing more like a spring than such a box does
+  for (MeasuredRun& run : driven.runs)
+    for (std::size_t i = 0; i < run.time.size(); ++i) {
+      const double t = run.time[i], left = std::max(0.0, 1 - t / 3) - (1 - 8e-3 / 0.1075 * t);
+      const double moved = 0.1075 * left * std::cos(2 * std::numbers::pi * 1.1 * t) +
+                           0.02 * (1 - std::exp(-t)) * std::sin(2 * std::numbers::pi * 0.35 * t);
+      run.x_box[i] += moved;
+      run.x_com[i] += moved;  // the grains keep their places in the box
+    }
+  const RoughMotion motion = rough_motion(driven.runs[0].time, driven.runs[0].x_box);
+  EXPECT_LT(motion.frequency, 0.6);
+  WITHIN(motion.first_frequency, 1.1, 0.2, 0.02);
+  EXPECT_EQ(said_of(driven).impossible, "");
+  for (MeasuredRun& run : driven.runs)
+    for (double& t : run.time) t *= 4;
+  expect_parts(said_of(driven).impossible, {"frame_rate = \"", "spring.frequency"});
+}
+
 TEST(RecordingCheck, AnOriginThatIsOffIsNamed) {
   const Said little = said_of(changed(1, 2e-3));
   EXPECT_EQ(little.impossible, "");
