@@ -111,9 +111,9 @@ double most_energy(const std::vector<Left>& left) {
   return most;
 }
 
-class LammpsWalls : public WithLammps, public testing::WithParamInterface<Wall> {};
+class SlowLammpsWalls : public WithLammps, public testing::WithParamInterface<Wall> {};
 
-TEST_P(LammpsWalls, GiveNoEnergyAndRubAsRigidSpheresDo) {
+TEST_P(SlowLammpsWalls, GiveNoEnergyAndRubAsRigidSpheresDo) {
   const auto [friction, restitution, steps, gain] = GetParam();
   const std::vector<Left> left = by_the_engine(*lammps, GetParam());
   EXPECT_LT(most_energy(left), 1 + gain);  // seen: 1.8e-3 with 20 steps, 4e-6 with 100
@@ -129,7 +129,7 @@ TEST_P(LammpsWalls, GiveNoEnergyAndRubAsRigidSpheresDo) {
 }
 
 /// Debian 12's version is older than the model that gained. Another version may have it: it is told.
-TEST_P(LammpsWalls, OfTheOlderStyleGiveNoneInTheVersionOfDebian12) {
+TEST_P(SlowLammpsWalls, OfTheOlderStyleGiveNoneInTheVersionOfDebian12) {
   const auto [friction, restitution, steps, gain] = GetParam();
   const SpringDashpot contact = spring_dashpot(restitution, grain_mass, contact_time);
   const double per_mass = contact.damping / grain_mass;
@@ -155,7 +155,7 @@ TEST_P(LammpsWalls, OfTheOlderStyleGiveNoneInTheVersionOfDebian12) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Impacts, LammpsWalls,
+INSTANTIATE_TEST_SUITE_P(Impacts, SlowLammpsWalls,
                          testing::Values(Wall{0.5, 0.76, 20, 0}, Wall{0.5, 0.76, 100, 0},
                                          Wall{0.2, 0.5, 100, 0}, Wall{0.5, 1, 20, 2e-2},
                                          Wall{0.5, 1, 100, 8e-5}, Wall{1, 0.9, 100, 0}));
