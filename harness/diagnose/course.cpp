@@ -39,6 +39,14 @@ Setup emptied(Setup setup) {
   return setup;
 }
 
+/// What the balance tells of the shutter; nothing where it does not hold.
+std::optional<ValueWithError> shutter_found(const MomentumAudit& balance) {
+  if (!balance.possible || !(balance.final_fit.p_value > balance_rejected)) return std::nullopt;
+  for (const NuisanceFound& one : balance.nuisances)
+    if (one.name == shutter_key) return ValueWithError{one.value, one.error};
+  return std::nullopt;
+}
+
 /// More simulations would not make it fit.
 bool is_far_off(const Refit& fit) { return fit.p_value <= rules::holds && fit.scatter > effort::far_off; }
 
@@ -154,7 +162,8 @@ void Course::judge() {
 DiagnosisState Course::with_packing() {
   DiagnosisState state;
   state.setup = quick(user_);
-  state.camera = camera_knobs(state.setup, tools_.measurement(), tools_.known());
+  state.camera =
+      camera_knobs(state.setup, tools_.measurement(), tools_.known(), shutter_found(result_.momentum));
   const auto [packing, apart, fits] = packing_before_release(user_, tools_.measurement(), tools_.known());
   if (!fits)
     result_.notes.push_back(

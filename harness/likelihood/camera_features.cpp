@@ -40,33 +40,38 @@ std::vector<MeasuredFeatures> features_with_camera(const Measurement& measuremen
 
 namespace {
 
-constexpr std::string_view shutter = "camera_shutter.time", clock = "camera_time_offset.offset";
+constexpr std::string_view clock = "camera_time_offset.offset";
 
 /// How late all runs are seen together, s: a frame's time is that of one of its rows, where a camera says so
 /// the first (Android Camera2, SENSOR_TIMESTAMP), so that the middle of a picture of 0.4 m is read by half of
 /// the shutter's time later. 0: the clock or the shutter is known exactly.
 double late_by_rows(const Setup& setup, const std::vector<CameraNuisance>& nuisances,
-                    std::span<const EffectRecord* const> known) {
+                    std::span<const EffectRecord* const> known,
+                    const std::optional<ValueWithError>& shutter) {
   const auto find = [&](std::string_view key) {
     return std::find_if(nuisances.begin(), nuisances.end(),
                         [&](const CameraNuisance& nuisance) { return nuisance.key == key; });
   };
-  const auto rows = find(shutter);
+  const auto rows = find(shutter_key);
   if (rows == nuisances.end() || find(clock) == nuisances.end()) return 0;
-  return std::hypot(get_number(setup, std::string(shutter), known), rows->deviation()) / 2;
+  const ValueWithError taken =
+      shutter ? *shutter
+              : ValueWithError{get_number(setup, std::string(shutter_key), known), rows->deviation()};
+  return std::hypot(taken.value, taken.error) / 2;
 }
 
 }  // namespace
 
 std::vector<Knob> camera_knobs(const Setup& setup, const Measurement& measurement,
-                               std::span<const EffectRecord* const> known) {
+                               std::span<const EffectRecord* const> known,
+                               const std::optional<ValueWithError>& shutter) {
   std::vector<Knob> knobs;
   const std::vector<CameraNuisance> nuisances = camera_nuisances(measurement, known);
   for (const CameraNuisance& nuisance : nuisances) {
     if (nuisance.each_run || find_camera_parameter(nuisance.key) == nullptr) continue;
     knobs.push_back(exact_knob(nuisance.key, get_number(setup, nuisance.key, known), nuisance.deviation()));
   }
-  if (const double late = late_by_rows(setup, nuisances, known); late > 0) {
+  if (const double late = late_by_rows(setup, nuisances, known, shutter); late > 0) {
     const std::string key(clock);
     knobs.push_back(exact_knob(key, get_number(setup, key, known), late));
   }

@@ -51,6 +51,19 @@ TEST(LateRows, AShutterThatIsKnownIsLateToo) {
   WITHIN(clock->width, 0.003, 1e-6, 4.2e-7);
 }
 
+// What the balance tells of it counts more than what was said.
+TEST(LateRows, OfAShutterThatWasFoundHalfIsTheClocks) {
+  const Measurement measurement = filmed({{"camera.shutter", 0, 0.003, {}}});
+  const auto width = [&](double value, double error) {
+    const std::vector<Knob> knobs =
+        camera_knobs(believed("1 s"), measurement, all_effects(), ValueWithError{value, error});
+    const Knob* clock = clock_of(knobs);
+    return clock == nullptr ? 0 : clock->width;
+  };
+  WITHIN(width(0.006, 1e-4), 0.003, 2e-6, 4.2e-7);
+  EXPECT_EQ(width(0, 1e-4), 5e-5);
+}
+
 TEST(LateRows, AClockOrAShutterThatIsKnownExactlyLeavesNothingOpen) {
   for (const char* exact : {"camera.shutter", "camera.trigger"})
     EXPECT_EQ(clock_of(camera_knobs(believed("1 s"), filmed({{exact, 0, 0, {}}}), all_effects())), nullptr)
