@@ -47,9 +47,6 @@ std::optional<ValueWithError> shutter_found(const MomentumAudit& balance) {
   return std::nullopt;
 }
 
-/// More simulations would not make it fit.
-bool is_far_off(const Refit& fit) { return fit.p_value <= rules::holds && fit.scatter > effort::far_off; }
-
 }  // namespace
 
 Diagnosis Course::run() {

@@ -94,7 +94,7 @@ class Round {
         candidates_(open_candidates(from_, tools, seen_by_balance)),
         known_(static_cast<double>(tools.known().size())),
         rejected_(is_rejected(state.fit)),
-        far_off_(rejected_ && state.fit.scatter > effort::far_off),
+        far_off_(is_far_off(state.fit)),
         lowest_(state.fit.judged_chi2) {
     round_.next = state;
   }

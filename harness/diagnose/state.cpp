@@ -87,6 +87,8 @@ bool is_rejected(const Refit& fit) {
   return fit.p_value <= rules::holds && !(fit.scatter < fit.codes_differ);
 }
 
+bool is_far_off(const Refit& fit) { return is_rejected(fit) && fit.scatter > effort::far_off; }
+
 bool is_led_astray(const DiagnosisState& state) {
   return is_rejected(state.fit) && std::any_of(state.theta.begin(), state.theta.end(), [](const Knob& knob) {
            return is_believed(knob) &&

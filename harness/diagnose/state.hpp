@@ -134,6 +134,10 @@ std::vector<std::string> hardly_told(const DiagnosisState& state,
 /// The data reject the model by more than two codes of the same physics differ.
 bool is_rejected(const Refit& fit);
 
+/// They reject it by so much that more simulations would not make it fit, and that no line from its
+/// parameters reaches what is missing.
+bool is_far_off(const Refit& fit);
+
 /// The data reject the model, and what imitates an effect has led its restitutions to where hardly anything
 /// tells of effects: about restitutions of .345 and .999 neither friction nor attraction shows.
 bool is_led_astray(const DiagnosisState& state);

@@ -26,7 +26,6 @@ Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools) {
   options.stop = tools.stop;
   options.strength_uncertainty = tools.strength_uncertainty;
   options.fixed = tools.fixed;
-  options.effects = tools.effects;
   options.ensembles = tools.ensembles;
   return diagnose(trial.hidden.believed,
                   measurement_of(trial.hidden.believed, measured_in(trial, tools), tools.known), *tools.model,

@@ -29,7 +29,6 @@ struct TrialTools {
   double (*strength_uncertainty)(std::string_view effect) = nullptr;  ///< DiagnoseOptions
   EnsembleCache* ensembles = nullptr;                ///< shared by the diagnoses; may be null
   std::vector<std::string> fixed{};                  ///< DiagnoseOptions
-  std::vector<std::string> effects{};                ///< DiagnoseOptions: looked for; empty: all
   void (*damage)(Experiment& experiment) = nullptr;  ///< done to what was measured before it is diagnosed
 };
 

@@ -79,8 +79,8 @@ class OutlierJudge {
 
 /// Robust line through up to six kept frames on one side (step -1 or +1) or three on each (0): the median of
 /// all slopes (Theil, Sen), which two wrong frames of six do not move. Returns by how much `value` at frame i
-/// misses it less what an acceleration bends, in standard deviations of a frame; 0 where there are too few
-/// frames.
+/// misses it less what an acceleration bends, m, divided by how many times more than a frame that scatters;
+/// 0 where there are too few frames.
 double misfit_to_robust_line(const std::vector<double>& time, const std::vector<double>& kept, std::size_t i,
                              int step, double value, double acceleration) {
   constexpr int wanted = 6;

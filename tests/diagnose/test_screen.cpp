@@ -40,8 +40,7 @@ ScreenedEffect screened(const std::string& hidden, const std::string& candidate)
 }
 
 /// Every effect that leaves no trace in the momentum balance ranked about the true parameters, through a
-/// camera of which the usual is known. Effects of which a run costs more than a plain one are ranked where
-/// they are hidden.
+/// camera of which the usual is known.
 std::vector<ScreenedEffect> ranking_with(const std::string& hidden) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const shakedown::Setup setup = believed("8 s");
@@ -58,8 +57,7 @@ std::vector<ScreenedEffect> ranking_with(const std::string& hidden) {
   std::vector<Candidate> candidates = candidates_for(setup, {}, all_effects(), *engine);
   const std::vector<std::string> seen = audit_momentum(measurement, all_effects()).seen;
   std::erase_if(candidates, [&](const Candidate& candidate) {
-    return std::find(seen.begin(), seen.end(), candidate.fitted_knobs().front().key) != seen.end() ||
-           (candidate.plain_runs() > 1 && !hidden.starts_with(candidate.effect));
+    return std::find(seen.begin(), seen.end(), candidate.fitted_knobs().front().key) != seen.end();
   });
   return EffectScreen(features_with_camera(measurement, all_effects()), fitted, workshop, {}, 1000)
       .weigh(candidates)

@@ -7,11 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "read_sources.hpp"
 
 namespace fs = std::filesystem;
 
@@ -91,17 +92,6 @@ std::vector<Include> includes_of(const fs::path& file) {
   return found;
 }
 
-std::vector<fs::path> sources_of(const std::string& folder) {
-  std::vector<fs::path> files;
-  const fs::path root = fs::path(PROJECT_ROOT) / folder;
-  if (!fs::exists(root)) return files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(root))
-    if (entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp")
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 /// Library of each of our headers by its plain name; names must be unique, or an include could mean two
 /// files.
 std::map<std::string, std::string> home_of_headers() {
@@ -137,118 +127,6 @@ bool is_standard(const std::string& header) {
 }
 
 const std::set<std::string> generated{"build_info.hpp"};
-
-/// Lines of a test's source, from 1, with a comparison of numbers whose tolerance nobody has measured, and
-/// no reason for it: "not WITHIN: ..." on that line or the one above.
-std::vector<int> bare_comparisons(std::istream& source) {
-  static const std::string bare = "_NEAR(", reason = "// not WITHIN: ";  // of EXPECT and of ASSERT
-  std::vector<int> found;
-  std::string line, above;
-  for (int number = 1; std::getline(source, line); ++number, above = line)
-    if (line.find(bare) != std::string::npos && line.find(reason) == std::string::npos &&
-        above.find(reason) == std::string::npos)
-      found.push_back(number);
-  return found;
-}
-
-/// Lines from the brace that opens a function at the margin, or in a class at the margin, to the one that
-/// closes it; tables are no functions.
-struct LongFunction {
-  int line = 0, lines = 0;
-  std::string head;
-};
-std::vector<LongFunction> functions_of(const fs::path& file) {
-  static const std::regex head("(  )?[A-Za-z_~][^=;#]*\\)[^=;()]*\\{"),
-      no_function("\\s*(if|for|while|switch|else|try|namespace|TEST\\w*)\\b.*"),
-      table(".*\\b(table|force_shapes)\\(\\) \\{");
-  std::vector<LongFunction> found;
-  std::vector<std::string> lines;
-  std::ifstream stream(file);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!std::regex_match(lines[i], head) || std::regex_match(lines[i], no_function) ||
-        std::regex_match(lines[i], table))
-      continue;
-    const std::string end = lines[i].starts_with(' ') ? "  }" : "}";
-    std::size_t last = i + 1;
-    while (last < lines.size() && !lines[last].starts_with(end)) ++last;
-    found.push_back({static_cast<int>(i) + 1, static_cast<int>(last - i) + 1, lines[i]});
-  }
-  return found;
-}
-
-/// Of a function's definition or of a declaration in a header, the number of its parameters.
-struct ParameterList {
-  int line = 0, parameters = 0;
-  std::string name;
-};
-std::vector<ParameterList> parameter_lists_of(const std::string& text) {
-  // A name, parentheses with commas and without statements, and what may follow a list. What overrides has
-  // the parameters of another's function.
-  static const std::regex list(
-      "\\b(\\w+)\\(((?:[^(){};]|\\([^(){};]*\\))*,(?:[^(){};]|\\([^(){};]*\\))*)\\)"
-      "\\s*(?:const|noexcept|\\s)*[{;:]"),
-      named("(?:\\w[&*]+|>|\\b(?:double|int|bool|float|size_t|Index|\\w+_t)) \\w+(?: = [^,]*)?(?:,|$)");
-  std::vector<ParameterList> found;
-  for (std::sregex_iterator one(text.begin(), text.end(), list), none; one != none; ++one) {
-    const std::string inside = (*one)[2];
-    if (!std::regex_search(inside, named)) continue;  // a call
-    int depth = 0, parameters = 1;
-    for (const char c : inside) {
-      if (c == '<' || c == '(') ++depth;
-      if (c == '>' || c == ')') --depth;
-      if (c == ',' && depth == 0) ++parameters;
-    }
-    const auto line = std::count(text.begin(), text.begin() + one->position(), '\n') + 1;
-    found.push_back({static_cast<int>(line), parameters, (*one)[1]});
-  }
-  return found;
-}
-
-using Names = std::map<std::string, std::string>;  ///< with the line that gives each
-
-const std::regex type_named("(?:struct|class|enum class|enum|using|namespace) (\\w+).*");
-
-/// What the unnamed namespaces of a source name at the beginning of a line: types and aliases, functions,
-/// values.
-Names hidden_names_of(const fs::path& file) {
-  static const std::regex value_or_function("(?:[^=({;]*[\\s*&])?(\\w+)\\s*[(={;\\[].*");
-  static const std::regex further_value(", (\\w+) = ");
-  Names names;
-  std::ifstream stream(file);
-  bool inside = false;
-  for (std::string line; std::getline(stream, line);) {
-    if (line.starts_with("namespace {")) {
-      inside = true;
-      continue;
-    }
-    if (line.starts_with("}  // namespace")) inside = false;
-    if (!inside || line.empty() || std::string(" }#/").find(line[0]) != std::string::npos ||
-        line.starts_with("template"))
-      continue;
-    std::smatch match;
-    if (std::regex_match(line, match, type_named) || std::regex_match(line, match, value_or_function))
-      names.emplace(match[1], line);
-    if (line.starts_with("const"))
-      for (std::sregex_iterator more(line.begin(), line.end(), further_value), none; more != none; ++more)
-        names.emplace((*more)[1], line);
-  }
-  return names;
-}
-
-/// Types that the headers of a folder name at the beginning of a line.
-Names types_of_headers(const std::string& folder) {
-  Names names;
-  for (const fs::path& file : sources_of(folder)) {
-    if (file.extension() != ".hpp") continue;
-    std::ifstream stream(file);
-    std::smatch match;
-    for (std::string line; std::getline(stream, line);)
-      if (!line.starts_with("namespace") && !line.ends_with(";") && std::regex_match(line, match, type_named))
-        names.emplace(match[1], line);
-  }
-  return names;
-}
 
 }  // namespace
 
