@@ -17,18 +17,16 @@
 #include <cstdlib>
 #include <fstream>
 
-/// Does not compile when the tolerance is more than twenty times the error that was seen.
-consteval double checked_tolerance(double tolerance, double seen) {
-  if (!(tolerance > 0 && tolerance <= 20 * seen)) throw "a tolerance is at most 20 times the error seen";
-  return tolerance;
-}
-
-/// The two together, for tables of cases.
+/// A tolerance and the error that was seen. Does not compile when it is more than twenty times as large.
 struct Tolerance {
   double size, seen;
-  consteval Tolerance(double tolerance, double error)
-      : size(checked_tolerance(tolerance, error)), seen(error) {}
+  consteval Tolerance(double tolerance, double error) : size(tolerance), seen(error) {
+    if (!(tolerance > 0 && tolerance <= 20 * error)) throw "a tolerance is at most 20 times the error seen";
+  }
 };
+
+/// Where an error is only bounded from above.
+consteval double checked_tolerance(double tolerance, double seen) { return Tolerance(tolerance, seen).size; }
 
 /// With WITHIN_SEEN=FILE in the environment each comparison adds a line: place, error, tolerance, seen.
 inline void note_seen(const char* file, int line, double error, const Tolerance& tolerance) {

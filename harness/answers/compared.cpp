@@ -178,12 +178,13 @@ std::string compared_json(const Compared& compared) {
         {"p_value", momentum.as_given.p_value}}},
       {"curves", curves_json(last)},
       {"notes", notes}};
+  const std::string& no_balance = momentum.why_not;
   explain_missing_numbers(all, [&](const std::string& path) {
     const auto begins = [&](std::string_view with) { return path.rfind(with, 0) == 0; };
     if (path.find("com_mm") != std::string::npos) return std::string("the grains' centre was not tracked");
     if (path == "/p_value") return std::string("an empty box has no ensembles: its waveform is judged");
     if (begins("/decay/")) return std::string("too few peaks or crossings in the run");
-    return begins("/momentum/") ? momentum.why_not : std::string();
+    return begins("/momentum/") ? no_balance : std::string();
   });
   return all.dump();
 }

@@ -39,7 +39,7 @@ std::string unusable(const std::filesystem::filesystem_error& error) {
 int run_named(const std::vector<Command>& commands) {
   for (const Command& command : commands)
     if (command.parser->parsed()) return command.run();
-  EXPECT(!"one command is required");
+  EXPECT(false && "one command is required");
   return exit_bug;
 }
 

@@ -95,7 +95,7 @@ double margin_of(const CrosscheckNumber& number, const Margins& margins, const S
     case Judged::share: return margins.share;
     case Judged::no: break;
   }
-  EXPECT(!"a judged number");
+  EXPECT(false && "a judged number");
   return 0;
 }
 

@@ -34,7 +34,7 @@ const char* to_string(Agreement verdict) {
     case Agreement::cannot_tell: return "cannot tell";
     case Agreement::no_number: return "no such number";
   }
-  EXPECT(!"a verdict");
+  EXPECT(false && "a verdict");
   return "";
 }
 

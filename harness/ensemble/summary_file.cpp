@@ -197,7 +197,7 @@ nlohmann::json json_of(const TomlValue& value) {
       for (const TomlEntry& entry : value.entries) json[entry.key] = json_of(entry.value);
       return json;
   }
-  EXPECT(!"a kind of value");
+  EXPECT(false && "a kind of value");
   return json;
 }
 

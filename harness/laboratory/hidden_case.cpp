@@ -155,7 +155,8 @@ ValueOrProblem<double> memory_of(const std::string& text) {
 }
 
 void take_recording(const std::string& part, const std::string& origin, RecordingSettings& settings) {
-  const auto [key, value, place] = parse_override(part, origin);
+  const Override given = parse_override(part, origin);
+  const std::string &key = given.key, &value = given.value;
   const auto refuse = [&](const std::string& problem, const std::string& remedy) {
     throw InputError({{{origin, 0, 0}, key, problem, remedy}});
   };

@@ -79,7 +79,9 @@ class Faults : public WithFolder {
          "grains.count = 3\n[run]\nduration = \"0.3 s\"\nsample_rate = \"100 Hz\"\n[box]\nlength = \"40 "
          "mm\"\n");
     file("IN/a.csv", "frame,x_px\n0,900\n1,890\n2,870\n3,840\n4,800\n5,750\n");
-    fs::copy_file(TEST_DATA "/drops/throws.csv", folder / "IN/throws.csv");
+    // Two drops: their laws are weighed in a fifth of the time of all five.
+    const std::string throws = contents(TEST_DATA "/drops/throws.csv");
+    file("IN/throws.csv", throws.substr(0, throws.find("\n3,1,") + 1));
     expect_done({"run", "IN/setup.toml", "--log", "--out", "IN/k"});
     expect_done({"sweep", "IN/setup.toml", "--vary", "box.length=40mm,50mm", "--out", "IN/r.sqlite"});
     empty_out();
@@ -201,9 +203,7 @@ class SlowEachWriter : public EachWriter {};
 }  // namespace
 
 TEST_P(EachWriter, LeavesNothingHalf) { try_all(GetParam(), 3); }
-TEST_P(SlowEachWriter, LeavesNothingHalfAtAnyCall) {
-  try_all(GetParam(), GetParam().name == "bounce" ? 4 : 12);
-}
+TEST_P(SlowEachWriter, LeavesNothingHalfAtAnyCall) { try_all(GetParam(), 12); }
 
 INSTANTIATE_TEST_SUITE_P(Commands, EachWriter, testing::ValuesIn(quick_writers()),
                          [](const auto& writer) { return writer.param.name; });
