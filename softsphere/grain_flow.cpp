@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sum_in_order.hpp"
+
 namespace shakedown {
 
 namespace {
@@ -34,9 +36,10 @@ void add_velocity(const std::vector<Change>& changes, Bodies& bodies, Accounts& 
   Vec3 total = Vec3::Zero();
   for (const Change& change : changes) total += change.velocity;
   Vec3 mean_momentum;  // of before and after
-  const double mass = bodies.mass.sum();
+  const double mass = sum_in_order(bodies.mass);
   for (int axis = 0; axis < 3; ++axis) {
-    mean_momentum(axis) = (bodies.mass * bodies.velocity.col(axis).head(n)).sum() + mass * total(axis) / 2;
+    mean_momentum(axis) =
+        sum_in_order(bodies.mass * bodies.velocity.col(axis).head(n)) + mass * total(axis) / 2;
     bodies.velocity.col(axis).head(n) += total(axis);
   }
   for (const Change& change : changes) accounts.add_work(change.effect, change.velocity.dot(mean_momentum));

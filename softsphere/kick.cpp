@@ -6,6 +6,7 @@
 
 #include "friction.hpp"
 #include "rolling.hpp"
+#include "sum_in_order.hpp"
 
 namespace shakedown {
 
@@ -167,7 +168,8 @@ class HalfKick {
   }
 
   void enter_field_work(Accounts& accounts) {
-    if (box_is_held_) accounts.outer_impulse += half_step_ * space_.drag.col(0).head(bodies_.grains).sum();
+    if (box_is_held_)
+      accounts.outer_impulse += half_step_ * sum_in_order(space_.drag.col(0).head(bodies_.grains));
     for (const auto& share : grain_forces_.drag.shares())
       accounts.add_work(share.effect, half_step_ * drag_power(share.strength));
     for (std::size_t k = 0; k < grain_forces_.free.size(); ++k) {

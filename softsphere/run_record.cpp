@@ -5,13 +5,15 @@
 #include <limits>
 #include <numbers>
 
+#include "sum_in_order.hpp"
+
 namespace shakedown {
 
 namespace {
 
 double centre_of_mass(const Bodies& bodies) {
   if (bodies.grains == 0) return std::numeric_limits<double>::quiet_NaN();
-  return (bodies.mass * bodies.position.col(0).head(bodies.grains)).sum() / bodies.mass.sum();
+  return sum_in_order(bodies.mass * bodies.position.col(0).head(bodies.grains)) / sum_in_order(bodies.mass);
 }
 
 /// M Omega Delta0; without a spring or its displacement the sum of m |v|.
@@ -49,7 +51,7 @@ double RunRecord::energy(const Bodies& bodies, const StoredEnergy& stored) const
 }
 
 double RunRecord::momentum(const Bodies& bodies) const {
-  return (bodies.mass * bodies.velocity.col(0).head(bodies.grains)).sum() + box_mass_ * bodies.v_box();
+  return sum_in_order(bodies.mass * bodies.velocity.col(0).head(bodies.grains)) + box_mass_ * bodies.v_box();
 }
 
 /// Dissipated: what contacts took, less what their springs have gained since the start.

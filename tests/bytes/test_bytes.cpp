@@ -118,10 +118,10 @@ INSTANTIATE_TEST_SUITE_P(
              "duration = \"1 s\"\n[[effect]]\nname = \"grain_cohesion\"\nforce = \"0.02 N\"\nrange = \"0.02 "
              "mm\"\n[[effect]]\nname = \"clamp_dry_friction\"\nforce = \"0.02 N\"\n",
              0xffcfbffcb7a96fadu},
-        Case{"soft", "soft", "duration = \"0.1 s\"\n", 0xe44f71fea863b259u},
+        Case{"soft", "soft", "duration = \"0.1 s\"\n", 0x05f5d14156c9d0dcu},
         Case{"soft_rubbing", "soft",
              "duration = \"0.05 s\"\n[[effect]]\nname = \"grain_friction\"\ngrain_grain = 0.2\ngrain_wall = "
              "0.1\n[[effect]]\nname = \"spring_cubic\"\ncoefficient = 0.1\n",
-             0x328d698c216855edu},
-        Case{"bullet", "bullet", "duration = \"0.05 s\"\n", 0x1450462642b3ad86u}),
+             0xcdc10835173d1603u},
+        Case{"bullet", "bullet", "duration = \"0.05 s\"\n", 0xc3a1c4372f11e83cu}),
     [](const auto& of) { return std::string(of.param.name); });

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <Eigen/Core>
+
+namespace shakedown {
+
+/// The sum of a column, first to last. Eigen's own adds as many at a time as the processor's vectors hold, so
+/// that its last digits differ from one processor to the next.
+template <class Column>
+double sum_in_order(const Eigen::DenseBase<Column>& column) {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < column.size(); ++i) sum += column.derived().coeff(i);
+  return sum;
+}
+
+}  // namespace shakedown
