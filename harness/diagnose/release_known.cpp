@@ -52,6 +52,7 @@ Measurement with_measured_release(Measurement measurement, std::span<const Effec
     const double weight = before * before / (before * before + by_camera * by_camera);
     const double value = given + weight * (seen.displacement - given);
     run.recorded.release_error = std::sqrt(weight) * by_camera;
+    if (!run.recorded.grains_measured_at) run.recorded.grains_measured_at = given;
     std::erase_if(run.recorded.overrides, [](const Override& one) { return one.key == key; });
     run.recorded.overrides.push_back({std::string(key), toml_string(write_quantity(value, "m")), "measured"});
     set_number(run.setup, key, value, known);

@@ -9,7 +9,8 @@ namespace shakedown {
 
 /// The measurement with each run released from where it was seen to be, as far as what the user says of the
 /// release allows: a hand does not let go twice at the same place. Weighs what is known of the release
-/// (`[known]`, else half a millimetre) against the first frames and the camera's scale.
+/// (`[known]`, else half a millimetre) against the first frames and the camera's scale. Grains whose places
+/// were measured keep their places in the box.
 Measurement with_measured_release(Measurement measurement, std::span<const EffectRecord* const> known);
 
 }  // namespace shakedown

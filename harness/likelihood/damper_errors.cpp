@@ -84,8 +84,7 @@ std::vector<DamperError> damper_errors(const Measurement& measurement) {
   const std::size_t runs = measurement.runs.size();
   DamperError release{"release.displacement", std::vector<double>(runs, 0), true};
   for (std::size_t r = 0; r < runs; ++r)
-    if (const Setup& setup = measurement.runs[r].setup;
-        setup.grains.count > 0 && setup.release.initial_grains.empty())
+    if (measurement.runs[r].setup.grains.count > 0)
       release.deviation[r] = measurement.runs[r].recorded.release_error;
   release.shift = shifts_of(measurement, release.deviation);
   std::vector<DamperError> list{release};

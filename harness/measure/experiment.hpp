@@ -3,6 +3,7 @@
 #pragma once
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct MeasuredRun {
 
   /// m, standard deviation of release.displacement, where the first frames or `[known]` tell it; 0: exact.
   double release_error = 0;
+  /// m, where the box was when the grains of release.initial_grains were measured; nothing: at
+  /// release.displacement.
+  std::optional<double> grains_measured_at;
 
   bool release_stated = false;  ///< the file says when it was let go
   bool origin_stated =

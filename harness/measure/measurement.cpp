@@ -61,7 +61,7 @@ std::vector<std::string> all_notes(const Measurement& measurement) {
 
 Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known) {
   Setup of_run = with_overrides(setup, run.overrides, known);
-  of_run.release.grains_measured = true;
+  of_run.release.grains_measured_at = run.grains_measured_at.value_or(of_run.release.displacement);
   return of_run;
 }
 

@@ -151,6 +151,8 @@ std::string note_on_measured_grains(const Setup& setup) {
 
 void read_grains(const Setup& setup, State& state) {
   const std::string& file = setup.release.initial_grains;
+  const double moved =
+      setup.release.displacement - setup.release.grains_measured_at.value_or(setup.release.displacement);
   keep_unchanged(file);
   std::ifstream input(file);
   if (!input)
@@ -177,7 +179,7 @@ void read_grains(const Setup& setup, State& state) {
       if (found.size() >= 20) break;
       continue;
     }
-    state.position.emplace_back(cells[1], cells[2], cells[3]);
+    state.position.emplace_back(cells[1] + moved, cells[2], cells[3]);
     state.velocity.emplace_back(cells[4], cells[5], cells[6]);
   }
   if (found.empty() && state.position.size() != static_cast<std::size_t>(setup.grains.count))

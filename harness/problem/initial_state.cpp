@@ -88,8 +88,8 @@ State initial_state(const Setup& setup, int run) {
   }
   const bool at_rest = std::all_of(state.velocity.begin(), state.velocity.end(),
                                    [](const Vec3& velocity) { return velocity.isZero(0); });
-  if (measured && !at_rest && setup.release.grains_measured) set_apart(setup, run, state);
-  if (!measured || (setup.release.grains_measured && at_rest)) {
+  if (measured && !at_rest && setup.release.grains_measured_at) set_apart(setup, run, state);
+  if (!measured || (setup.release.grains_measured_at && at_rest)) {
     double mass = 0;
     for (const double m : state.mass) mass += m;
     const double spring_energy = physics.stiffness * state.x_box * state.x_box / 2;

@@ -59,10 +59,11 @@ struct Setup {
     double displacement = 0.1075;  ///< m, of the box, at rest
     Packing packing = Packing::fcc;
     std::string initial_grains;  ///< CSV file id,x,y,z,vx,vy,vz; empty: use the packing
-    /// Set for the runs of an experiment (there is no key for it), so that an ensemble of them has its chaos:
-    /// where every velocity in initial_grains is zero nobody measured them, and they are drawn as those of a
-    /// packing are; others are known to a thousandth.
-    bool grains_measured = false;
+    /// Set for the runs of an experiment (there is no key for it): m, where the box was when initial_grains
+    /// were measured. From another place of release they move with the box. An ensemble of them has its
+    /// chaos: where every velocity is zero nobody measured them, and they are drawn as those of a packing
+    /// are; others are known to a thousandth.
+    std::optional<double> grains_measured_at;
     /// Kinetic energy of the grains as a fraction of the spring energy (damper); ignored when initial_grains
     /// is given and tells velocities.
     double kinetic_energy_fraction = 2e-5;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include "fnv.hpp"
 #include "quantity.hpp"
@@ -75,6 +76,8 @@ std::string digest(const Setup& setup) {
   if (!bare.release.initial_grains.empty() && grains) {
     const std::string contents(std::istreambuf_iterator<char>(grains), {});
     bare.release.initial_grains = "grains " + hexadecimal(fnv1a(contents));
+    if (const std::optional<double>& at = bare.release.grains_measured_at)
+      bare.release.initial_grains += " measured at " + write_quantity(*at, "m");
   }
   return hexadecimal(fnv1a(write_setup(bare)));
 }

@@ -139,7 +139,7 @@ TEST(InitialState, MeasuredGrainsDifferFromRunToRunInWhatNobodyMeasured) {
     return std::sqrt(sum / static_cast<double>(state.size()));
   };
   EXPECT_EQ(initial_state(setup, 0).velocity, initial_state(setup, 1).velocity);
-  setup.release.grains_measured = true;
+  setup.release.grains_measured_at = setup.release.displacement;
   const State a = initial_state(setup, 0), b = initial_state(setup, 1);
   EXPECT_EQ(a.position, b.position);
   EXPECT_NE(a.velocity, b.velocity);
@@ -158,6 +158,27 @@ TEST(InitialState, MeasuredGrainsDifferFromRunToRunInWhatNobodyMeasured) {
   shakedown::Setup packed = setup;
   packed.release.initial_grains.clear();  // the same energy as in a packing
   WITHIN(speed(initial_state(setup, 0)) / speed(initial_state(packed, 0)), 1, 4e-15, 2.3e-16);
+}
+
+// A box seen to start 0.2 mm from where it was said to be has its grains with it: 16 of them would stick out.
+TEST(InitialState, MeasuredGrainsMoveWithTheBoxToAnotherPlaceOfRelease) {
+  shakedown::Setup setup;
+  setup.box.length = 0.104;
+  setup.release.initial_grains = std::string(TEST_DATA) + "/init_damper_L104.csv";
+  setup.release.grains_measured_at = setup.release.displacement;
+  const State measured = initial_state(setup);
+  const std::string before = digest(setup);
+  setup.release.displacement -= 0.2e-3;
+  const State seen = initial_state(setup);
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    WITHIN(seen.position[i].x() - seen.x_box, measured.position[i].x() - measured.x_box, 3e-16, 2.8e-17);
+  EXPECT_EQ(seen.pushed_apart, 0);
+
+  shakedown::Setup said_so = setup;  // nobody moved them
+  said_so.release.grains_measured_at = said_so.release.displacement;
+  EXPECT_THROW(initial_state(said_so), InputError);
+  EXPECT_NE(digest(setup), digest(said_so));
+  EXPECT_NE(digest(setup), before);
 }
 
 // Positions are measured of grains that were taken for equal; in a model with unequal ones they may not
