@@ -66,13 +66,14 @@ TEST(DamperErrors, AreThoseOfWhatWasWeighedAndOfEachRelease) {
   EXPECT_EQ(errors[1].deviation, (std::vector<double>{0.002, 0.002}));
 }
 
-// Moved box, unmoved grains: a box that is let go elsewhere would stand in grains that were measured.
-TEST(DamperErrors, ARunWithMeasuredGrainsHasNoneOfItsRelease) {
+// Grains whose places were measured move with the box that is let go elsewhere.
+TEST(DamperErrors, ARunWithMeasuredGrainsHasThatOfItsRelease) {
   Measurement measurement = two_runs();
   measurement.runs[0].setup.release.initial_grains = "grains.csv";
   const std::vector<DamperError> errors = damper_errors(measurement);
-  ASSERT_EQ(errors.size(), 1u);
-  EXPECT_EQ(errors[0].key, "box.mass");
+  ASSERT_EQ(errors.size(), 2u);
+  EXPECT_EQ(errors[0].key, "release.displacement");
+  EXPECT_EQ(errors[0].deviation, (std::vector<double>{4e-4, 0}));
 }
 
 TEST(DamperErrors, ColumnsHaveNoNoiseForTheMicrostatesAreTheSame) {
