@@ -84,8 +84,8 @@ const std::vector<ExperimentKey>& table() {
        {"at rest", "unknown"}},
       {Where::run, "initial_grains", Kind::text, "", -infinity, infinity, "\"grains.csv\"",
        "Table id,x,y,z,vx,vy,vz (m, m/s) of the grains at release, from the folder of the experiment file. "
-       "Where every "
-       "velocity is 0 nobody measured them: each simulation draws its own."},
+       "They move with the box to where a diagnosis finds it released. Where every velocity is 0 nobody "
+       "measured them: each simulation draws its own."},
       {Where::run, "column", Kind::table, "", -infinity, infinity, "column.box_position.from = \"x2\"",
        "Columns of this run alone, on top of those of the file."},
       {Where::run, "known", Kind::table, "", -infinity, infinity, "known.\"box.mass\" = \"450 g +- 1 g\"",
