@@ -18,8 +18,7 @@ extern const EffectRecord eddy_brake, felt_end_walls;
 
 namespace {
 
-/// The four lengths of the blind suite, each filmed for half as long and once, by soft spheres, with `own` in
-/// the list of effects.
+/// The five runs of the blind suite, by soft spheres, with `own` in the list of effects.
 Diagnosis diagnosis_of(const EffectRecord& own, const char* key, double strength) {
   std::vector<const EffectRecord*> known(all_effects().begin(), all_effects().end());
   known.push_back(&own);
@@ -32,7 +31,7 @@ Diagnosis diagnosis_of(const EffectRecord& own, const char* key, double strength
   tools.budget = 16000;  // of minutes: neither needs more
   tools.strength_uncertainty = &strength_uncertainty;
   Trial trial;
-  trial.runs = varied(varied(full_design(), "one-repeat"), "half-duration").runs;
+  trial.runs = full_design().runs;
   trial.seed = 7;
   set_number(trial.hidden.truth, key, strength, known);
   return diagnose_trial(trial, tools);
