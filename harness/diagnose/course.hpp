@@ -67,8 +67,11 @@ class Course {
   DiagnosisState search(DiagnosisState& refitted);
   DiagnosisState with_full_effort(DiagnosisState state);
   /// An effect that was added to a model which the data accept, and of which the last fit finds next to
-  /// nothing, is taken back.
+  /// nothing, is taken back; so is what was added between two models that the data reject, where no error
+  /// falls.
   DiagnosisState without_untold(DiagnosisState state, const DiagnosisState& refitted);
+  /// Says so of what `state` has beyond `refitted`, which is what stands.
+  DiagnosisState without_added(const DiagnosisState& state, const DiagnosisState& refitted);
   void keep_ranked(const RankedEffect& ranked);
   /// What was not looked at stays as probable as it was.
   void keep_priors(const DiagnosisState& state);

@@ -19,6 +19,11 @@ bool is_sure(const SearchRound& round) {
          });
 }
 
+/// The data reject both models, and what was added lets no error fall: it is not what is missing.
+bool adds_nothing(const DiagnosisState& with, const DiagnosisState& without) {
+  return with.fit.p_value <= rules::holds && no_error_falls(without.fit.validation(), with.fit.validation());
+}
+
 }  // namespace
 
 DiagnosisState& Course::beside(DiagnosisState& refitted) {
@@ -103,7 +108,8 @@ DiagnosisState Course::without_untold(DiagnosisState state, const DiagnosisState
   // Its evidence was of a fit with less effort. Intervals of what restitutions imitate are wide, so that only
   // a strength which is none for all purposes speaks against it (an assumption), or that no error falls.
   constexpr double of_no_strength = 0.5;  // standard errors
-  if (!accepted_ || state.missing.empty() || state.missing == refitted.missing) return state;
+  if (state.missing.empty() || state.missing == refitted.missing) return state;
+  if (!accepted_) return adds_nothing(state, refitted) ? without_added(state, refitted) : state;
   const bool told = is_told(state.fit, state.missing.back(), of_no_strength);
   if (told && !no_error_falls(accepted_->fit.validation(), state.fit.validation())) return state;
   const std::string effect = state.missing.back();
@@ -114,6 +120,19 @@ DiagnosisState Course::without_untold(DiagnosisState state, const DiagnosisState
   state = *accepted_;
   if (state.missing == refitted.missing || state.missing == wholly_fitted_) return state;
   return with_full_effort(state);
+}
+
+DiagnosisState Course::without_added(const DiagnosisState& state, const DiagnosisState& refitted) {
+  for (const std::string& effect : state.missing) {
+    if (std::find(refitted.missing.begin(), refitted.missing.end(), effect) != refitted.missing.end())
+      continue;
+    result_.notes.push_back(effect +
+                            " was taken back: the data reject the model with it as well, and no error falls");
+    take_back(effect);
+  }
+  while (result_.ladder.size() > 1 && result_.ladder.back().step != step_name(refitted.missing))
+    result_.ladder.pop_back();
+  return refitted;
 }
 
 void Course::take_back(const std::string& effect) {
