@@ -106,10 +106,19 @@ double push_once(const Setup& setup, const std::vector<Contact>& pairs, State& s
   return deepest;
 }
 
-/// Deepest overlap with a neighbour or a wall, m.
+/// Deepest overlap with a neighbour or a wall, m. A sweep would not tell it: what it has moved overlaps more.
 double deepest_overlap(const Setup& setup, const State& state) {
-  State copy = state;
-  return push_once(setup, near_pairs(state, 0), copy);
+  double deepest = 0;
+  for (const auto& [a, b] : near_pairs(state, 0))
+    deepest =
+        std::max(deepest, state.radius[a] + state.radius[b] - (state.position[b] - state.position[a]).norm());
+  if (setup.domain == Domain::periodic) return deepest;
+  const Vec3 half(setup.box.length / 2, setup.box.width[0] / 2, setup.box.width[1] / 2);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const Vec3 off = state.position[i] - Vec3(state.x_box, 0, 0);
+    deepest = std::max(deepest, (off.cwiseAbs() - half).maxCoeff() + state.radius[i]);
+  }
+  return deepest;
 }
 
 /// By how much the largest pair of grains is wider than the diameter with which positions were measured, m.

@@ -185,7 +185,7 @@ TEST(InitialState, MeasuredGrainsMoveWithTheBoxToAnotherPlaceOfRelease) {
 // overlap.
 TEST(InitialState, UnequalGrainsAtMeasuredPositionsArePushedApart) {
   for (const double deviation : {0.01, 0.05, 0.1})
-    for (int run = 0; run < 5; ++run) {
+    for (int run = 0; run < 100; ++run) {  // of 3000 one in eight was refused at 0.1
       shakedown::Setup setup = unequal(deviation);
       setup.release.initial_grains = std::string(TEST_DATA) + "/init_damper_L40.csv";
       const State state = initial_state(setup, run);
