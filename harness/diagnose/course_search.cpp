@@ -19,11 +19,6 @@ bool is_sure(const SearchRound& round) {
          });
 }
 
-/// The data reject both models, and what was added lets no error fall: it is not what is missing.
-bool adds_nothing(const DiagnosisState& with, const DiagnosisState& without) {
-  return with.fit.p_value <= rules::holds && no_error_falls(without.fit.validation(), with.fit.validation());
-}
-
 }  // namespace
 
 DiagnosisState& Course::beside(DiagnosisState& refitted) {
@@ -109,7 +104,10 @@ DiagnosisState Course::without_untold(DiagnosisState state, const DiagnosisState
   // a strength which is none for all purposes speaks against it (an assumption), or that no error falls.
   constexpr double of_no_strength = 0.5;  // standard errors
   if (state.missing.empty() || state.missing == refitted.missing) return state;
-  if (!accepted_) return adds_nothing(state, refitted) ? without_added(state, refitted) : state;
+  if (!accepted_)
+    return adds_nothing(state.fit.p_value, refitted.fit.validation(), state.fit.validation())
+               ? without_added(state, refitted)
+               : state;
   const bool told = is_told(state.fit, state.missing.back(), of_no_strength);
   if (told && !no_error_falls(accepted_->fit.validation(), state.fit.validation())) return state;
   const std::string effect = state.missing.back();

@@ -77,6 +77,11 @@ bool no_error_falls(const std::vector<Validation>& before, const std::vector<Val
   return rises("box") && rises("centre");
 }
 
+bool adds_nothing(double p_value, const std::vector<Validation>& before,
+                  const std::vector<Validation>& after) {
+  return p_value <= rules::holds && no_error_falls(before, after);
+}
+
 std::vector<NuisanceFound> standing_out(const std::vector<NuisanceFound>& nuisances) {
   std::vector<NuisanceFound> found;
   for (const NuisanceFound& nuisance : nuisances)

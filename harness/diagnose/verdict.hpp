@@ -49,6 +49,11 @@ bool explains(double p_value, double scatter, double scatter_before, double erro
 /// between them makes no error fall. False where either lacks rows.
 bool no_error_falls(const std::vector<Validation>& before, const std::vector<Validation>& after);
 
+/// What was added to a model that the data reject leaves one that they reject, `p_value`, and lets no error
+/// fall: it is not what is missing.
+bool adds_nothing(double p_value, const std::vector<Validation>& before,
+                  const std::vector<Validation>& after);
+
 /// What of the camera the data show beyond what is known of it, most certain first.
 std::vector<NuisanceFound> standing_out(const std::vector<NuisanceFound>& nuisances);
 

@@ -165,6 +165,17 @@ TEST(Verdict, WhatMakesNoErrorFallIsNoExplanation) {
   EXPECT_FALSE(no_error_falls({}, {}));
 }
 
+// Felt on the end walls, in a list of effects: time ran out after a law of restitution, which the data
+// rejected too.
+TEST(Verdict, WhatIsAddedBetweenRejectedModelsMustLetAnErrorFall) {
+  const std::vector<Validation> before{{"a", "box", 6.06e-4, 0, 0, 0}, {"a", "centre", 1.407e-3, 0, 0, 0}};
+  std::vector<Validation> after{{"a", "box", 9.09e-4, 0, 0, 0}, {"a", "centre", 1.789e-3, 0, 0, 0}};
+  EXPECT_TRUE(adds_nothing(0.0025, before, after));
+  EXPECT_FALSE(adds_nothing(0.2, before, after));
+  after[1].error = 1.2e-3;
+  EXPECT_FALSE(adds_nothing(0.0025, before, after));
+}
+
 // 17.4 as given and 2.7 with what was found: less than nine tenths.
 TEST(Verdict, WhatFailsAndExplainsTooLittleIsNoExplanation) {
   WITHIN(share_taken_away(17.4, 2.7), 14.7 / 16.4, 4e-15, 2e-16);
