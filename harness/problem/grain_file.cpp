@@ -80,33 +80,34 @@ std::vector<Contact> near_pairs(const State& state, double reach) {
   return pairs;
 }
 
-/// One relaxation sweep: every overlapping pair moves apart by equal shares, and into the box. The deepest
-/// overlap it found, m.
-double push_once(const Setup& setup, const std::vector<Contact>& pairs, State& state) {
+/// One relaxation sweep: every overlapping pair moves apart by equal shares, and into the box. Whether
+/// anything moved.
+bool push_once(const Setup& setup, const std::vector<Contact>& pairs, State& state) {
   constexpr double spare = 1e-9;  // m, so that sweeps end
-  double deepest = 0;
+  bool moved = false;
   for (const auto& [a, b] : pairs) {
     const Vec3 apart = state.position[b] - state.position[a];
     const double distance = apart.norm(), overlap = state.radius[a] + state.radius[b] - distance;
-    deepest = std::max(deepest, overlap);
     if (overlap <= 0 || distance <= 0) continue;
     const Vec3 step = apart * ((overlap + spare) / (2 * distance));
     state.position[a] -= step;
     state.position[b] += step;
+    moved = true;
   }
-  if (setup.domain == Domain::periodic) return deepest;
+  if (setup.domain == Domain::periodic) return moved;
   const Vec3 half(setup.box.length / 2, setup.box.width[0] / 2, setup.box.width[1] / 2);
   const Vec3 middle(state.x_box, 0, 0);
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Vec3 room = half.array() - state.radius[i];
     const Vec3 off = state.position[i] - middle;
-    deepest = std::max(deepest, (off.cwiseAbs() - room).maxCoeff());
-    if ((room.array() > 0).all()) state.position[i] = middle + off.cwiseMax(-room).cwiseMin(room);
+    if (!(room.array() > 0).all() || (off.cwiseAbs().array() <= room.array()).all()) continue;
+    state.position[i] = middle + off.cwiseMax(-room).cwiseMin(room);
+    moved = true;
   }
-  return deepest;
+  return moved;
 }
 
-/// Deepest overlap with a neighbour or a wall, m. A sweep would not tell it: what it has moved overlaps more.
+/// Deepest overlap with a neighbour or a wall, m.
 double deepest_overlap(const Setup& setup, const State& state) {
   double deepest = 0;
   for (const auto& [a, b] : near_pairs(state, 0))
@@ -140,7 +141,7 @@ void push_apart(const Setup& setup, State& state) {
   State pushed = state;
   const std::vector<Contact> pairs = near_pairs(state, 10 * most);
   for (int sweep = 0; sweep < most_sweeps; ++sweep)
-    if (push_once(setup, pairs, pushed) <= 0) break;
+    if (!push_once(setup, pairs, pushed)) break;
   if (deepest_overlap(setup, pushed) > rounding) return;  // there is no room: the overlaps are reported
   for (std::size_t i = 0; i < state.size(); ++i)
     state.pushed_apart = std::max(state.pushed_apart, (pushed.position[i] - state.position[i]).norm());
