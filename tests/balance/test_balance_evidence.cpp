@@ -85,13 +85,13 @@ TEST(SlowBalanceEvidence, NothingHiddenIsMostProbable) {
   EXPECT_GE(probable, 18);
 }
 
-TEST(BalanceEvidence, ViscousDampingComesFirst) {
+TEST(SlowBalanceEvidence, ViscousDampingComesFirst) {
   PushedBox what;
   what.viscous = 0.02;
   expect_first(what, "blade_viscous_damping", 0.02);
 }
 
-TEST(BalanceEvidence, QuadraticDragComesFirst) {
+TEST(SlowBalanceEvidence, QuadraticDragComesFirst) {
   PushedBox what;
   what.force = [](double, double v, double) { return -0.1 * v * std::abs(v); };
   expect_first(what, "blade_quadratic_drag", 0.1);
@@ -144,7 +144,7 @@ TEST(SlowBalanceEvidence, DryFrictionIsNotCalledYielding) {
 }
 
 /// Who knows how the track wanders leaves the balance no wander to hide a friction's noise in.
-TEST(BalanceEvidence, DryFrictionIsNoSineWhereTheWanderIsKnown) {
+TEST(SlowBalanceEvidence, DryFrictionIsNoSineWhereTheWanderIsKnown) {
   PushedBox what;
   what.dry_friction = 0.05;
   MomentumOptions options;
@@ -156,13 +156,13 @@ TEST(BalanceEvidence, DryFrictionIsNoSineWhereTheWanderIsKnown) {
   EXPECT_EQ(audit.sets.front().effects, std::vector<std::string>{"clamp_dry_friction"});
 }
 
-TEST(BalanceEvidence, ACubicSpringComesFirst) {
+TEST(SlowBalanceEvidence, ACubicSpringComesFirst) {
   PushedBox what;
   what.cubic = -0.05;
   expect_first(what, "spring_cubic", -0.05);
 }
 
-TEST(BalanceEvidence, AConstantAccelerationComesFirst) {
+TEST(SlowBalanceEvidence, AConstantAccelerationComesFirst) {
   PushedBox what;
   what.acceleration = -0.15;
   expect_first(what, "constant_acceleration", -0.15);
@@ -193,7 +193,7 @@ TEST(SlowBalanceEvidence, ATrackThatWandersIsNoForce) {
   }
 }
 
-TEST(BalanceEvidence, ARollingShutterIsNoForce) {
+TEST(SlowBalanceEvidence, ARollingShutterIsNoForce) {
   Experiment experiment = pushed_box({}, 4);
   constexpr double shutter = 2e-3, reach = 0.4;  // s for so many m
   for (MeasuredRun& run : experiment.runs)
@@ -207,7 +207,7 @@ TEST(BalanceEvidence, ARollingShutterIsNoForce) {
   expect_nothing(experiment);
 }
 
-TEST(BalanceEvidence, ALensIsNoForce) {
+TEST(SlowBalanceEvidence, ALensIsNoForce) {
   Experiment experiment = pushed_box({}, 5);
   for (MeasuredRun& run : experiment.runs)
     for (std::vector<double>* series : {&run.x_box, &run.x_com})
@@ -215,7 +215,7 @@ TEST(BalanceEvidence, ALensIsNoForce) {
   expect_nothing(experiment);
 }
 
-TEST(BalanceEvidence, ABoxAGramTooHeavyIsNoForce) {
+TEST(SlowBalanceEvidence, ABoxAGramTooHeavyIsNoForce) {
   PushedBox what;
   what.extra_mass = 1e-3;
   expect_nothing(pushed_box(what, 6));

@@ -26,7 +26,7 @@ Counted counted(int count, const PushedBox& what = {}) {
   return {counts, miscount_in_question(counts, audit)};
 }
 
-TEST(GrainCount, OneTooManyOrTooFewIsSeen) {
+TEST(SlowGrainCount, OneTooManyOrTooFewIsSeen) {
   for (const int count : {36, 38}) {
     const Counted found = counted(count);
     EXPECT_EQ(found.in_question, 37 - count);
@@ -36,7 +36,7 @@ TEST(GrainCount, OneTooManyOrTooFewIsSeen) {
   }
 }
 
-TEST(GrainCount, ThatIsRightIsNotAskedAbout) {
+TEST(SlowGrainCount, ThatIsRightIsNotAskedAbout) {
   EXPECT_EQ(counted(37).in_question, 0);
   PushedBox what;
   what.viscous = 0.02;

@@ -167,7 +167,7 @@ TEST(SlowMomentum, AStrongFastSineStandsAlone) {
   WITHIN(audit.terms[0].frequency, 3, 0.01, 5.6e-4);
 }
 
-TEST(Momentum, TwoForcesAtOnce) {
+TEST(SlowMomentum, TwoForcesAtOnce) {
   PushedBox what;
   what.viscous = 0.03;
   what.cubic = 0.05;
@@ -220,7 +220,7 @@ TEST(SlowMomentum, GapsOutliersAndColouredNoiseDoNotConvict) {
   EXPECT_GT(audit.as_given.p_value, 1e-4) << audit.as_given.chi2_per_degree();
 }
 
-TEST(Momentum, EmptyBoxAndMissingGrains) {
+TEST(SlowMomentum, EmptyBoxAndMissingGrains) {
   PushedBox what;
   what.grains = false;
   what.viscous = 0.02;
@@ -265,7 +265,7 @@ TEST(SlowMomentum, AForceInNoListIsWrittenAsAFormula) {
   WITHIN(audit.formulas[0].constants[1].value, 0.06, 1.5e-3, 8e-5);
 }
 
-TEST(Momentum, AWeakForceInNoListSaysWhatItCannotTell) {
+TEST(SlowMomentum, AWeakForceInNoListSaysWhatItCannotTell) {
   PushedBox what;
   what.force = [](double x, double v, double) { return -0.025 * v * x * x; };  // about 6 standard errors
   const MomentumAudit audit = audited(what, 4);
@@ -277,7 +277,7 @@ TEST(Momentum, AWeakForceInNoListSaysWhatItCannotTell) {
   }
 }
 
-TEST(Momentum, AWrongFrequencyIsARefitNotAForce) {
+TEST(SlowMomentum, AWrongFrequencyIsARefitNotAForce) {
   const Experiment experiment = pushed_box({}, 9);
   std::vector<shakedown::Setup> setups = pushed_setups(experiment);
   for (shakedown::Setup& setup : setups) setup.spring.frequency = 1.21;
@@ -296,7 +296,7 @@ std::vector<shakedown::Setup> with_damping(const Experiment& experiment, double 
   return setups;
 }
 
-TEST(Momentum, WhatTheSetupHasTooMuchOfIsTakenOff) {
+TEST(SlowMomentum, WhatTheSetupHasTooMuchOfIsTakenOff) {
   PushedBox what;
   what.viscous = 0.02;
   const Experiment experiment = pushed_box(what, 11);
@@ -304,7 +304,7 @@ TEST(Momentum, WhatTheSetupHasTooMuchOfIsTakenOff) {
                1.1e-4);  // of the setup's 0.05
 }
 
-TEST(Momentum, OneSpringHasOneCoefficientWhateverTheRelease) {
+TEST(SlowMomentum, OneSpringHasOneCoefficientWhateverTheRelease) {
   PushedBox what;
   what.cubic = -0.03;  // at 107.5 mm, as all runs were released
   const Experiment experiment = pushed_box(what, 12);
@@ -343,7 +343,7 @@ TEST(Momentum, SpeedsOverAGapAreNotTheBoxs) {
   EXPECT_DOUBLE_EQ(top_speed_of_the_map(experiment), whole);
 }
 
-TEST(Momentum, WhatTheSetupHasIsNotMissed) {
+TEST(SlowMomentum, WhatTheSetupHasIsNotMissed) {
   PushedBox what;
   what.viscous = 0.05;
   const Experiment experiment = pushed_box(what, 10);

@@ -36,7 +36,7 @@ void expect_honest(const MomentumAudit& audit) {
         << term.key();
 }
 
-TEST(NoNumbers, InSomeFramesLeaveTheRest) {
+TEST(SlowNoNumbers, InSomeFramesLeaveTheRest) {
   for (const double bad : {std::nan(""), static_cast<double>(INFINITY)}) {
     PushedBox what;
     what.duration = 6;
@@ -64,7 +64,7 @@ TEST(NoNumbers, InAllFramesLeaveNoBalance) {
 }
 
 /// A box that never moves has no noise and no motion.
-TEST(NoNumbers, AreNotMadeOfABoxThatRests) {
+TEST(SlowNoNumbers, AreNotMadeOfABoxThatRests) {
   Experiment experiment = pushed_box({}, 3);
   for (MeasuredRun& run : experiment.runs) {
     for (double& x : run.x_box) x = 0.01;

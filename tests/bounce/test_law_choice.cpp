@@ -92,7 +92,7 @@ TEST(LawChoice, TheAirIsTakenOff) {
   EXPECT_TRUE(answer.best().values[0].low < 0.93 && 0.93 < answer.best().values[0].high);
 }
 
-TEST(LawChoice, NamesAnEdgeThatWasHit) {
+TEST(SlowLawChoice, NamesAnEdgeThatWasHit) {
   MadeBall ball;
   ball.timing = 1e-4, ball.scatter = 0.004;
   Random random(11, 5, Stream::hidden);
@@ -140,7 +140,7 @@ TEST(LawChoice, MissedAndExtraInstantsAreNamed) {
   EXPECT_EQ(gross[1].impact, 4);
 }
 
-TEST(BounceAnswer, WritesWhatASetupReads) {
+TEST(SlowBounceAnswer, WritesWhatASetupReads) {
   MadeBall ball{LawKind::power, {0.8, 0.08}};
   ball.timing = 1e-4, ball.scatter = 0.004;
   Random random(11, 8, Stream::hidden);

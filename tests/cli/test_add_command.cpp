@@ -8,6 +8,7 @@ namespace {
 
 class AddCommand : public WithFolder {};
 class LadderCommand : public WithFolder {};
+using SlowLadderCommand = LadderCommand;
 
 const std::string commented = "# my damper\n[box]\nlength = \"65 mm\"  # measured twice\n";
 
@@ -77,7 +78,7 @@ TEST_F(AddCommand, RefusesWhatDoesNotFitWithTheReason) {
   EXPECT_NE(refused({"blade_viscous_damping", "damping"}).find("key=value"), std::string::npos);
 }
 
-TEST_F(LadderCommand, ShowsTheErrorFallWhenTheHiddenEffectIsAdded) {
+TEST_F(SlowLadderCommand, ShowsTheErrorFallWhenTheHiddenEffectIsAdded) {
   ASSERT_EQ(shakedown_program({"hide", example("L040.toml"), "--effect",
                                "blade_viscous_damping=damping:0.2 N s/m", "--engine", "hard", "--lengths",
                                "40mm", "--duration", "3 s", "--out", in_folder("case")})

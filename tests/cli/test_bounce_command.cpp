@@ -10,10 +10,11 @@ namespace {
 const std::string throws = std::string(TEST_DATA) + "/drops/throws.csv";
 
 class BounceCommand : public WithFolder {};
+using SlowBounceCommand = BounceCommand;
 
 }  // namespace
 
-TEST_F(BounceCommand, NamesTheLawAndTheEdge) {
+TEST_F(SlowBounceCommand, NamesTheLawAndTheEdge) {
   const Outcome outcome = shakedown_program({"bounce", throws, "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json answer = json::parse(outcome.out);
@@ -26,7 +27,7 @@ TEST_F(BounceCommand, NamesTheLawAndTheEdge) {
   EXPECT_EQ(answer["impacts"].size(), 34u);
 }
 
-TEST_F(BounceCommand, WritesPageAndKnownValues) {
+TEST_F(SlowBounceCommand, WritesPageAndKnownValues) {
   const Outcome outcome =
       shakedown_program({"bounce", throws, "--mass", "8 g", "--diameter", "12.7 mm", "--known",
                          in_folder("known.toml"), "--report", in_folder("page.html")});

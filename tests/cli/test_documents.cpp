@@ -143,7 +143,7 @@ std::pair<double, double> interval_in(const std::string& text, const std::string
   return {std::stod(found[1]), std::stod(found[2])};
 }
 
-TEST(Documents, TheRecordingOfSomebodyElseGetsTheAnswerOfTheReadMe) {
+TEST(SlowDocuments, TheRecordingOfSomebodyElseGetsTheAnswerOfTheReadMe) {
   const fs::path folder = fs::path(TEST_DATA) / "filmed_pendulum";
   const Outcome outcome = shakedown_program(
       {"diagnose", (folder / "setup.toml").string(), "--data", (folder / "experiment.toml").string()});
@@ -153,7 +153,7 @@ TEST(Documents, TheRecordingOfSomebodyElseGetsTheAnswerOfTheReadMe) {
 }
 
 // The tables are of our own laboratory: 0.02 N s/m, 8 mN and 1.26 Hz are hidden.
-TEST(Documents, TheRecordingOfTheReadMeGetsThatAnswer) {
+TEST(SlowDocuments, TheRecordingOfTheReadMeGetsThatAnswer) {
   const fs::path folder = fs::path(TEST_DATA) / "leaf_spring";
   const Outcome outcome = shakedown_program({"diagnose", (folder / "setup.toml").string(), "--data",
                                              (folder / "experiment.toml").string(), "--json"});

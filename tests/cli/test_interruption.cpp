@@ -13,8 +13,9 @@ class Interruption : public WithFolder {
     if (!has_terminals()) GTEST_SKIP() << "no pseudo terminals here";
   }
 };
+using SlowInterruption = Interruption;
 
-TEST_F(Interruption, KeepsThePartOfASingleRun) {
+TEST_F(SlowInterruption, KeepsThePartOfASingleRun) {
   const Outcome outcome = interrupted_program(
       {"run", example("L040.toml"), "--set", "run.duration=1e7 s", "--rate", "1", "--out", in_folder("out")},
       " %");
@@ -41,8 +42,6 @@ TEST_F(Interruption, KeepsFinishedRunsOfAnEnsemble) {
   EXPECT_LT(summary["runs"]["finished"], 100000);
   EXPECT_EQ(summary["initial_energy_J"]["n"], summary["runs"]["finished"]);
 }
-
-class SlowInterruption : public Interruption {};
 
 TEST_F(SlowInterruption, DiagnosisGoesOnWithWhatItHasSimulated) {
   // Other restitutions: the model as given fails, and parameters are fitted.

@@ -150,7 +150,7 @@ TEST(SlowDiagnosis, AFormulaThatCannotBeSimulatedEndsNoDiagnosis) {
 }
 
 // The strength that the balance finds is that at the setup's own reference.
-TEST(Diagnosis, ACubicSpringThatTheSetupHasKeepsItsReference) {
+TEST(SlowDiagnosis, ACubicSpringThatTheSetupHasKeepsItsReference) {
   const std::vector<Override> half_there{{"spring_cubic.coefficient", "0.01"},
                                          {"spring_cubic.reference", "\"53.75 mm\""}};
   const shakedown::Setup setup = parse_setup("", "believed", all_effects(), half_there);
@@ -183,7 +183,7 @@ TEST(SlowDiagnosis, AStrengthThatTheSetupHasIsRefittedAndNotMissing) {
   EXPECT_LT(damping->high, 0.05);
 }
 
-TEST(Diagnosis, ABalanceWithDryFrictionInTheSetupHoldsThoughTheBoxSticks) {
+TEST(SlowDiagnosis, ABalanceWithDryFrictionInTheSetupHoldsThoughTheBoxSticks) {
   const Experiment experiment = measured({{"clamp_dry_friction=force:20 mN"}});
   shakedown::Setup amended = believed();
   set_number(amended, "clamp_dry_friction.force", 0.02, all_effects());

@@ -120,7 +120,7 @@ std::pair<double, double> response_of(const Record& record, std::size_t i) {
   return {2 * std::hypot(in_phase, behind) / count / base, std::atan2(behind, in_phase)};
 }
 
-TEST(DrivenBox, FreeDecayAndResonanceTellOneDamping) {
+TEST(SlowDrivenBox, FreeDecayAndResonanceTellOneDamping) {
   const Record record = recorded();
   const double whole = record.time.back() + 1, released = record.time.back() - free_periods / frequency;
   const FittedValue free = damping_from(record, released, whole), forced = damping_from(record, 0, released),
@@ -158,7 +158,7 @@ TEST(SlowDrivenBox, ADiagnosisNamesItsDampingAndNothingElse) {
   EXPECT_TRUE(d.judgement.holds()) << d.judgement.reason;
 }
 
-TEST(DrivenBox, ADiagnosisSetsTheSteadyStateBesideItsModel) {
+TEST(SlowDrivenBox, ADiagnosisSetsTheSteadyStateBesideItsModel) {
   shakedown::Setup given = believed();
   given.run.duration = 20;
   set_number(given, "oscillating_acceleration.amplitude.x", 0.3, all_effects());

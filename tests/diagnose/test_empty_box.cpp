@@ -95,7 +95,7 @@ TEST(SlowEmptyBox, QuadraticDragIsNamed) {
   expect_named({.quadratic = 0.1}, "blade_quadratic_drag", 0.1, {1e-3, 1.8e-4});
 }
 
-TEST(EmptyBox, WithoutFrictionNothingIsMissing) {
+TEST(SlowEmptyBox, WithoutFrictionNothingIsMissing) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   DiagnoseOptions options;
   options.known = all_effects();
@@ -108,7 +108,7 @@ TEST(EmptyBox, WithoutFrictionNothingIsMissing) {
 
 }  // namespace
 
-TEST(EmptyBox, AnOriginIsToldThoughTheFrequencyWasGivenWrong) {
+TEST(SlowEmptyBox, AnOriginIsToldThoughTheFrequencyWasGivenWrong) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   DiagnoseOptions options;
   options.known = all_effects();
@@ -125,7 +125,7 @@ TEST(EmptyBox, AnOriginIsToldThoughTheFrequencyWasGivenWrong) {
   EXPECT_LT(origin->error, 2e-4);
 }
 
-TEST(EmptyBox, NoGrainsInAnyRunIsAnEmptyBoxToo) {
+TEST(SlowEmptyBox, NoGrainsInAnyRunIsAnEmptyBoxToo) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   DiagnoseOptions options;
   options.known = all_effects();
@@ -181,7 +181,7 @@ TEST(SlowEmptyBox, ABadlyKnownScaleShrinksNothing) {
   EXPECT_LT(half_width(term_of(usual, "clamp_dry_friction")), 0.1);
 }
 
-TEST(EmptyBox, ABadlyWeighedBoxWidensEveryForce) {
+TEST(SlowEmptyBox, ABadlyWeighedBoxWidensEveryForce) {
   const Diagnosis bad =
       of_damped_box({{"box.mass", empty_box().box.mass, 0.05 * empty_box().box.mass, {}}}, of_all_effects());
   WITHIN(half_width(term_of(bad, "blade_viscous_damping")), 0.1, 0.02, 1.9e-3);

@@ -60,7 +60,7 @@ double value_of(const Diagnosis& d, const std::string& key) {
   return std::nan("");
 }
 
-TEST(WaveformSearch, TellsASecondSwingThatDiesAwayBesideQuadraticDrag) {
+TEST(SlowWaveformSearch, TellsASecondSwingThatDiesAwayBesideQuadraticDrag) {
   shakedown::Setup truth = empty_box();
   set_number(truth, "blade_quadratic_drag.drag", 0.1, all_effects());
   const Diagnosis d = diagnosed(filmed(truth, 1e-4, [](double t, double) {
@@ -74,7 +74,7 @@ TEST(WaveformSearch, TellsASecondSwingThatDiesAwayBesideQuadraticDrag) {
   WITHIN(value_of(d, "second_mode.rate"), 0.1, 1e-3, 8.9e-5);
 }
 
-TEST(WaveformSearch, AnEvenHarmonicIsNoAcceleration) {
+TEST(SlowWaveformSearch, AnEvenHarmonicIsNoAcceleration) {
   shakedown::Setup truth = empty_box();
   set_number(truth, "blade_viscous_damping.damping", 0.03, all_effects());
   const Diagnosis d = diagnosed(filmed(truth, 1e-4, [](double, double x) { return 0.2 * x * x; }));
@@ -86,7 +86,7 @@ TEST(WaveformSearch, AnEvenHarmonicIsNoAcceleration) {
 }
 
 // Two pendula that pass their energy to and fro: no law of the list does this.
-TEST(WaveformSearch, BeatsNeverHold) {
+TEST(SlowWaveformSearch, BeatsNeverHold) {
   const shakedown::Setup truth = empty_box();
   const Diagnosis d = diagnosed(filmed(truth, 1e-4, [&](double t, double) {
     return 0.06 * std::sin(2 * std::numbers::pi * 1.06 * truth.spring.frequency * t);

@@ -151,7 +151,7 @@ TEST(EmptyBox, FrictionThatYieldsLosesTheAreaOfItsLoop) {
   });
 }
 
-TEST(EmptyBox, FrictionThatYieldsIsOneLawInBothEngines) {
+TEST(SlowEmptyBox, FrictionThatYieldsIsOneLawInBothEngines) {
   for (const double travel : {1e-5, 1e-3, 0.02}) {
     shakedown::Setup setup = empty_box("clamp_dahl_friction", {{"force", 0.2}, {"travel", travel}}, 8);
     add_effect(setup, "constant_acceleration", {{"acceleration", Vec3(0.1, 0, 0)}});

@@ -109,7 +109,7 @@ TEST(RollingResistance, IsAlikeInHardAndSoftAtAnyAngle) {
   WITHIN(worst_wall, 0, 0.07, 0.0195);
 }
 
-TEST(RollingResistance, ClosesTheBooksOfADamper) {
+TEST(SlowRollingResistance, ClosesTheBooksOfADamper) {
   for (const EngineUnderTest& tested : engines_that_model("grain_rolling_resistance")) {
     shakedown::Setup setup;
     setup.run.duration = 1;

@@ -28,7 +28,7 @@ TEST(ShakenBox, ClosedFormIsLargestWhereTheWallMeetsThemAtItsFastest) {
 
 /// Hard grains stop in each other however slightly each impact is elastic; soft ones that lie together when
 /// they are hit are pressed together all at once, give part of it back, and soon go as one no more.
-TEST(ShakenBox, LosesWhatGrainsThatGoAsOneLose) {
+TEST(SlowShakenBox, LosesWhatGrainsThatGoAsOneLose) {
   for (const double ratio : {0.31, 0.35, 0.5, 1.0})
     WITHIN(at("hard", ratio).mean / collected_loss(1 / ratio), 1, 0.01, 6e-4) << ratio;
   WITHIN(at("soft", 0.35).mean / collected_loss(1 / 0.35), 1, 0.2, 0.04);

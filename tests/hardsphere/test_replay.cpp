@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
              "mm/s\"\n"}),
     [](const auto& of) { return std::string(of.param.name); });
 
-TEST(Replay, OfManyGrainsToo) {
+TEST(SlowReplay, OfManyGrainsToo) {
   shakedown::Setup setup = setup_with("");
   setup.grains.count = 1000;
   setup.box.mass *= 1000 / 37.0;

@@ -71,7 +71,7 @@ double told(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& unseen, do
 }  // namespace
 
 // Found from the simulations alone, as good as the best that those which were not seen would have chosen.
-TEST(FeatureCovariance, TellsUnseenSimulationsAsTheBestShrinkageOfAGridDoes) {
+TEST(SlowFeatureCovariance, TellsUnseenSimulationsAsTheBestShrinkageOfAGridDoes) {
   const double noise = 4e-5;
   const Eigen::MatrixXd all = simulated(600), unseen = without_mean(all.bottomRows(400));
   for (const int runs : {64, 128, 200}) {

@@ -14,7 +14,7 @@
 using namespace shakedown;
 
 // A diagnosis that is resumed may simulate by another engine than before.
-TEST(JudgedAsGiven, AJournalTellsTheEnginesApart) {
+TEST(SlowJudgedAsGiven, AJournalTellsTheEnginesApart) {
   const shakedown::Setup setup = parse_setup("[run]\nduration = \"2 s\"\n", "damper", all_effects());
   const std::unique_ptr<Engine> hard = engine_named("hard"), soft = engine_named("soft");
   const Measurement measurement = measurement_of(

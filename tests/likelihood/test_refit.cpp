@@ -208,7 +208,7 @@ struct TwoFits {
   }
 };
 
-TEST(Refit, SimulationsAtTheSolutionJudgeItAndWhatPromisedTooMuchLooksAgain) {
+TEST(SlowRefit, SimulationsAtTheSolutionJudgeItAndWhatPromisedTooMuchLooksAgain) {
   const Bent step(0.82, 0.02);
   const double truth = 0.82;
   const TwoFits fits(step, truth);

@@ -45,7 +45,7 @@ std::vector<NoiseCase> noise_cases() {
   return cases;
 }
 
-TEST(Noise, IsFoundWhateverTheCamera) {
+TEST(SlowNoise, IsFoundWhateverTheCamera) {
   for (const NoiseCase& one : noise_cases()) {
     const RecordedSwing swing = recorded_swing(one.how);
     const RunAudit audit = audit_run(swing.run);

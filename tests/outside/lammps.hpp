@@ -14,6 +14,7 @@ class WithLammps : public testing::Test {
   }
   const std::unique_ptr<Engine> lammps = make_lammps_engine(), soft = make_soft_engine();
 };
+using SlowWithLammps = WithLammps;
 
 /// A wide box at rest on a spring so weak that it does nothing during an impact.
 inline Setup resting_box() {

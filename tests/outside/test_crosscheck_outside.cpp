@@ -26,7 +26,7 @@ const Statistic& number_of(const EngineResult& result, std::string_view key) {
   return result.numbers.at(static_cast<std::size_t>(found - numbers.begin()));
 }
 
-TEST_F(WithLammps, StandsBesideTheOtherEngines) {
+TEST_F(SlowWithLammps, StandsBesideTheOtherEngines) {
   shakedown::Setup setup;
   setup.run.duration = 0.1;
   const Crosscheck found = crosscheck("damper", setup, between({"hard", "soft", "lammps"}));

@@ -12,6 +12,7 @@ using namespace shakedown;
 namespace {
 
 using LammpsContact = WithLammps;
+using SlowLammpsContact = WithLammps;
 
 constexpr double radius = 0.005, grain_mass = 4.04e-3, box_mass = 0.434;
 
@@ -140,7 +141,7 @@ TEST(LammpsContacts, HaveNoPowerOfTheSpeed) {
 }
 
 /// Attraction and friction: the torques at the side walls are those of friction alone.
-TEST_F(LammpsContact, AttractionBesideFrictionKeepsTheBook) {
+TEST_F(SlowLammpsContact, AttractionBesideFrictionKeepsTheBook) {
   shakedown::Setup setup;
   setup.run.duration = 0.3;
   add_effect(setup, "grain_cohesion", {{"force", 0.02}, {"range", 2e-4}});

@@ -11,6 +11,7 @@ using namespace shakedown;
 namespace {
 
 using LammpsEmptyBox = WithLammps;
+using SlowLammpsEmptyBox = WithLammps;
 
 TEST_F(LammpsEmptyBox, SwingsAsACosine) {
   const shakedown::Setup setup = empty_box(2);
@@ -93,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return std::string(one.param.effect); });
 
 /// Friction that is smooth cannot hold the box: it creeps.
-TEST_F(LammpsEmptyBox, CreepsWhereItShouldStick) {
+TEST_F(SlowLammpsEmptyBox, CreepsWhereItShouldStick) {
   shakedown::Setup setup = empty_box(4);
   add_effect(setup, "clamp_dry_friction", {{"force", 0.5}});
   const Trajectory run = lammps->run(setup), other = soft->run(setup);

@@ -97,7 +97,7 @@ std::vector<double> by_lammps(const Point& point) {
   return values;
 }
 
-TEST_F(WithLammps, ReadsFormulasAsMuParserDoes) {
+TEST_F(SlowWithLammps, ReadsFormulasAsMuParserDoes) {
   for (const Point& point : points) {
     const std::vector<double> values = by_lammps(point);
     ASSERT_EQ(values.size(), formulas.size());

@@ -10,6 +10,7 @@ using namespace shakedown;
 namespace {
 
 using LammpsGrains = WithLammps;
+using SlowLammpsGrains = WithLammps;
 
 constexpr double radius = 0.005, grain_mass = 4.04e-3, box_mass = 0.434;
 
@@ -141,7 +142,7 @@ TEST_F(LammpsGrains, AreDrivenByAFormulaAsInTheSoftEngine) {
   WITHIN(run.ledger.effect_loss.at(0), other.ledger.effect_loss.at(0), 3e-9, 1.5e-10);
 }
 
-TEST_F(LammpsGrains, BeginAsEveryEngineDoes) {
+TEST_F(SlowLammpsGrains, BeginAsEveryEngineDoes) {
   shakedown::Setup setup;
   setup.run.duration = 0.3;
   const Trajectory run = lammps->run(setup, {3, {}}), other = soft->run(setup, {3, {}});

@@ -67,5 +67,6 @@ class SoftEffects : public ::testing::Test {
   std::vector<std::unique_ptr<EffectRecord>> records;
   ScratchFolder folder;
 };
+using SlowSoftEffects = SoftEffects;
 
 }  // namespace shakedown

@@ -117,7 +117,7 @@ TEST(BulletEngine, ByDefaultTheBoxFallsAsleepOffCentre) {
   }));
 }
 
-TEST(BulletEngine, WithItsSettingsTheBoxComesToRestAtTheCentre) {
+TEST(SlowBulletEngine, WithItsSettingsTheBoxComesToRestAtTheCentre) {
   shakedown::Setup setup;
   setup.bullet.time_step = 1e-3;
   setup.run.duration = 15;

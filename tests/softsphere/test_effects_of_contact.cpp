@@ -138,7 +138,7 @@ TEST_F(SoftEffects, GrainsOfManySizesKeepTheBooks) {
   EXPECT_GT(result.collisions[0], 1000);
 }
 
-TEST_F(SoftEffects, AddUp) {
+TEST_F(SlowSoftEffects, AddUp) {
   shakedown::Setup setup = with({[](const EffectChoice&, int index, Physics& physics) {
                                    physics.contact.friction = {0.2, 0.2, 0.2};
                                    physics.box.dry_friction.add(0.05, index);

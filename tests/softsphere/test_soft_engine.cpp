@@ -38,7 +38,7 @@ TEST(SoftEngine, DigitsDoNotDependOnHowPairsAreFound) {
   EXPECT_EQ(by_list.ledger.contact_loss, by_bullet.ledger.contact_loss);
 }
 
-TEST(SoftEngine, CarriesTenThousandGrains) {
+TEST(SlowSoftEngine, CarriesTenThousandGrains) {
   shakedown::Setup setup = scaled_damper(10000);
   setup.run.duration = 0.02;
   const Trajectory result = make_soft_engine()->run(setup);
