@@ -188,6 +188,11 @@ ReadDrops drops_of_track(const Table& table, const TrackColumns& columns, const 
           "three are needed: film with more frames a second, or for longer"}});
   ReadDrops read;
   read.drops = drops_of_instants(impacts.instant, "");
+  if (read.drops.empty())
+    throw InputError({{{table.file, 1, 1},
+                       columns.height->name,
+                       "gives flights whose parabolas cross at no instant that is a number",
+                       "give the heights in another unit, e.g. in metres"}});
   for (Drop& drop : read.drops) drop.file = table.file, drop.height = reading.height;
   Drop& first = read.drops.front();
   if (std::isfinite(impacts.fall) && !std::isfinite(reading.height) && impacts.fall > 0) {

@@ -145,8 +145,10 @@ void Course::judge() {
   if (final.missing.empty() && accepted) return conclude(user_, given, given, false, tools_, result_);
   if (!final.missing.empty() && final.missing != refitted.missing &&
       !explains(final.fit.p_value, final.fit.scatter, refitted.fit.scatter, final.fit.error_box(),
-                final.fit.floor_box()))
+                final.fit.floor_box())) {
     final = refitted;
+    result_.ladder.push_back(step_of(step_name(final.missing) + ", the rest taken back", final.fit));
+  }
   // What the balance found was refitted with full effort already.
   tools_.limit_to(1);
   if (!final.missing.empty() && final.missing != refitted.missing && final.missing != wholly_fitted_)

@@ -74,7 +74,7 @@ struct Diagnosis {
   std::vector<NuisanceFound> camera;    ///< what the data say of camera and weights
   std::vector<DiagnosedParameter> parameters;
   std::vector<RankedEffect> ranking;
-  std::vector<LadderStep> ladder;
+  std::vector<LadderStep> ladder;  ///< what was tried, in that order; the last is the answer's model
   /// Where the model fails before any effect is added, worst first: family-wise p below 0.05.
   std::vector<FailureCell> where;
   MomentumAudit momentum;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 
 #include "quantity.hpp"
@@ -98,20 +100,23 @@ std::vector<Vec3> random_centres(const Setup& setup, double thickness, int run) 
 
 /// Sites of a face-centred cubic lattice of cells[0] x cells[1] x cells[2] cubes, stretched to a room about
 /// the origin.
-std::vector<Vec3> lattice_sites(const Eigen::Vector3i& cells, const Vec3& room) {
-  const Vec3 step = room.cwiseQuotient(cells.cast<double>());
-  constexpr std::array<std::array<double, 3>, 4> basis{
-      {{.25, .25, .25}, {.75, .75, .25}, {.75, .25, .75}, {.25, .75, .75}}};
-  std::vector<Vec3> sites;
-  sites.reserve(4 * static_cast<std::size_t>(cells.x()) * static_cast<std::size_t>(cells.y()) *
-                static_cast<std::size_t>(cells.z()));
-  for (int i = 0; i < cells.x(); ++i)
-    for (int j = 0; j < cells.y(); ++j)
-      for (int k = 0; k < cells.z(); ++k)
-        for (const auto& site : basis)
-          sites.push_back(-room / 2 + step.cwiseProduct(Vec3(i + site[0], j + site[1], k + site[2])));
-  return sites;
-}
+struct Lattice {
+  Eigen::Vector3i cells;
+  Vec3 room;
+
+  std::int64_t size() const { return 4LL * cells.x() * cells.y() * cells.z(); }
+  /// Those of a cell one after the other, cells along z first.
+  Vec3 site(std::int64_t index) const {
+    constexpr std::array<std::array<double, 3>, 4> basis{
+        {{.25, .25, .25}, {.75, .75, .25}, {.75, .25, .75}, {.25, .75, .75}}};
+    const std::array<double, 3>& in_cell = basis[static_cast<std::size_t>(index % 4)];
+    const std::int64_t cell = index / 4, column = cell / cells.z(), layer = column / cells.y();
+    const Vec3 corner(static_cast<double>(layer), static_cast<double>(column % cells.y()),
+                      static_cast<double>(cell % cells.z()));
+    return -room / 2 + room.cwiseQuotient(cells.cast<double>())
+                           .cwiseProduct(corner + Vec3(in_cell[0], in_cell[1], in_cell[2]));
+  }
+};
 
 /// Room of the centres in a closed or periodic cell.
 Vec3 room_of_cell(const Setup& setup) {
@@ -128,9 +133,10 @@ std::vector<Vec3> filled_cell(const Setup& setup) {
   Eigen::Vector3i cells;
   for (int axis = 0; axis < 3; ++axis)
     cells[axis] = std::max(1, static_cast<int>(std::ceil(per_length * room[axis] - 1e-9)));
-  while (4LL * cells.x() * cells.y() * cells.z() < static_cast<long long>(count)) ++cells.x();
-  std::vector<Vec3> centres = lattice_sites(cells, room);
-  centres.resize(count);
+  while (Lattice{cells, room}.size() < static_cast<std::int64_t>(count)) ++cells.x();
+  const Lattice lattice{cells, room};
+  std::vector<Vec3> centres(count);
+  for (std::size_t i = 0; i < count; ++i) centres[i] = lattice.site(static_cast<std::int64_t>(i));
   // every site of a lattice sees what the first one sees
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < centres.size(); ++i)
@@ -140,24 +146,40 @@ std::vector<Vec3> filled_cell(const Setup& setup) {
   return centres;
 }
 
+/// Of so many places `count` different ones, in order.
+std::vector<std::int64_t> drawn_places(std::int64_t places, std::int64_t count, Random& random) {
+  constexpr std::int64_t most_walked = 10'000'000;  // a tenth of a second
+  std::vector<std::int64_t> drawn;
+  if (places <= std::max(most_walked, 100 * count)) {
+    // Each is kept with the odds of those wanted to those left.
+    for (std::int64_t place = 0, left = count; left > 0; ++place)
+      if (random.uniform() * static_cast<double>(places - place) < static_cast<double>(left))
+        drawn.push_back(place), --left;
+    return drawn;
+  }
+  std::set<std::int64_t> different;
+  while (std::ssize(different) < count)
+    different.insert(static_cast<std::int64_t>(random.uniform() * static_cast<double>(places)));
+  drawn.assign(different.begin(), different.end());
+  return drawn;
+}
+
 /// Grains on sites drawn at random from a lattice of packing fraction 0.70 (or a little less): full of
 /// vacancies, it melts within a few impacts a grain even where the full lattice is stable.
 std::vector<Vec3> sparsely_filled_cell(const Setup& setup, int run) {
-  const std::size_t count = static_cast<std::size_t>(setup.grains.count);
+  const std::int64_t count = setup.grains.count;
   const Vec3 room = room_of_cell(setup);
   const double constant = std::cbrt(4 * 0.5236 / 0.70) * setup.grains.diameter;
-  const Eigen::Vector3i cells = (room / constant).array().floor().cast<int>().max(1);
-  std::vector<Vec3> sites = lattice_sites(cells, room);
-  if (sites.size() < count || room.minCoeff() < constant) does_not_fit(setup, sites.size(), "random");
-  // Each site is kept with the odds of grains left to sites left; the order of the lattice stays, so
-  // neighbours are near in memory.
+  constexpr double most_cells = 65536;  // along an edge: so that sites are counted without rounding
+  const Lattice lattice{(room / constant).array().floor().min(most_cells).cast<int>().max(1), room};
+  if (lattice.size() < count || room.minCoeff() < constant)
+    does_not_fit(setup, static_cast<std::size_t>(lattice.size()), "random");
+  // The order of the lattice stays, so neighbours are near in memory.
   Random random(setup.run.seed, static_cast<std::uint64_t>(run), Stream::packing);
-  std::size_t kept = 0;
-  for (std::size_t site = 0; kept < count; ++site)
-    if (random.uniform() * static_cast<double>(sites.size() - site) < static_cast<double>(count - kept))
-      sites[kept++] = sites[site];
-  sites.resize(count);
-  return sites;
+  std::vector<Vec3> centres;
+  for (const std::int64_t place : drawn_places(lattice.size(), count, random))
+    centres.push_back(lattice.site(place));
+  return centres;
 }
 
 std::atomic<const std::atomic<bool>*> asked_to_stop{nullptr};

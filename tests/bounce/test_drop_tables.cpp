@@ -175,6 +175,27 @@ TEST(DropTables, AMissedImpactDoesNotBeginADrop) {
   EXPECT_EQ(drops_of_instants(instants(x, 3), "").size(), 1u);
 }
 
+// Parabolas of heights near the largest number cross at no instant.
+TEST(DropTables, ATrackOfHeightsTooLargeIsRefused) {
+  const auto track = [](double unit) {
+    std::string text = "t,y\n";
+    for (int i = 0; i < 120; ++i) {
+      double since = i / 60.0 - std::sqrt(2 / 9.81), up = 0;
+      if (since >= 0)
+        for (up = 0.8 * std::sqrt(2 * 9.81); since > 2 * up / 9.81; up *= 0.8) since -= 2 * up / 9.81;
+      const double height =
+          since < 0 ? 1 - 9.81 * std::pow(i / 60.0, 2) / 2 : up * since - 9.81 * since * since / 2;
+      text += fmt::format("{},{}\n", i / 60.0, unit * height);
+    }
+    return text;
+  };
+  DropReading reading;
+  reading.as = "track";
+  reading.columns = {"t", "y"};
+  EXPECT_EQ(drops_of_table(parse_table(track(1), "a.csv"), reading).drops.size(), 1u);
+  EXPECT_THROW(drops_of_table(parse_table(track(1e308), "a.csv"), reading), InputError);
+}
+
 TEST(DropTables, SaysWhatIsWrong) {
   const auto message = [](const char* text, const DropReading& reading = {}) -> std::string {
     try {

@@ -87,6 +87,21 @@ shakedown::Setup unequal(double deviation) {
 
 }  // namespace
 
+// Dust in a large cell: a lattice of 1e14 sites, of which none is written down but those that are filled.
+TEST(InitialState, RandomCellsHoldDustToo) {
+  shakedown::Setup setup;
+  setup.domain = Domain::closed;
+  setup.release.packing = Packing::random;
+  setup.grains.diameter = 1e-6;
+  const State state = initial_state(setup);
+  ASSERT_EQ(std::ssize(state.position), setup.grains.count);
+  Vec3 least = state.position.front(), most = least;
+  for (const Vec3& centre : state.position) least = least.cwiseMin(centre), most = most.cwiseMax(centre);
+  const Vec3 cell(setup.box.length, setup.box.width[0], setup.box.width[1]);
+  EXPECT_TRUE(((most - least).array() < cell.array()).all());
+  EXPECT_TRUE(((most - least).array() > 0.7 * cell.array()).all());  // of 37 that lie anywhere
+}
+
 TEST(InitialState, SquareLayersOfOneGrainAcrossLeaveEveryOtherLayerEmpty) {
   for (const std::array<double, 2> width : {std::array{0.0205, 0.0205}, {0.05, 0.015}, {0.01, 0.03}}) {
     shakedown::Setup setup;
