@@ -117,7 +117,7 @@ TEST_P(SlowCoverage, IntervalsHoldTheTruth) {
     const char* text = std::getenv(variable);
     return text ? std::atoi(text) : otherwise;
   };
-  const int cases = asked("SHAKEDOWN_CASES", 40);
+  const int cases = asked("SHAKEDOWN_CASES", 24);
   const Coverage coverage =
       measured(law, scattering, cases, static_cast<std::uint64_t>(asked("SHAKEDOWN_SEED", 20260901)));
   fmt::print("{}\n", described(name, coverage));

@@ -44,8 +44,8 @@ ScreenedEffect screened(const std::string& hidden, const std::string& candidate)
 std::vector<ScreenedEffect> ranking_with(const std::string& hidden, EnsembleCache& ensembles) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const shakedown::Setup setup = believed("8 s");
-  const Measurement measurement = measurement_of(
-      setup, measured({{hidden}, {}, {}, {0.065, 0.104}, 7, "8 s"}, "hard"), all_effects());
+  const Measurement measurement =
+      measurement_of(setup, measured({{hidden}, {}, {}, {0.065, 0.104}, 7, "8 s"}, "hard"), all_effects());
   const std::vector<Knob> camera = camera_knobs(setup, measurement, all_effects());
   EXPECT_GE(camera.size(), 4u);
   std::vector<Knob> fitted = free_parameters(setup);
