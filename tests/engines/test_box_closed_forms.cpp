@@ -102,7 +102,7 @@ TEST(EmptyBox, ClampFrictionTakesTheSameFromEveryExtremumUntilTheBoxSticks) {
 
 // Dahl's friction (harness/problem/dahl_friction.hpp).
 
-TEST(EmptyBox, FrictionThatYieldsAtOnceIsDryFriction) {
+TEST(SlowEmptyBox, FrictionThatYieldsAtOnceIsDryFriction) {
   // After a turning point the resistance comes up over the travel, which gives back the impulse F travel:
   // each half swing loses 2 F (reach - travel) instead of 2 F reach, so extrema fall by 2 F/k, less 2 F/k
   // times travel over reach; the release, unloaded, half of that.
@@ -241,7 +241,7 @@ TEST(EmptyBox, ShakenFromRestAtTheCentreHasItsBooksMeasured) {
   }
 }
 
-TEST(EmptyBox, HasTheResonanceCurveOfTheDampedOscillator) {
+TEST(SlowEmptyBox, HasTheResonanceCurveOfTheDampedOscillator) {
   const double c = 2, a = 0.5, rate = c / mass;
   for (const double f : {0.7, 1.23, 1.9}) {
     const double w = 2 * pi * f;

@@ -97,9 +97,9 @@ std::string name_of(const testing::TestParamInfo<Law>& law) {
 }
 
 class OneHardImpact : public testing::TestWithParam<Law> {};
-class OneCompliantHardImpact : public testing::TestWithParam<Law> {};
-class OneSoftImpact : public testing::TestWithParam<Law> {};
-class OneBulletImpact : public testing::TestWithParam<Law> {};
+class SlowOneCompliantHardImpact : public testing::TestWithParam<Law> {};
+class SlowOneSoftImpact : public testing::TestWithParam<Law> {};
+class SlowOneBulletImpact : public testing::TestWithParam<Law> {};
 
 /// What the engine makes elastic so that no layer collapses (hardsphere/README.md).
 Encounter as_the_limits_have_it(Encounter it) {
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, OneHardImpact,
 
 /// With a tangential spring of another ratio than 2/7 the hard engine has the soft one's springs, in the
 /// limit of short contacts; what it takes is what the slip loses, to rounding.
-TEST_P(OneCompliantHardImpact, IsThatOfTheSofteningSprings) {
+TEST_P(SlowOneCompliantHardImpact, IsThatOfTheSofteningSprings) {
   Worst worst;
   scan(GetParam(), [&](const Encounter& it) {
     const Encounter law = as_the_limits_have_it(it);
@@ -139,13 +139,13 @@ TEST_P(OneCompliantHardImpact, IsThatOfTheSofteningSprings) {
   WITHIN(worst.restitution, 0, 4e-13, 3e-14);  // of 0.087 of the speed
   WITHIN(worst.motion, 0, 2e-3, 5.8e-4) << worst.moving;
 }
-INSTANTIATE_TEST_SUITE_P(Laws, OneCompliantHardImpact,
+INSTANTIATE_TEST_SUITE_P(Laws, SlowOneCompliantHardImpact,
                          testing::Values(Law{0.1, 0.75, 1, 0.82}, Law{0.5, 0.75, 1, 0.82},
                                          Law{0.5, 0.75, 0, 0.82}, Law{0.3, 0.5, 0.5, 0.6}, Law{1, 1, 1, 1},
                                          Law{0.5, 0.9, 1, 0.05}),
                          name_of);
 
-TEST_P(OneSoftImpact, IsThatOfItsSprings) {
+TEST_P(SlowOneSoftImpact, IsThatOfItsSprings) {
   Worst worst;
   scan(GetParam(), [&](const Encounter& it) {
     worst.enter(it, impact_by("soft", it), with_slip_left(it, by_tangential_spring(it)));
@@ -182,7 +182,7 @@ double largest_gain(const Law& law, double steps, std::string& where) {
 }
 
 /// What an elastic impact gains is the error of its steps and goes with them; one that loses gains nothing.
-TEST_P(OneSoftImpact, GainsNoMoreThanItsStepsErr) {
+TEST_P(SlowOneSoftImpact, GainsNoMoreThanItsStepsErr) {
   std::string where;
   const double coarse = largest_gain(GetParam(), 20, where);
   if (GetParam().restitution < 1) {
@@ -194,7 +194,7 @@ TEST_P(OneSoftImpact, GainsNoMoreThanItsStepsErr) {
   EXPECT_LE(largest_gain(GetParam(), 500, where), checked_tolerance(6e-6, 2.1e-6)) << where;
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, OneSoftImpact,
+INSTANTIATE_TEST_SUITE_P(Laws, SlowOneSoftImpact,
                          testing::Values(Law{0, 0.75, 1}, Law{0.1, 1, 1}, Law{0.1, 0.75, 1},
                                          Law{0.5, 0.75, 1}, Law{0.5, 0.75, 0}, Law{0.3, 0.5, 0.5},
                                          Law{1, 1, 1}, Law{0.1, 0.75, 1, 0.82}, Law{0.5, 0.75, 1, 0.82},
@@ -221,7 +221,7 @@ TEST(OneStickingImpact, TurnsItsSlipByTheSpringsRatio) {
 }
 
 /// Bullet's friction stops the slip, which is a tangential restitution of 0.
-TEST_P(OneBulletImpact, IsThatOfRigidBodies) {
+TEST_P(SlowOneBulletImpact, IsThatOfRigidBodies) {
   Worst worst;
   scan(GetParam(),
        [&](const Encounter& it) { worst.enter(it, impact_by("bullet", it), by_rigid_bodies(it)); },
@@ -232,7 +232,7 @@ TEST_P(OneBulletImpact, IsThatOfRigidBodies) {
   // Slip across the axis of a free box's side feels another mass than along it, and Bullet takes one.
   WITHIN(worst.motion, 0, 4e-3, 1.1e-3) << worst.moving;
 }
-INSTANTIATE_TEST_SUITE_P(Laws, OneBulletImpact,
+INSTANTIATE_TEST_SUITE_P(Laws, SlowOneBulletImpact,
                          testing::Values(Law{0, 0.75, 0}, Law{0.1, 1, 0}, Law{0.1, 0.75, 0},
                                          Law{0.5, 0.75, 0}),
                          name_of);

@@ -15,7 +15,7 @@
 
 using namespace shakedown;
 
-TEST(PressedFriction, LosesInTheFirstStrokesWhatSoftContactsLose) {
+TEST(SlowPressedFriction, LosesInTheFirstStrokesWhatSoftContactsLose) {
   const shakedown::Setup setup = parse_setup(R"(
     [spring]
     frequency = "1.225444 Hz"

@@ -167,7 +167,7 @@ TEST(PublishedImpact, TwinsWhoseSurfacesGoTogetherKeepTheirSpins) {
 }
 
 /// MFiX-DEM's verification cases DEM01 and DEM02 (mfix.netl.doe.gov/doc/vvuq-manual).
-TEST(PublishedImpact, BouncesToTheHeightsOfMfix) {
+TEST(SlowPublishedImpact, BouncesToTheHeightsOfMfix) {
   for (const double e : {0.5, 0.6, 0.7, 0.8, 0.9, 1.0})
     for (const int bounces : {1, 2, 3}) {
       Fall ball;

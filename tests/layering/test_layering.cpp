@@ -231,7 +231,7 @@ TEST(Layering, NoHiddenNameIsATypeOfAHeaderThatTheFolderOpens) {
 }
 
 /// Other versions of clang-format break lines elsewhere.
-TEST(Layering, EverySourceIsFormatted) {
+TEST(SlowLayering, EverySourceIsFormatted) {
   const std::string clang_format = "clang-format-14";
   if (std::system((clang_format + " --version > /dev/null 2>&1").c_str()) != 0)
     GTEST_SKIP() << "needs clang-format-14 (apt-get install clang-format-14)";

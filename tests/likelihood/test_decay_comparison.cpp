@@ -59,7 +59,7 @@ TEST(DecayComparison, AForcedEmptyBoxHasTheClosedForm) {
   EXPECT_TRUE(std::isnan(seen.effective_mass.measured));
 }
 
-TEST(DecayComparison, GrainsOfAnotherRestitutionLoseOtherwise) {
+TEST(SlowDecayComparison, GrainsOfAnotherRestitutionLoseOtherwise) {
   const shakedown::Setup truth = forced(37);
   shakedown::Setup believed = truth;
   believed.restitution.grain_grain = 0.6;

@@ -143,7 +143,7 @@ TEST(Refit, RejectsWhatRefittingCannotExplainAndAcceptsTheEffect) {
   WITHIN_ERRORS(fit.values.back().value, 0.1, 5, fit.values.back().error, 1.2e-4);
 }
 
-TEST(FitRound, TellsHowFarItsEmulatorsNoiseMovesTheMinimum) {
+TEST(SlowFitRound, TellsHowFarItsEmulatorsNoiseMovesTheMinimum) {
   // The same data fitted through independent simulations: what differs is the emulators.
   const DampedOscillation engine;
   const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
@@ -229,7 +229,7 @@ const TwoFits& fits_of_curve() {
   return fits;
 }
 
-TEST(Refit, SimulationsAtTheSolutionMoveItToTheMinimum) {
+TEST(SlowRefit, SimulationsAtTheSolutionMoveItToTheMinimum) {
   const TwoFits& fits = fits_of_curve();
   const double truth = truth_of_curve;
   const double before = std::abs(fits.promised.values[0].value - truth),

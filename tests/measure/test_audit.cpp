@@ -69,7 +69,7 @@ TEST(Audit, FewFramesAreNotCalledWrong) {
   EXPECT_DOUBLE_EQ(audit.com.standard_deviation, 7e-4);
 }
 
-TEST(Audit, TheLayerOfOtherGrainsHasItsOwnThickness) {
+TEST(SlowAudit, TheLayerOfOtherGrainsHasItsOwnThickness) {
   Experiment experiment;
   for (const double length : {0.04, 0.065, 0.104})
     experiment.runs.push_back(recorded(500, 2e-4, 0, 9, 0, length));
@@ -164,7 +164,7 @@ TEST(Audit, PixelSteps) {
   EXPECT_EQ(audit_run(recorded(500, 2e-4, 0, 8)).box.quantum, 0);
 }
 
-TEST(Audit, PlateauSlopeTellsABias) {
+TEST(SlowAudit, PlateauSlopeTellsABias) {
   for (const double bias : {0.0, 0.08}) {
     Experiment experiment;
     std::uint64_t seed = 10;

@@ -189,7 +189,7 @@ TEST(RecordingCheck, AShakenDamperHasNoSwappedColumns) {
   EXPECT_EQ(said_of(experiment, setups).impossible.find("swapped"), std::string::npos);
 }
 
-TEST(RecordingCheck, LateStartsAndLeadInsAreNamed) {
+TEST(SlowRecordingCheck, LateStartsAndLeadInsAreNamed) {
   Experiment early = three_runs();
   for (MeasuredRun& run : early.runs) {
     const std::size_t rest = 150;

@@ -38,9 +38,9 @@ double restitution_at(double reference, double speed) {
 }
 
 /// At the reference speed, far below and far above it.
-class LammpsViscoelastic : public WithLammps, public testing::WithParamInterface<double> {};
+class SlowLammpsViscoelastic : public WithLammps, public testing::WithParamInterface<double> {};
 
-TEST_P(LammpsViscoelastic, TwoGrainsReboundByTheLaw) {
+TEST_P(SlowLammpsViscoelastic, TwoGrainsReboundByTheLaw) {
   const double v = GetParam();
   const Trajectory run = run_with(
       *lammps, viscoelastic_impact(2e-3 / v + 0.01),
@@ -49,21 +49,21 @@ TEST_P(LammpsViscoelastic, TwoGrainsReboundByTheLaw) {
   WITHIN(after / v, restitution_at(0.75, v), 5e-3, 5.8e-4);
 }
 
-TEST_P(LammpsViscoelastic, AGrainReboundsFromTheEndWallByTheLaw) {
+TEST_P(SlowLammpsViscoelastic, AGrainReboundsFromTheEndWallByTheLaw) {
   const double v = GetParam();
   const Trajectory run = run_with(*lammps, viscoelastic_impact(2e-3 / v + 0.01),
                                   {{Vec3(0.05 - radius - 1e-3, 0, 0), Vec3(v, 0, 0)}});
   WITHIN((run.end_state.v_box - run.end_state.velocity[0].x()) / v, restitution_at(0.76, v), 5e-3, 3.3e-4);
 }
 
-TEST_P(LammpsViscoelastic, AGrainReboundsFromTheSideWallByTheLaw) {
+TEST_P(SlowLammpsViscoelastic, AGrainReboundsFromTheSideWallByTheLaw) {
   const double v = GetParam();
   const Trajectory run = run_with(*lammps, viscoelastic_impact(2e-3 / v + 0.01),
                                   {{Vec3(0, 0.05 - radius - 1e-3, 0), Vec3(0, v, 0)}});
   WITHIN(-run.end_state.velocity[0].y() / v, restitution_at(0.76, v), 5e-3, 3.3e-4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Speeds, LammpsViscoelastic, testing::Values(0.03, 0.3, 1.5));
+INSTANTIATE_TEST_SUITE_P(Speeds, SlowLammpsViscoelastic, testing::Values(0.03, 0.3, 1.5));
 
 /// 20 mN up to 0.2 mm.
 shakedown::Setup sticky(double seconds, double walls = 1) {
@@ -90,11 +90,11 @@ TEST_F(LammpsContact, TwoGrainsThatAttractLoseTheDepthOfTheWell) {
 }
 
 /// Places and speeds as in the soft engine: free flight, well, contact, well, free flight or capture.
-class LammpsAttraction
+class SlowLammpsAttraction
     : public WithLammps,
       public testing::WithParamInterface<std::pair<const char*, std::vector<PlacedGrain>>> {};
 
-TEST_P(LammpsAttraction, IsThatOfTheSoftEngine) {
+TEST_P(SlowLammpsAttraction, IsThatOfTheSoftEngine) {
   const auto& grains = GetParam().second;
   const Trajectory run = run_with(*lammps, sticky(0.05), grains),
                    other = run_with(*soft, sticky(0.05), grains);
@@ -112,7 +112,7 @@ TEST_P(LammpsAttraction, IsThatOfTheSoftEngine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Encounters, LammpsAttraction,
+    Encounters, SlowLammpsAttraction,
     testing::Values(
         std::pair{"pair",
                   std::vector<PlacedGrain>{
@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
                                                      {Vec3(radius + 2e-4, 0, 0), Vec3(-0.02, 0, 0)}}}),
     [](const auto& one) { return std::string(one.param.first); });
 
-TEST_F(LammpsContact, WallsThatDoNotAttractAreLeftAlone) {
+TEST_F(SlowLammpsContact, WallsThatDoNotAttractAreLeftAlone) {
   const std::vector<PlacedGrain> grain{{Vec3(0.05 - radius - 1e-4, 0, 0), Vec3(0, 0, 0)}};
   EXPECT_EQ(run_with(*lammps, sticky(0.01, 0), grain).end_state.velocity[0].x(), 0);
   EXPECT_GT(run_with(*lammps, sticky(0.01, 1), grain).end_state.velocity[0].norm(), 0);

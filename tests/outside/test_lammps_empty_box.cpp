@@ -50,9 +50,9 @@ struct OnTheBox {
 };
 void PrintTo(const OnTheBox& one, std::ostream* out) { *out << one.effect; }
 
-class LammpsBoxEffects : public WithLammps, public testing::WithParamInterface<OnTheBox> {};
+class SlowLammpsBoxEffects : public WithLammps, public testing::WithParamInterface<OnTheBox> {};
 
-TEST_P(LammpsBoxEffects, AreThoseOfTheSoftEngine) {
+TEST_P(SlowLammpsBoxEffects, AreThoseOfTheSoftEngine) {
   shakedown::Setup setup = empty_box(1.5);
   add_effect(setup, GetParam().effect, GetParam().values);
   const Trajectory run = lammps->run(setup), other = soft->run(setup);
@@ -61,7 +61,7 @@ TEST_P(LammpsBoxEffects, AreThoseOfTheSoftEngine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    OnTheBox, LammpsBoxEffects,
+    OnTheBox, SlowLammpsBoxEffects,
     testing::Values(
         // seen: 5.7e-6
         OnTheBox{"blade_quadratic_drag", {{"drag", 0.2}}, 1e-5, {1e-5, 9.4e-7}},

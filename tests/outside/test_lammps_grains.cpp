@@ -79,9 +79,9 @@ TEST_F(LammpsGrains, MeetAsInTheSoftEngine) {
 }
 
 /// Impacts that slide throughout, at an end wall, at the side walls, and of two grains.
-class LammpsFriction : public WithLammps, public testing::WithParamInterface<std::vector<PlacedGrain>> {};
+class SlowLammpsFriction : public WithLammps, public testing::WithParamInterface<std::vector<PlacedGrain>> {};
 
-TEST_P(LammpsFriction, TurnsGrainsAsTheSoftEngineDoes) {
+TEST_P(SlowLammpsFriction, TurnsGrainsAsTheSoftEngineDoes) {
   shakedown::Setup setup = impact_of(0.01);
   add_effect(setup, "grain_friction", {{"grain_grain", 0.1}, {"grain_wall", 0.1}});
   const Trajectory run = run_with(*lammps, setup, GetParam()), other = run_with(*soft, setup, GetParam());
@@ -95,7 +95,7 @@ TEST_P(LammpsFriction, TurnsGrainsAsTheSoftEngineDoes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Impacts, LammpsFriction,
+    Impacts, SlowLammpsFriction,
     testing::Values(std::vector<PlacedGrain>{{Vec3(0.05 - radius - 1e-3, 0, 0), Vec3(0.5, 0.3, 0.4)}},
                     std::vector<PlacedGrain>{{Vec3(0, 0.05 - radius - 1e-3, 0), Vec3(0.4, 0.5, 0.3)}},
                     std::vector<PlacedGrain>{{Vec3(0, 0, -0.05 + radius + 1e-3), Vec3(-0.4, 0.3, -0.5)}},
@@ -129,7 +129,7 @@ TEST_F(LammpsGrains, FallAndAreDraggedAsInTheSoftEngine) {
     WITHIN(run.ledger.effect_loss.at(i), other.ledger.effect_loss.at(i), 5e-8, 2.8e-9) << i;
 }
 
-TEST_F(LammpsGrains, AreDrivenByAFormulaAsInTheSoftEngine) {
+TEST_F(SlowLammpsGrains, AreDrivenByAFormulaAsInTheSoftEngine) {
   shakedown::Setup setup = impact_of(0.05);
   add_effect(setup, "user_force",
              {{"on", std::string("grains")}, {"force", std::string("-0.3*x - 0.01*v + 2e-3*sin(40*t)")}});
