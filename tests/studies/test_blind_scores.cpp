@@ -309,7 +309,9 @@ TEST(SlowNaiveAnswers, NameAStrongForceAndAccuseWhereNothingIsHidden) {
   Trial trial;
   trial.runs = small_design().runs;
   trial.hidden = {{}, changed({}, at_strength(*find_hideable("spring_cubic"), 2), all_effects())};
-  const Workshop workshop{hard.get(), all_effects(), 0, nullptr, {}, nullptr};
+  Workshop workshop{hard.get(), all_effects(), 0, nullptr, {}, nullptr};
+  EnsembleCache ensembles;  // much is simulated for both
+  workshop.ensembles = &ensembles;
   const auto answers = [&] {
     return naive_answers({}, measurement_of(shakedown::Setup{}, measured_in(trial, tools), all_effects()),
                          workshop);

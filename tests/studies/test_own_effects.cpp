@@ -19,9 +19,11 @@ extern const EffectRecord eddy_brake, felt_end_walls;
 namespace {
 
 /// The longest box of the blind suite and `beside` of its runs, by soft spheres, with `own` in the list of
-/// effects.
+/// effects. Those with which a run costs several times a plain one are left out: they would take three
+/// quarters of the time.
 Diagnosis diagnosis_of(const EffectRecord& own, const char* key, double strength, std::size_t beside) {
   std::vector<const EffectRecord*> known(all_effects().begin(), all_effects().end());
+  std::erase_if(known, [](const EffectRecord* one) { return one->search.cost != Search::Cost::plain; });
   known.push_back(&own);
   const auto soft = engine_named("soft"), hard = engine_named("hard");
   TrialTools tools;
