@@ -50,6 +50,12 @@ void fill(const std::vector<double>& place, const std::vector<double>& value, Ei
   }
 }
 
+/// Frames enough, and of a box with grains their centre.
+bool tells_momentum(const Measurement::Run& run) {
+  return run.recorded.time.size() >= MomentumRun::fewest_frames &&
+         (run.setup.grains.count == 0 || run.recorded.has_com());
+}
+
 /// Before the release something holds the box: those frames are no motion of the model's.
 std::size_t first_of_the_motion(const Measurement::Run& run) {
   const double found = run.audit.release.start;
@@ -186,11 +192,11 @@ LocalCubic local_cubic(int half) {
 }
 
 Recording before_the_camera(const Measurement::Run& measurement) {
+  if (!tells_momentum(measurement)) return {};
   const MeasuredRun& measured = measurement.recorded;
   const RunAudit& audit = measurement.audit;
   const Setup& setup = measurement.setup;
   const bool empty = setup.grains.count == 0;
-  if (measured.time.size() < MomentumRun::fewest_frames || (!empty && !measured.has_com())) return {};
   return undone(physics_of(setup).camera, {measured.time, audit.x_box, empty ? audit.x_box : audit.x_com});
 }
 
@@ -217,8 +223,7 @@ MomentumRun momentum_run(const Measurement::Run& measurement, const Recording& m
   // A scale of the whole picture is left out: it scales the balance too, which would take up whatever is
   // there.
   run.plateau_gain = (1 - physics.camera.centre_bias) * (1 + physics.camera.depth);
-  const bool empty = setup.grains.count == 0;
-  if (measured.time.size() < MomentumRun::fewest_frames || (!empty && !measured.has_com())) return run;
+  if (!tells_momentum(measurement)) return run;
 
   const std::size_t first = first_of_the_motion(measurement);
   if (measured.time.size() < first + MomentumRun::fewest_frames) return run;

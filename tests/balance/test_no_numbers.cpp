@@ -7,6 +7,7 @@
 
 #include "effects.hpp"
 #include "momentum.hpp"
+#include "momentum_run.hpp"
 #include "pushed_box.hpp"
 
 namespace shakedown {
@@ -61,6 +62,21 @@ TEST(NoNumbers, InAllFramesLeaveNoBalance) {
     EXPECT_FALSE(audit.possible);
     EXPECT_FALSE(audit.why_not.empty());
   }
+}
+
+TEST(NoNumbers, WithoutTheGrainsCentreOrWithFewFramesARunHasNoMomentum) {
+  const auto frames_of = [](std::size_t frames, bool centre) {
+    Experiment experiment = pushed_box({}, 1);
+    MeasuredRun& run = experiment.runs.front();
+    for (std::vector<double>* series : {&run.time, &run.x_box, &run.x_com})
+      series->resize(std::min(series->size(), frames));
+    Measurement measurement = measurement_of(pushed_setups(experiment), experiment);
+    if (!centre) measurement.runs.front().recorded.x_com.clear();
+    return momentum_run(measurement.runs.front()).time.size();
+  };
+  EXPECT_GT(frames_of(1000, true), 900);
+  EXPECT_EQ(frames_of(1000, false), 0);
+  EXPECT_EQ(frames_of(MomentumRun::fewest_frames - 1, true), 0);
 }
 
 /// A box that never moves has no noise and no motion.
