@@ -43,6 +43,23 @@ TEST(Refit, GrainsThatTheSetupHasNotAreNotCompared) {
   EXPECT_EQ(features_of(measurement_of({setup}, experiment)).front().plan.features.size(), both / 2);
 }
 
+TEST(Refit, ARecordingWithoutTheCentreIsValidatedByTheBoxAlone) {
+  const DampedOscillation engine;
+  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  const Trajectory motion = engine.run(believed_setup(), {});
+  Experiment experiment;
+  experiment.runs.emplace_back();
+  MeasuredRun& run = experiment.runs.front();
+  run.time = motion.time, run.x_box = motion.x_box;
+  Random noise(7, 0, Stream::camera);
+  for (double& x : run.x_box) x += 2e-4 * noise.normal();
+  const std::vector<MeasuredFeatures> measured = features_of(measurement_of({believed_setup()}, experiment));
+  const std::vector<Validation> rows = refit(measured, {}, workshop, {}).validation();
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows.front().observable, "box");
+  EXPECT_TRUE(std::isfinite(rows.front().error));
+}
+
 TEST(SlowRefit, HoldsForDataOfTheModelItself) {
   const DampedOscillation engine;
   const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
