@@ -164,7 +164,7 @@ def main():
     asked = options.parse_args()
     tree = Tree(ROOT / "build/mutation/tree", asked.parallel)
     chosen = list(survivors(asked.again)) if asked.again else []
-    fresh = not asked.record.exists()
+    fresh = not asked.record.exists() or asked.record.stat().st_size == 0  # a run may end before its first line
     total_noticed = total_built = 0
     with open(asked.record, "a", newline="") as stream:
         writer = csv.writer(stream)
