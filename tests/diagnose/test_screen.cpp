@@ -40,7 +40,7 @@ ScreenedEffect screened(const std::string& hidden, const std::string& candidate)
 }
 
 /// Every effect that leaves no trace in the momentum balance ranked about the true parameters, through a
-/// camera of which the usual is known. What is simulated about them is the same whatever was hidden.
+/// camera of which the usual is known. Much of what is simulated about them is the same whatever was hidden.
 std::vector<ScreenedEffect> ranking_with(const std::string& hidden, EnsembleCache& ensembles) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const shakedown::Setup setup = believed("8 s");

@@ -7,8 +7,8 @@
     tests/mutation/mutate.py --again build/mutation/mutants.csv    # only those that survived
 
 It works in a copy, build/mutation/tree, never in the sources themselves. Each mutant is built with the programs of its room's tests, whose
-quick suites run until one fails, with a bound of three times their usual time; where none does, the slow ones of three of the rooms. A mutant that does not build counts for nothing and another
-is drawn. A line a mutant goes to build/mutation/mutants.csv: room, place, operator, what became of it, seconds, the line before and after.
+quick suites run until one fails, with a bound of three times their usual time; where none does, the slow ones of three of the rooms. A mutant
+that does not build counts for nothing and another is drawn. A line a mutant goes to build/mutation/mutants.csv: room, place, operator, what became of it, seconds, the line before and after.
 """
 import argparse, csv, os, random, shutil, subprocess, sys, time
 from pathlib import Path
@@ -138,7 +138,8 @@ def try_room(tree, room, mutants, wanted, record):
     """Returns how many were noticed, and how many built."""
     tests = ROOMS[room][1]
     tree.measure(tests)
-    print(f"{room}: " + ", ".join(f"test_{name} takes {sum(tree.usual[one] for one in tree.asked([name])):.1f} s" for name in tests), flush=True)
+    print(f"{room}: " + ", ".join(f"test_{name} takes {sum(tree.usual[one] for one in tree.asked([name])):.1f} s" for name in tests),
+          flush=True)
     noticed = built = 0
     for mutant in mutants:
         if built == wanted:
