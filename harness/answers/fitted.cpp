@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 
 #include "course.hpp"
 #include "drawn_curves.hpp"
@@ -61,14 +62,56 @@ FitOptions usual_fit_options() {
   return options;
 }
 
-Fit fitted_and_judged(const Setup& setup, const Measurement& recorded, const std::string& free,
+namespace {
+
+Setup with_curve(const FitQuestion& asked, const Setup& setup) {
+  return asked.curve_of.empty() ? setup : with_restitution_curve(setup, asked.curve_of, all_effects());
+}
+
+/// `setup`: with its curve.
+std::vector<Knob> knobs_asked(const FitQuestion& asked, const Setup& setup) {
+  std::vector<Knob> knobs = free_parameters(asked.free, setup, all_effects());
+  if (asked.curve_of.empty()) return knobs;
+  for (Knob& knob : knobs_of_curve(setup, all_effects())) knobs.push_back(std::move(knob));
+  return knobs;
+}
+
+std::vector<FittedValue> values_of(const Fit& fit) {
+  std::vector<FittedValue> values;
+  for (const FittedParameter& p : fit.parameters)
+    values.push_back({p.key, p.value, p.low, p.high, p.error, false});
+  return values;
+}
+
+Fit fitted_by_ensembles(const Setup& setup, const Measurement& measurement, const FitQuestion& asked,
+                        const Engine& engine, const FitOptions& options) {
+  const std::vector<Knob> knobs = knobs_asked(asked, setup);
+  Fit fit = fit_parameters(setup, measurement, knobs, engine, options);
+  if (asked.curve_of.empty()) return fit;
+  const std::vector<Knob> held = monotone(knobs, values_of(fit), all_effects());
+  const auto is_bounded = [](const Knob& a, const Knob& b) { return a.low != b.low || a.high != b.high; };
+  if (!std::equal(held.begin(), held.end(), knobs.begin(), std::not_fn(is_bounded)))
+    fit = fit_parameters(setup, measurement, held, engine, options);
+  fit.curve = curve_of(fit, all_effects());
+  return fit;
+}
+
+}  // namespace
+
+void check(const FitQuestion& asked, const Setup& setup) {
+  (void)knobs_asked(asked, with_curve(asked, setup));
+}
+
+Fit fitted_and_judged(const Setup& given, const Measurement& recorded, const FitQuestion& asked,
                       const Engine& engine, const FitOptions& options) {
-  const std::vector<Knob> knobs = free_parameters(free, setup, all_effects());
+  const Setup setup = with_curve(asked, given);
+  const std::vector<Knob> knobs = knobs_asked(asked, setup);
   refuse_unknown_runs(recorded, options.on);
   if (is_empty(setup, recorded))
     if (std::optional<Fit> fit = by_waveform(setup, recorded, knobs, options)) return std::move(*fit);
-  const Measurement measurement = from_first_turns(recorded, engine);
-  Fit found = fit_parameters(setup, measurement, knobs, engine, options);
+  const Measurement measurement = from_first_turns(
+      asked.curve_of.empty() ? recorded : with_setup(recorded, setup, all_effects()), engine);
+  Fit found = fitted_by_ensembles(setup, measurement, asked, engine, options);
   const MomentumAudit balance =
       audit_momentum(with_setup(measurement, found.fitted, all_effects()), all_effects());
   if (!found.used.empty())

@@ -11,10 +11,21 @@ namespace shakedown {
 /// The options of every fit: all effects of the list.
 FitOptions usual_fit_options();
 
-/// Fits the keys of `free` ("restitution.grain_grain,spring.frequency"; those joined by & move together) and
-/// judges the fitted model: boxes without grains by their waveform, others by their features and the momentum
-/// balance. `recorded`: as the films show it. Throws InputError for a key that cannot be fitted, Interrupted.
-Fit fitted_and_judged(const Setup& setup, const Measurement& recorded, const std::string& free,
+/// What is to be fitted: keys ("restitution.grain_grain,spring.frequency"; those joined by & move together),
+/// and restitution as a free function of the closing speed of these contacts (restitution_curve.hpp; empty:
+/// not).
+struct FitQuestion {
+  std::string free, curve_of{};
+};
+
+/// Throws InputError for what cannot be fitted.
+void check(const FitQuestion& asked, const Setup& setup);
+
+/// Fits what is asked and judges the fitted model: boxes without grains by their waveform, others by their
+/// features and the momentum balance. A curve that falls here and rises there is fitted again as one that
+/// only falls, or only rises. `recorded`: as the films show it. Throws InputError for what cannot be fitted,
+/// Interrupted.
+Fit fitted_and_judged(const Setup& setup, const Measurement& recorded, const FitQuestion& asked,
                       const Engine& engine, const FitOptions& options);
 
 /// The page; its curves, each run without grains from its first turn on, and what its knobs do are simulated

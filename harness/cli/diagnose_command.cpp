@@ -26,6 +26,7 @@
 #include "report_output.hpp"
 #include "setup_arguments.hpp"
 #include "simulation_journal.hpp"
+#include "unlisted_force.hpp"
 
 namespace shakedown {
 
@@ -41,6 +42,18 @@ struct DiagnoseArguments {
   int threads = 0;
   bool resume = false;
 };
+
+/// The amended setup, what is to be tried where nothing of the list explains the data, and all of it as JSON.
+void write_answer(OutputFolder& folder, const Diagnosis& diagnosis, const std::string& document) {
+  folder.write("setup.toml", amended_setup(diagnosis));
+  if (diagnosis.momentum.unlisted) folder.write("force.csv", points_of_force(diagnosis.momentum.curves));
+  if (diagnosis.free_restitution)
+    folder.write("free_restitution.toml",
+                 "# A restitution that depends on the closing speed, of no assumed form, in place of what no "
+                 "known effect explains\n" +
+                     write_setup(diagnosis.free_restitution->setup));
+  folder.write("diagnosis.json", document);
+}
 
 int diagnose_data(const DiagnoseArguments& arguments) {
   Setup setup = arguments.setup.read(given_by_measurements);
@@ -84,8 +97,7 @@ int diagnose_data(const DiagnoseArguments& arguments) {
   taken.print(arguments.json.for_people());
   fmt::print(arguments.json.for_people(), "{}", diagnosis_text(diagnosis));
   if (folder) {
-    folder->write("setup.toml", amended_setup(diagnosis));
-    folder->write("diagnosis.json", document);
+    write_answer(*folder, diagnosis, document);
     std::filesystem::remove(journal->file());
     fmt::print(arguments.json.for_people(), "amended setup: {}\n", (folder->path() / "setup.toml").string());
   }

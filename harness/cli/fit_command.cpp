@@ -14,7 +14,6 @@
 #include "ensemble_options.hpp"
 #include "experiment_file.hpp"
 #include "fitted.hpp"
-#include "free_parameters.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "measured_data.hpp"
@@ -32,7 +31,8 @@ struct FitArguments {
   SetupArguments setup;
   JsonOutput json;
   ReportOutput report;
-  std::string data, free, on, out;
+  std::string data, on, out;
+  FitQuestion question;
   int count = 160, threads = 0;
 };
 
@@ -40,7 +40,7 @@ int fit(const FitArguments& arguments) {
   Setup setup = arguments.setup.read(given_by_measurements);
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const Measurement measurement = measurement_of(setup, read_measured(arguments.data, setup), all_effects());
-  free_parameters(arguments.free, setup, all_effects());  // throws before long work
+  check(arguments.question, setup);  // throws before long work
   arguments.json.check();
   arguments.report.check();
   std::unique_ptr<OutputFolder> folder;
@@ -59,7 +59,7 @@ int fit(const FitArguments& arguments) {
       display.rename(stage);
       display.show(std::min(0.99, static_cast<double>(runs) / about));
     };
-    found = fitted_and_judged(setup, measurement, arguments.free, *engine, options);
+    found = fitted_and_judged(setup, measurement, arguments.question, *engine, options);
   }
   const PaperValues taken(setup, given_by_measurements);
   const std::string document = taken.added_to(fit_json(found));
@@ -88,10 +88,15 @@ Command add_fit_command(CLI::App& program) {
   add_setup_arguments(command, arguments->setup);
   command.add_option("--data", arguments->data, "experiment file")->type_name("EXPERIMENT")->required();
   command
-      .add_option("--free", arguments->free,
+      .add_option("--free", arguments->question.free,
                   "keys to fit, starting at the setup's values; keys joined by & move together")
       ->type_name("KEY,KEY,...")
       ->required();
+  command
+      .add_option("--restitution-curve", arguments->question.curve_of,
+                  "fit restitution as a free function of the closing speed too, for all contacts, those of "
+                  "grains, or those of walls")
+      ->type_name("all|grains|walls");
   command.add_option("--on", arguments->on, "fit these runs only, foretell the others")
       ->type_name("RUN,RUN,...");
   command

@@ -6,6 +6,7 @@
 
 #include "candidates.hpp"
 #include "errors.hpp"
+#include "free_restitution.hpp"
 #include "grain_count.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
@@ -285,6 +286,8 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
     if (!d.momentum.unlisted) d.missing.clear();
     set_formula(d);
   }
+  if (d.judgement.standing == Standing::fails && !d.momentum.unlisted && !d.momentum.unexplained)
+    offer_free_restitution(user, final, tools, d);
   if (refitted) set_parameters(final, tools, d);
   note_shapes(d, tools.known());
   complete_ranking(d);

@@ -6,6 +6,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "evidence.hpp"
 #include "momentum.hpp"
 #include "refit.hpp"
+#include "restitution_curve.hpp"
 
 namespace shakedown {
 
@@ -51,6 +53,14 @@ struct LadderStep {
   double p_value = 1, scatter = 1;
 };
 
+/// Restitution as a free function of the closing speed, beside a model that no known effect mends.
+struct FreeRestitution {
+  RestitutionCurve curve;
+  Setup setup;               ///< with the effect user_restitution and what else was fitted, ready to try
+  LadderStep without, with;  ///< the model that fails, and the same with the curve
+  bool explains = false;     ///< what that model leaves, also of box lengths that it was not fitted to
+};
+
 /// What explains the data nearly as well as the effect that was added, as it was fitted.
 struct RunnerUp {
   std::string added, effect;  ///< empty: none
@@ -79,6 +89,8 @@ struct Diagnosis {
   std::vector<FailureCell> where;
   MomentumAudit momentum;
   std::string force_formula;  ///< for unknown forces: a user_force ready to try
+  std::optional<FreeRestitution>
+      free_restitution;  ///< for what lies inside the contacts, where a curve explains it
   std::vector<std::string> next_experiments;
   RunnerUp runner_up;
   std::vector<std::string> notes;

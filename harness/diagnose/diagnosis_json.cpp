@@ -4,6 +4,7 @@
 #include "diagnosis.hpp"
 #include "last_fit.hpp"
 #include "missing_numbers.hpp"
+#include "setup_file.hpp"
 #include "validation.hpp"
 
 namespace shakedown {
@@ -125,6 +126,36 @@ Json steps_json(const std::vector<LadderStep>& ladder) {
   return list;
 }
 
+const char* name_of(ShapeOf of) {
+  switch (of) {
+    case ShapeOf::position: return "force_at_x";
+    case ShapeOf::damping_at_x: return "damping_at_x";
+    case ShapeOf::velocity: return "force_at_v";
+    case ShapeOf::damping_at_t: return "damping_at_t";
+    case ShapeOf::stiffness_at_t: return "stiffness_at_t";
+    case ShapeOf::time: return "force_at_t";
+  }
+  return "";
+}
+
+Json force_curves_json(const std::vector<ForceCurve>& curves) {
+  Json list = Json::array();
+  for (const ForceCurve& curve : curves)
+    list.push_back({{"of", name_of(curve.of)},
+                    {"argument", curve.argument},
+                    {"value", curve.value},
+                    {"error", curve.error},
+                    {"gain", number(curve.gain)}});
+  return list;
+}
+
+Json free_restitution_json(const FreeRestitution& law) {
+  return {{"setup", write_setup(law.setup)},
+          {"without", steps_json({law.without}).front()},
+          {"with", steps_json({law.with}).front()},
+          {"restitution_curve", Json::parse(curve_json(law.curve))}};
+}
+
 Json failures_json(const std::vector<FailureCell>& where) {
   Json list = Json::array();
   for (const FailureCell& c : where)
@@ -143,34 +174,37 @@ Json failures_json(const std::vector<FailureCell>& where) {
 
 std::string diagnosis_json(const Diagnosis& d) {
   const LadderStep last = d.ladder.empty() ? LadderStep{} : d.ladder.back();
-  Json all{{"schema_version", 2},
-           {"engine", d.engine},
-           {"verdict", std::string(name_of(d.verdict))},
-           {"sentence", d.sentence},
-           {"missing", d.missing},
-           {"hypotheses", sets_json(d.hypotheses)},
-           {"answer_set", sets_json(d.answers)},
-           {"judgement",
-            {{"standing", std::string(name_of(d.judgement.standing))}, {"reason", d.judgement.reason}}},
-           {"left", left_json(d.left)},
-           {"validation", validation_json(d.validation)},
-           {"forced", forced_json(d.forced)},
-           {"explained", number(d.explained)},
-           {"camera", camera_json(d.camera)},
-           {"parameters", parameters_json(d.parameters)},
-           {"ranking", ranking_json(d.ranking)},
-           {"ladder", steps_json(d.ladder)},
-           {"noise_floor",
-            {{"box_mm", number(last.floor_box * 1e3)}, {"com_mm", number(last.floor_centre * 1e3)}}},
-           {"where", failures_json(d.where)},
-           {"momentum", momentum_json(d.momentum)},
-           {"curves", d.last_fit ? curves_json(*d.last_fit) : Json::array()},
-           {"force_formula", d.force_formula.empty() ? Json(nullptr) : Json(d.force_formula)},
-           {"next_experiments", d.next_experiments},
-           {"notes", d.notes},
-           {"not_tried", d.not_tried},
-           {"seconds", d.seconds},
-           {"runs_simulated", d.runs_simulated}};
+  Json all{
+      {"schema_version", 2},
+      {"engine", d.engine},
+      {"verdict", std::string(name_of(d.verdict))},
+      {"sentence", d.sentence},
+      {"missing", d.missing},
+      {"hypotheses", sets_json(d.hypotheses)},
+      {"answer_set", sets_json(d.answers)},
+      {"judgement",
+       {{"standing", std::string(name_of(d.judgement.standing))}, {"reason", d.judgement.reason}}},
+      {"left", left_json(d.left)},
+      {"validation", validation_json(d.validation)},
+      {"forced", forced_json(d.forced)},
+      {"explained", number(d.explained)},
+      {"camera", camera_json(d.camera)},
+      {"parameters", parameters_json(d.parameters)},
+      {"ranking", ranking_json(d.ranking)},
+      {"ladder", steps_json(d.ladder)},
+      {"noise_floor",
+       {{"box_mm", number(last.floor_box * 1e3)}, {"com_mm", number(last.floor_centre * 1e3)}}},
+      {"where", failures_json(d.where)},
+      {"momentum", momentum_json(d.momentum)},
+      {"curves", d.last_fit ? curves_json(*d.last_fit) : Json::array()},
+      {"force_formula", d.force_formula.empty() ? Json(nullptr) : Json(d.force_formula)},
+      {"force_curves", d.momentum.unlisted ? force_curves_json(d.momentum.curves) : Json::array()},
+      {"free_restitution", d.free_restitution ? free_restitution_json(*d.free_restitution) : Json(nullptr)},
+      {"next_experiments", d.next_experiments},
+      {"notes", d.notes},
+      {"not_tried", d.not_tried},
+      {"seconds", d.seconds},
+      {"runs_simulated", d.runs_simulated}};
   explain_missing_numbers(all, [&](const std::string& path) { return reason_of(d, path); });
   return all.dump(2) + "\n";
 }

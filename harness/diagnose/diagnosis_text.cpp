@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "diagnosis.hpp"
 #include "text.hpp"
@@ -62,6 +63,18 @@ std::string suspects_text(const std::vector<RankedEffect>& ranking) {
   return text;
 }
 
+/// The effect that has the curve, a line for each of the setup's.
+std::string restitution_to_try(const Setup& setup) {
+  std::string text = fmt::format(
+      "\n  to try, with restitution.grain_grain = {:.4g} and restitution.grain_wall = {:.4g} (--out writes "
+      "the "
+      "setup):\n",
+      setup.restitution.grain_grain, setup.restitution.grain_wall);
+  std::stringstream lines(curve_as_toml(setup));
+  for (std::string line; std::getline(lines, line);) text += "    " + line + "\n";
+  return text;
+}
+
 }  // namespace
 
 std::string diagnosis_text(const Diagnosis& d) {
@@ -103,6 +116,7 @@ std::string diagnosis_text(const Diagnosis& d) {
     for (const FailureCell& c : d.where) text += line_of(c);
   }
   if (!d.force_formula.empty()) text += "\n  force to try: " + d.force_formula + "\n";
+  if (d.free_restitution) text += restitution_to_try(d.free_restitution->setup);
   for (const std::string& next : d.next_experiments) text += "  next: " + next + "\n";
   for (const std::string& note : d.notes) text += "  note: " + note + "\n";
   if (!d.not_tried.empty())

@@ -136,6 +136,20 @@ std::string of_the_unknown(const Diagnosis& d, std::span<const EffectRecord* con
          "the contacts.";
 }
 
+std::string of_the_restitution(const Diagnosis& d) {
+  if (!d.free_restitution) return "";
+  const LadderStep &without = d.free_restitution->without, &with = d.free_restitution->with;
+  std::string held_out;
+  if (std::isfinite(with.held_out_error_box) && std::isfinite(without.held_out_error_box))
+    held_out = fmt::format(", and of lengths that it was not fitted to {:.2f} mm instead of {:.2f}",
+                           1e3 * with.held_out_error_box, 1e3 * without.held_out_error_box);
+  return fmt::format(
+      " A restitution that depends on the closing speed, of no assumed form, leaves {:.2f} mm of the box "
+      "instead of {:.2f} (noise and run-to-run spread {:.2f} mm){}: it {}.",
+      1e3 * with.error_box, 1e3 * without.error_box, 1e3 * with.floor_box, held_out,
+      words_of(d.free_restitution->curve));
+}
+
 std::string of_the_measurement(const Diagnosis& d, std::span<const EffectRecord* const> known) {
   std::vector<std::string> names;
   for (const NuisanceFound& nuisance : standing_out(d.camera)) names.push_back(words_of(nuisance, known));
@@ -186,9 +200,9 @@ std::string first_words(const Diagnosis& d, std::span<const EffectRecord* const>
       std::vector<std::string> names;
       for (const std::string& effect : d.missing) names.push_back(named(effect, d, known));
       return "Missing in the model: " + list_of(names) + "." + what_it_brings(d) + ties_in_words(d) +
-             what_remains(d);
+             what_remains(d) + of_the_restitution(d);
     }
-    case Verdict::unknown: return of_the_unknown(d, known) + ties_in_words(d);
+    case Verdict::unknown: return of_the_unknown(d, known) + of_the_restitution(d) + ties_in_words(d);
   }
   return "";
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "unlisted_force.hpp"
 
+#include <algorithm>
 #include <cctype>
 
 #include "quantity.hpp"
@@ -43,6 +44,28 @@ UnlistedForce sum_of(const std::vector<ForceFormula>& formulas) {
     sum.formula += (i > 0 && !formula.starts_with('-') ? "+" : "") + formula;
   }
   return sum;
+}
+
+std::string points_of_force(const std::vector<ForceCurve>& curves) {
+  if (curves.empty()) return "";
+  const auto header_of = [](ShapeOf of) -> std::string {
+    switch (of) {
+      case ShapeOf::position: return "x,force";
+      case ShapeOf::damping_at_x: return "x,damping";
+      case ShapeOf::velocity: return "v,force";
+      case ShapeOf::damping_at_t: return "t,damping";
+      case ShapeOf::stiffness_at_t: return "t,stiffness";
+      case ShapeOf::time: break;
+    }
+    return "t,force";
+  };
+  const ForceCurve& most = *std::max_element(
+      curves.begin(), curves.end(), [](const ForceCurve& a, const ForceCurve& b) { return a.gain < b.gain; });
+  std::string table = header_of(most.of) + ",error\n";
+  for (std::size_t i = 0; i < most.argument.size(); ++i)
+    table += write_number(most.argument[i]) + "," + write_number(most.value[i]) + "," +
+             write_number(most.error[i]) + "\n";
+  return table;
 }
 
 std::string as_table(const UnlistedForce& force) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "force_formula.hpp"
+#include "momentum.hpp"
 #include "setup.hpp"
 
 namespace shakedown {
@@ -17,6 +18,11 @@ struct UnlistedForce {
 
 /// The sum of all formulas; constants of the second and later ones are numbered (c, c2).
 UnlistedForce sum_of(const std::vector<ForceFormula>& formulas);
+
+/// The points of the curve that explains most, as a CSV table that user_force takes: header x,force,error (or
+/// x,damping of a force -v c(x), t,stiffness of -x k(t) and so on), SI, error the standard error. Empty
+/// without curves.
+std::string points_of_force(const std::vector<ForceCurve>& curves);
 
 /// As a table of a setup file.
 std::string as_table(const UnlistedForce& force);

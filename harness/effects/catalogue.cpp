@@ -131,7 +131,7 @@ std::string list_effects(std::span<const EffectRecord* const> effects) {
 std::string example_of(const EffectRecord& effect) {
   std::string text = "[[effect]]\nname = " + toml_string(effect.name) + "\n";
   for (const Parameter& parameter : effect.parameters)
-    if (is_strength(parameter) || parameter.required)
+    if (parameter.becomes.empty() && (is_strength(parameter) || parameter.required))
       text += std::string(parameter.name) + " = " + toml_value(parameter, parameter.typical) + "\n";
   return text;
 }

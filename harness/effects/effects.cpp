@@ -42,7 +42,8 @@
   EFFECT(camera_shutter)                 \
   EFFECT(camera_depth)                   \
   EFFECT(camera_origin)                  \
-  EFFECT(user_force)
+  EFFECT(user_force)                     \
+  EFFECT(user_restitution)
 
 namespace shakedown {
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A user's formula in x, v, t and named constants. The one place that opens muParser.
+// A user's formula in a few variables and named constants. The one place that opens muParser.
 #pragma once
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace shakedown {
 
@@ -23,20 +24,27 @@ using LentFunction = std::function<double(double x, double v, double t)>;
 /// FormulaProblem.
 void lend_function(const std::string& name, LentFunction function);
 
-/// A copy has a parser of its own, so copies may work in different threads; one Formula serves one thread.
+/// The variables of a force: position in m, velocity in m/s, time in s.
+const std::vector<std::string>& variables_of_a_force();
+
+/// Beside muParser's functions there is curve(x, x1, y1, x2, y2, ...): monotone_cubic() through points whose
+/// x ascend. A copy has a parser of its own, so copies may work in different threads; one Formula serves one
+/// thread.
 class Formula {
  public:
-  /// Throws FormulaProblem.
-  Formula(const std::string& text, const std::map<std::string, double>& constants);
+  /// `variables`: at most three names. Throws FormulaProblem.
+  Formula(const std::string& text, const std::map<std::string, double>& constants,
+          const std::vector<std::string>& variables = variables_of_a_force());
   Formula(const Formula& other);
   Formula& operator=(const Formula& other);
   Formula(Formula&&) noexcept;
   Formula& operator=(Formula&&) noexcept;
   ~Formula();
 
-  /// x in m, v in m/s, t in s.
-  double operator()(double x, double v, double t) const;
-  /// True when the formula contains this variable ("x", "v" or "t").
+  /// The variables in their order, SI; of a force x in m, v in m/s, t in s. Throws PhysicsError where
+  /// the points of a curve do not ascend.
+  double operator()(double first, double second, double third = 0) const;
+  /// True when the formula contains this variable.
   bool uses(const std::string& variable) const;
 
  private:

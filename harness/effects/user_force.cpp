@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formula.hpp"
+#include "formula_check.hpp"
 #include "physics.hpp"
 #include "quantity.hpp"
 
@@ -11,48 +12,37 @@ namespace shakedown::effect {
 
 namespace {
 
-Formula formula_of(const EffectChoice& choice) {
+Formula force_formula_of(const EffectChoice& choice) {
   return {choice.text("force"), choice.constants("constants")};
 }
 
-std::string where(double x, double v, double t) {
+std::string place_of(double x, double v, double t) {
   return "x = " + write_number(x) + " m, v = " + write_number(v) + " m/s, t = " + write_number(t) + " s";
 }
 
 /// Places at which formulas break: zero, tiny, and the extremes of the paper's damper.
-std::vector<ParameterProblem> probed(const Formula& formula) {
+std::string where_no_force(const EffectChoice& choice) {
   constexpr std::array positions{0.0, 1e-6, -1e-6, 1e-3, -1e-3, 0.03, -0.03, 0.1075, -0.1075, 0.2, -0.2};
   constexpr std::array velocities{0.0, 1e-6, -1e-6, 1e-3, -1e-3, 0.1, -0.1, 0.8, -0.8, 2.0, -2.0};
   constexpr std::array times{0.0, 1e-3, 0.1, 1.0, 10.0, 30.0};
+  const Formula formula = force_formula_of(choice);
   for (const double t : times)
     for (const double x : positions)
       for (const double v : velocities)
-        if (!std::isfinite(formula(x, v, t)))
-          return {{"force", "is not a finite number at " + where(x, v, t),
-                   "write it so that it has a value for every x, v and t"}};
+        if (!std::isfinite(formula(x, v, t))) return place_of(x, v, t);
   return {};
 }
 
-std::vector<ParameterProblem> check_formula(const EffectChoice& choice) {
-  try {
-    return probed(formula_of(choice));
-  } catch (const FormulaProblem& wrong) {
-    const std::string at =
-        wrong.position > 0 ? " at character " + std::to_string(wrong.position) + " of the formula" : "";
-    return {{"force", "\"" + choice.text("force") + "\" cannot be read" + at + " (" + wrong.problem + ")",
-             "use x (m), v (m/s), t (s), the names in constants, + - * / ^, and functions such as abs, sin, "
-             "exp, sqrt, min, max"}};
-  } catch (const PhysicsError& wrong) {  // of a function that the program lends
-    return {{"force", wrong.what(), "write it so that it has a value for every x, v and t"}};
-  }
+std::vector<ParameterProblem> check_force(const EffectChoice& choice) {
+  return problems_of_formula({"force", "x (m), v (m/s), t (s)", "every x, v and t"}, choice, &where_no_force);
 }
 
 void apply_user_force(const EffectChoice& choice, int index, Physics& physics) {
-  const Formula formula = formula_of(choice);
+  const Formula formula = force_formula_of(choice);
   const auto newton = [formula](double x, double v, double t) {
     const double force = formula(x, v, t);
     if (!std::isfinite(force))
-      throw PhysicsError("user_force: the force is not a finite number at " + where(x, v, t));
+      throw PhysicsError("user_force: the force is not a finite number at " + place_of(x, v, t));
     return force;
   };
   (choice.text("on") == "box" ? physics.box.free : physics.grains.free).push_back({newton, index});
@@ -62,7 +52,7 @@ void apply_user_force(const EffectChoice& choice, int index, Physics& physics) {
 /// would bend it.
 Capability capability_of_formula(const EffectChoice& choice, std::string_view engine, Capability general) {
   if (engine != "hard" || choice.text("on") != "grains") return general;
-  const Formula formula = formula_of(choice);
+  const Formula formula = force_formula_of(choice);
   if (!formula.uses("x") && !formula.uses("v")) return general;
   return {Fidelity::not_modelled, "on grains the hard engine takes formulas of t alone; use --engine soft"};
 }
@@ -92,6 +82,14 @@ extern const EffectRecord user_force{
                     .required = true,
                     .sentence = "The formula, e.g. \"-c*v*exp(-((x-x0)/w)^2)\".",
                     .example = "\"-c*v*abs(v)\""},
+                   {.name = "table",
+                    .kind = ParameterKind::text,
+                    .default_value = std::string(),
+                    .sentence = "Path of a CSV table of points instead of the formula, SI: header x,force "
+                                "(or v,force, t,force; x,damping of -v c(x), t,stiffness of -x k(t) ...); a "
+                                "curve goes through them, level beyond.",
+                    .example = "\"force.csv\"",
+                    .becomes = "force"},
                    {.name = "constants",
                     .kind = ParameterKind::constants,
                     .default_value = std::map<std::string, double>{},
@@ -111,7 +109,7 @@ extern const EffectRecord user_force{
     .search = {.not_searched = "A formula has no strength of its own; where no effect of the list fits, a "
                                "diagnosis offers formulas."},
     .apply = &apply_user_force,
-    .check = &check_formula,
+    .check = &check_force,
     .capability_of = &capability_of_formula};
 
 }  // namespace shakedown::effect

@@ -36,7 +36,7 @@ std::vector<Override> examples(const EffectRecord& record, const std::string& or
   std::vector<Override> overrides;
   for (const Parameter& parameter : record.parameters) {
     const std::string key = std::string(record.name) + "." + std::string(parameter.name);
-    if (!parameter.example.empty())
+    if (!parameter.example.empty() && parameter.becomes.empty())
       overrides.push_back({key, std::string(parameter.example), origin});
     else if (parameter.kind == ParameterKind::choice && parameter.required)
       overrides.push_back({key, std::get<std::string>(parameter.default_value), origin});

@@ -66,6 +66,7 @@ FittedParameter told_parameter(const Knob& knob, const Knob& start, double value
                         value,
                         std::max(knob.low, value - 1.96 * error),
                         std::min(knob.high, value + 1.96 * error),
+                        error,
                         true,
                         ""};
   const bool covers_most = 2 * 1.96 * error > 2.0 / 3 * (knob.high - knob.low) || !std::isfinite(error);
@@ -229,6 +230,18 @@ Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance) {
       root.cwiseInverse().asDiagonal() * covariance * root.cwiseInverse().asDiagonal();
   correlation.diagonal().setOnes();
   return correlation;
+}
+
+RestitutionCurve curve_of(const Fit& fit, std::span<const EffectRecord* const> known) {
+  const auto count = static_cast<Eigen::Index>(fit.parameters.size());
+  std::vector<FittedValue> values;
+  Eigen::VectorXd error(count);
+  for (const FittedParameter& p : fit.parameters) {
+    error[static_cast<Eigen::Index>(values.size())] = p.error;
+    values.push_back({p.key, p.value, p.low, p.high, p.error, false});
+  }
+  return restitution_curve(fit.fitted, values, error.asDiagonal() * fit.correlation * error.asDiagonal(),
+                           known);
 }
 
 Fit fit_parameters(const Setup& setup, const Measurement& measurement, std::vector<Knob> knobs,

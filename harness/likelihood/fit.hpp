@@ -3,10 +3,12 @@
 // foretells the runs left out.
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "refit.hpp"
+#include "restitution_curve.hpp"
 
 namespace shakedown {
 
@@ -24,6 +26,7 @@ struct FitOptions {
 struct FittedParameter {
   std::string key, unit;
   double start = 0, value = 0, low = 0, high = 0;  ///< SI; 95 % interval
+  double error = 0;                                ///< standard error, SI
   bool told = true;                                ///< false: the data do not tell it
   std::string remark;                              ///< why not, or with what it is confounded
 };
@@ -41,7 +44,8 @@ struct Fit {
   /// Of the fitted model; by the runs used alone where nobody has asked the momentum balance too.
   ModelJudgement judgement;
   Setup fitted;
-  std::int64_t runs = 0;  ///< simulated
+  std::optional<RestitutionCurve> curve{};  ///< where restitution was a free function of the speed
+  std::int64_t runs = 0;                    ///< simulated
   double seconds = 0;
 };
 
@@ -59,6 +63,9 @@ std::vector<FittedParameter> parameters_of(const Refit& fit, const std::vector<K
                                            std::span<const EffectRecord* const> known);
 
 Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance);
+
+/// Restitution against closing speed with its band, by the parameters of the fit.
+RestitutionCurve curve_of(const Fit& fit, std::span<const EffectRecord* const> known);
 
 std::string fit_json(const Fit& fit);
 std::string fit_text(const Fit& fit);

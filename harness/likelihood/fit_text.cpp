@@ -74,6 +74,7 @@ std::string fit_json(const Fit& fit) {
                 {"runs_left_out", runs_json(fit.left_out)},
                 {"simulations", fit.runs},
                 {"setup", write_setup(fit.fitted)}};
+  if (fit.curve) document["restitution_curve"] = Json::parse(curve_json(*fit.curve));
   explain_missing_numbers(document, [](const std::string& path) -> std::string {
     if (path == "/p_value") return "an empty box has no ensembles: its waveform is judged";
     if (path.ends_with("com_mm")) return "the grains' centre was not tracked";
@@ -95,6 +96,7 @@ std::string fit_text(const Fit& fit) {
       text +=
           fmt::format("  correlation of {} and {}: {:.2f}\n", fit.parameters[static_cast<std::size_t>(j)].key,
                       fit.parameters[static_cast<std::size_t>(i)].key, fit.correlation(i, j));
+  if (fit.curve) text += "  restitution " + words_of(*fit.curve) + "\n";
   if (std::isfinite(fit.p_value))
     text += fmt::format("  misfit {:.2f} times that of the model's own runs, p = {:.3f}\n", fit.scatter,
                         fit.p_value);

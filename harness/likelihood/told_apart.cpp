@@ -52,8 +52,11 @@ ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::v
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(information);
   information =
       axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).asDiagonal() * axes.eigenvectors().transpose();
-  // What is known anyway: the bounds.
-  const Eigen::VectorXd known = (width.array() / possible.array()).square();
+  // What is known anyway: the bounds, and what is believed.
+  Eigen::VectorXd known = (width.array() / possible.array()).square();
+  for (Eigen::Index k = 0; k < count; ++k)
+    if (const double error = knobs[static_cast<std::size_t>(k)].believed_error; error > 0)
+      known[k] += std::pow(width[k] / error, 2);
   information += known.asDiagonal();
   scatter += known.asDiagonal();
   const Eigen::MatrixXd inverse = information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));

@@ -45,6 +45,9 @@ struct Parameter {
   std::vector<std::string_view> choices{};
   std::string_view unit_shown{};  ///< in which people read it where that is not `unit`: "mm/s"
   std::string_view example{};     ///< of a text or of constants: a value as a setup file has it
+  /// Of a text that is the path of a table of points: the parameter whose formula a curve through them
+  /// becomes when a setup is read.
+  std::string_view becomes{};
 };
 
 /// How faithfully an engine models an effect.

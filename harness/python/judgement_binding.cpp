@@ -12,7 +12,6 @@
 #include "engines.hpp"
 #include "experiment.hpp"
 #include "fitted.hpp"
-#include "free_parameters.hpp"
 #include "looked_at.hpp"
 #include "paper_values.hpp"
 #include "released.hpp"
@@ -96,7 +95,7 @@ Answer diagnosed(const Setup& setup, const Experiment& experiment, const Diagnos
 }
 
 struct FitAsked {
-  std::string free;             ///< keys, as on the command line
+  std::string free, curve_of;   ///< as on the command line
   std::vector<std::string> on;  ///< names of runs; none: all
   int runs = 160, threads = 0;
 };
@@ -105,7 +104,8 @@ Answer fitted(const Setup& setup, const Experiment& experiment, const FitAsked& 
               const py::object& listener) {
   const std::shared_ptr<const Question> asked = question_of(setup, experiment);
   const std::shared_ptr<const Engine> engine = shared_engine("hard");
-  free_parameters(how.free, asked->setup, all_effects());  // throws before long work
+  const FitQuestion question{how.free, how.curve_of};
+  check(question, asked->setup);  // throws before long work
   const auto work = [&](ToldProgress& told, const std::atomic<bool>* stop) {
     FitOptions options = usual_fit_options();
     options.on = how.on;
@@ -117,7 +117,7 @@ Answer fitted(const Setup& setup, const Experiment& experiment, const FitAsked& 
       told.tell(stage, std::min(0.99, static_cast<double>(done) / about));
     };
     return std::make_shared<const Fit>(
-        fitted_and_judged(asked->setup, asked->measurement, how.free, *engine, options));
+        fitted_and_judged(asked->setup, asked->measurement, question, *engine, options));
   };
   const std::shared_ptr<const Fit> found = released(listener, work);
   const int threads = how.threads;
@@ -142,7 +142,8 @@ void bind_judgement(py::module_& module) {
   py::class_<DiagnosisAsked>(module, "DiagnosisAsked")
       .def(py::init<std::vector<std::string>, std::vector<std::string>, std::int64_t, double, int>());
   module.def("diagnose", &diagnosed);
-  py::class_<FitAsked>(module, "FitAsked").def(py::init<std::string, std::vector<std::string>, int, int>());
+  py::class_<FitAsked>(module, "FitAsked")
+      .def(py::init<std::string, std::string, std::vector<std::string>, int, int>());
   module.def("fit", &fitted);
   py::class_<DropQuestion>(module, "DropQuestion")
       .def(py::init<>())

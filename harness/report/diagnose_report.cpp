@@ -13,6 +13,7 @@
 #include "noise_section.hpp"
 #include "page_figures.hpp"
 #include "report_parts.hpp"
+#include "restitution_section.hpp"
 #include "text.hpp"
 
 namespace shakedown {
@@ -275,6 +276,11 @@ Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, con
     report.sections.back().tables.push_back(validation_table(diagnosis.validation));
   if (!curves.empty()) report.sections.push_back(failing_cells(diagnosis, failure_section(curves)));
   if (!diagnosis.ranking.empty()) report.sections.push_back(suspects_section(diagnosis));
+  if (diagnosis.free_restitution) {
+    report.sections.push_back(restitution_section(diagnosis.free_restitution->curve));
+    report.sections.back().list = {"Ready for the setup: " +
+                                   curve_as_toml(diagnosis.free_restitution->setup)};
+  }
   report.sections.push_back(momentum_section(diagnosis.momentum));
   if (!curves.empty()) report.sections.push_back(energy_section(curves));
   report.sections.push_back(noise_section(measurement));

@@ -11,6 +11,7 @@
 #include "page_figures.hpp"
 #include "quantity.hpp"
 #include "report_parts.hpp"
+#include "restitution_section.hpp"
 
 namespace shakedown {
 
@@ -101,8 +102,9 @@ Report report_of(const Fit& fit, const Measurement& measurement,
                                 fit.used.size() == 1 ? "" : "s", fit.left_out.size());
   report.facts = facts_of_fit(fit);
   report.replays = replays_of(curves);
-  report.sections = {curves_section(curves, "Measured against model"), fitted_section(fit),
-                     errors_section("Runs fitted", fit.used)};
+  report.sections = {curves_section(curves, "Measured against model"), fitted_section(fit)};
+  if (fit.curve) report.sections.push_back(restitution_section(*fit.curve));
+  report.sections.push_back(errors_section("Runs fitted", fit.used));
   if (!fit.left_out.empty())
     report.sections.push_back(errors_section("Runs left out, foretold", fit.left_out));
   report.sections.push_back(failure_section(curves));

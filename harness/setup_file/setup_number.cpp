@@ -19,11 +19,12 @@ using Known = std::span<const EffectRecord* const>;
   throw InputError({{{}, std::string(key), std::move(problem), std::move(remedy)}});
 }
 
-/// "effect.parameter" or "effect.parameter.x" taken apart.
+/// "effect.parameter", "effect.parameter.x" or "effect.constants.name" taken apart.
 struct EffectPath {
   const EffectRecord* record = nullptr;
   const Parameter* parameter = nullptr;
   int axis = -1;
+  std::string constant{};
 };
 
 const EffectRecord* record_named(const Setup& setup, std::string_view name, Known known) {
@@ -50,6 +51,19 @@ const EffectRecord* record_named(const Setup& setup, std::string_view name, Know
                       : "did you mean " + std::string(near) + "?");
 }
 
+/// The constant of a formula, which the setup's own effect has and no record can know.
+EffectPath constant_path(const Setup& setup, std::string_view key, EffectPath path) {
+  const EffectChoice* choice = find_choice(setup, path.record->name);
+  path.constant = key.substr(path.record->name.size() + path.parameter->name.size() + 2);
+  std::vector<std::string_view> names;
+  if (choice != nullptr)
+    for (const auto& [name, value] : choice->constants(path.parameter->name)) names.emplace_back(name);
+  if (std::find(names.begin(), names.end(), path.constant) != names.end()) return path;
+  refuse(key, "is no constant that the setup gives this formula",
+         names.empty() ? "give it in the setup, e.g. constants = {" + path.constant + " = 1}"
+                       : "it has " + listed(names));
+}
+
 EffectPath effect_path(const Setup& setup, std::string_view key, Known known) {
   EffectPath path;
   const std::size_t dot = key.find('.');
@@ -57,6 +71,14 @@ EffectPath effect_path(const Setup& setup, std::string_view key, Known known) {
   path.record = record_named(setup, key.substr(0, dot), known);
   std::string_view parameter = key.substr(dot + 1);
   if (path.record != nullptr) path.parameter = path.record->find(parameter);
+  const std::size_t second_dot = parameter.find('.');
+  if (path.record != nullptr && path.parameter == nullptr && second_dot != parameter.npos) {
+    const Parameter* table = path.record->find(parameter.substr(0, second_dot));
+    if (table != nullptr && table->kind == ParameterKind::constants) {
+      path.parameter = table;
+      return constant_path(setup, key, std::move(path));
+    }
+  }
   if (path.record != nullptr && path.parameter == nullptr && parameter.size() > 2 &&
       parameter[parameter.size() - 2] == '.') {
     const char axis = parameter.back();
@@ -96,9 +118,12 @@ void store(Setup& setup, const SetupKey& key, double value) {
       key.field);
 }
 
-double component_of(const ParameterValue& value, int axis) {
-  return axis < 0 ? std::get<double>(value) : std::get<Vec3>(value)[axis];
+double& number_at(const EffectPath& path, ParameterValue& value) {
+  if (!path.constant.empty()) return std::get<std::map<std::string, double>>(value).at(path.constant);
+  return path.axis < 0 ? std::get<double>(value) : std::get<Vec3>(value)[path.axis];
 }
+
+double number_at(const EffectPath& path, ParameterValue&& value) { return number_at(path, value); }
 
 }  // namespace
 
@@ -113,8 +138,7 @@ void set_number(Setup& setup, std::string_view key, double value, Known known) {
                              [&](const EffectChoice& candidate) { return candidate.record == path.record; });
   if (choice == setup.effects.end())
     choice = setup.effects.insert(setup.effects.end(), with_defaults(*path.record));
-  ParameterValue& stored = choice->values.find(path.parameter->name)->second;
-  (path.axis < 0 ? std::get<double>(stored) : std::get<Vec3>(stored)[path.axis]) = value;
+  number_at(path, choice->values.find(path.parameter->name)->second) = value;
 }
 
 double get_number(const Setup& setup, std::string_view key, Known known) {
@@ -125,8 +149,8 @@ double get_number(const Setup& setup, std::string_view key, Known known) {
   const EffectPath path = effect_path(setup, key, known);
   for (const EffectChoice& choice : setup.effects)
     if (choice.record == path.record)
-      return component_of(choice.values.find(path.parameter->name)->second, path.axis);
-  return std::isnan(path.parameter->neutral) ? component_of(path.parameter->default_value, path.axis)
+      return number_at(path, ParameterValue(choice.values.find(path.parameter->name)->second));
+  return std::isnan(path.parameter->neutral) ? number_at(path, ParameterValue(path.parameter->default_value))
                                              : path.parameter->neutral;
 }
 

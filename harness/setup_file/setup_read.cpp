@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "curve_table.hpp"
 #include "kept_files.hpp"
 #include "known_effects.hpp"
 #include "quantity.hpp"
@@ -238,6 +239,21 @@ struct Reader {
     }
   }
 
+  /// The curve through a table's points becomes the formula of another parameter.
+  void read_points(const std::string& file, const Parameter& parameter, const SourcePlace& place,
+                   const TomlValue& table, EffectChoice& choice) {
+    const std::string formula(parameter.becomes);
+    const std::string path = std::string(choice.record->name) + "." + std::string(parameter.name);
+    if (table.find(formula) != nullptr)
+      return add(place, path, "is given beside " + formula + " (each says the whole law)", "leave one out");
+    const std::filesystem::path base = place.line > 0 ? folder : std::filesystem::path{};
+    try {
+      choice.values[formula] = curve_through_table(base / file, formula);
+    } catch (const InputError& error) {
+      found.insert(found.end(), error.violations.begin(), error.violations.end());
+    }
+  }
+
   void read_parameters(const TomlValue& table, EffectChoice& choice) {
     const EffectRecord& record = *choice.record;
     std::vector<std::string_view> names;
@@ -252,11 +268,21 @@ struct Reader {
         continue;
       }
       setup.places[path] = entry.value.place;
-      take(parameter_in(entry.value, *parameter), entry.value, path,
-           [&](const ParameterValue& value) { choice.values[std::string(entry.key)] = value; });
+      take(parameter_in(entry.value, *parameter), entry.value, path, [&](const ParameterValue& value) {
+        if (parameter->becomes.empty())
+          choice.values[std::string(entry.key)] = value;
+        else
+          read_points(std::get<std::string>(value), *parameter, entry.value.place, table, choice);
+      });
     }
+    const auto is_given = [&](const Parameter& parameter) {
+      return std::any_of(record.parameters.begin(), record.parameters.end(), [&](const Parameter& other) {
+        return (other.name == parameter.name || other.becomes == parameter.name) &&
+               table.find(other.name) != nullptr;
+      });
+    };
     for (const Parameter& parameter : record.parameters)
-      if (parameter.required && table.find(parameter.name) == nullptr)
+      if (parameter.required && !is_given(parameter))
         add(choice.place, std::string(record.name) + "." + std::string(parameter.name),
             "is missing (the effect has no strength without it)",
             parameter.unit.empty() ? "add it"

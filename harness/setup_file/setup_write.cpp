@@ -50,7 +50,8 @@ bool left_out(const SetupKey& key, const Setup& setup) {
 std::string write_effect(const EffectChoice& choice) {
   std::string text = "\n[[effect]]\nname = " + toml_string(choice.record->name) + "\n";
   for (const Parameter& parameter : choice.record->parameters)
-    text += std::string(parameter.name) + " = " + toml_of_parameter(parameter, choice) + "\n";
+    if (parameter.becomes.empty())
+      text += std::string(parameter.name) + " = " + toml_of_parameter(parameter, choice) + "\n";
   return text;
 }
 

@@ -31,9 +31,9 @@ TEST(SlowEmptyBoxAnswers, AFitFindsAFrequencyFivePerCentOff) {
   const LeafSpring leaf;
   FitOptions options = usual_fit_options();
   options.on = {"ring_down_1"};
-  const Fit fit = fitted_and_judged(leaf.setup, leaf.measurement,
-                                    "spring.frequency,blade_viscous_damping.damping,clamp_dry_friction.force",
-                                    *leaf.engine, options);
+  const Fit fit = fitted_and_judged(
+      leaf.setup, leaf.measurement,
+      {"spring.frequency,blade_viscous_damping.damping,clamp_dry_friction.force"}, *leaf.engine, options);
   ASSERT_EQ(fit.parameters.size(), 3u);
   WITHIN(fit.parameters[0].value, 1.26, 2e-5, 4.4e-6);
   // Seen: 2.0 and 2.1 standard errors off, of one noise: the two are correlated by -0.96. Of 60 other films

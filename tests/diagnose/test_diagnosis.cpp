@@ -14,6 +14,7 @@
 #include "experiment_file.hpp"
 #include "hidden_measurements.hpp"
 #include "next_experiment.hpp"
+#include "setup_file.hpp"
 #include "within.hpp"
 
 using namespace shakedown;
@@ -113,6 +114,24 @@ TEST(SlowDiagnosis, ForcesInNoListAreUnknownAndAFormulaIsOffered) {
   EXPECT_NE(d.force_formula.find("user_force"), std::string::npos);
   ASSERT_FALSE(d.next_experiments.empty());
   EXPECT_NE(d.next_experiments.front().find("alone"), std::string::npos);
+}
+
+// Restitution that rises with the speed is in no list, and nothing that is asked for explains it.
+TEST(SlowDiagnosis, WhatLiesInTheContactsIsOfferedAsACurve) {
+  const Diagnosis d = diagnosis_of(
+      {{"user_restitution=restitution:\"0.85-0.35*exp(-v/0.15)\""}, {}, {}, {0.040, 0.065}, 5, "8 s"},
+      {"user_restitution", "blade_viscous_damping"});
+  EXPECT_EQ(d.verdict, Verdict::unknown) << d.sentence;
+  EXPECT_TRUE(d.missing.empty());
+  ASSERT_TRUE(d.free_restitution) << d.sentence;
+  const FreeRestitution& found = *d.free_restitution;
+  EXPECT_LT(found.with.error_box, found.without.error_box / 2);
+  EXPECT_LT(found.with.error_box, 2 * found.with.floor_box);
+  EXPECT_LT(found.curve.grains.restitution.front(), found.curve.grains.restitution.back() - 0.1);
+  EXPECT_NE(d.sentence.find("it rises from"), std::string::npos) << d.sentence;
+  EXPECT_NE(diagnosis_text(d).find("name = \"user_restitution\""), std::string::npos);
+  EXPECT_NE(diagnosis_json(d).find("\"restitution_curve\""), std::string::npos);
+  EXPECT_TRUE(violations_of(found.setup).empty());
 }
 
 /// The hard engine, but for formulas.

@@ -290,7 +290,8 @@ TEST(RecordList, KeepsTheNamesOnceGiven) {
                                       "camera_shutter",
                                       "camera_depth",
                                       "camera_origin",
-                                      "user_force"})
+                                      "user_force",
+                                      "user_restitution"})
     EXPECT_NE(find_effect(name), nullptr) << name;
 }
 

@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <thread>
 
 #include "effects.hpp"
 #include "engine.hpp"
 #include "formula.hpp"
 #include "physics.hpp"
+#include "scratch_folder.hpp"
 #include "setup_file.hpp"
 #include "within.hpp"
 
@@ -156,4 +158,79 @@ TEST(UserForce, TheHardEngineRefusesFormulasThatFollowAGrain) {
   EXPECT_EQ(refused("hard", "-v", "grains"),
             "s.toml:2:8: user_force: is not modelled by engine 'hard'; on grains the hard engine takes "
             "formulas of t alone; use --engine soft");
+}
+
+namespace {
+
+/// A table in a folder of its own.
+struct Table {
+  ScratchFolder folder;
+  explicit Table(const std::string& text) { std::ofstream(folder.path() / "force.csv") << text; }
+  shakedown::Setup setup(const std::string& more = "") const {
+    return parse_setup("[[effect]]\nname = \"user_force\"\ntable = \"force.csv\"\n" + more, "s.toml",
+                       all_effects(), {}, folder.path());
+  }
+  std::string complaint(const std::string& more = "") const {
+    try {
+      setup(more);
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  }
+};
+
+}  // namespace
+
+TEST(UserForce, IsACurveThroughTheTableThatItIsGiven) {
+  const Table table("# of the third film\nx,force,error\n-0.1,0.2,0.01\n\n0, 0,0.01\n0.1,-0.4,0.02\n");
+  const shakedown::Setup setup = table.setup();
+  const Physics physics = physics_of(setup);
+  EXPECT_DOUBLE_EQ(physics.box.free[0].newton(-0.1, 3, 3), 0.2);
+  EXPECT_DOUBLE_EQ(physics.box.free[0].newton(0.1, 3, 3), -0.4);
+  EXPECT_DOUBLE_EQ(physics.box.free[0].newton(0.3, 3, 3), -0.4);
+  const double between = physics.box.free[0].newton(0.05, 3, 3);
+  EXPECT_LT(between, -0.1);
+  EXPECT_GT(between, -0.3);
+  // The setup holds the points: it needs the table no more.
+  const shakedown::Setup again = parse_setup(write_setup(setup), "again", all_effects());
+  EXPECT_EQ(write_setup(again), write_setup(setup));
+  EXPECT_EQ(digest(again), digest(setup));
+}
+
+TEST(UserForce, TakesTablesOfDampingAndOfStiffness) {
+  const Physics brake = physics_of(Table("x,damping\n-0.1,2\n0.1,4\n").setup());
+  EXPECT_DOUBLE_EQ(brake.box.free[0].newton(0, 0.5, 3), -1.5);
+  const Physics spring = physics_of(Table("t,stiffness\n0,2\n4,4\n").setup());
+  EXPECT_DOUBLE_EQ(spring.box.free[0].newton(0.1, 0.5, 2), -0.3);
+}
+
+TEST(UserForce, TakesAThousandPointsAndNoMore) {
+  std::string text = "t,force\n";
+  for (int i = 0; i < 1000; ++i) text += std::to_string(i) + "," + std::to_string(i % 7) + "\n";
+  EXPECT_DOUBLE_EQ(physics_of(Table(text).setup()).box.free[0].newton(0, 0, 13), 6);
+  EXPECT_NE(Table(text + "1000,1\n").complaint().find("force.csv:1002:1: has more than 1000 points"),
+            std::string::npos)
+      << Table(text + "1000,1\n").complaint();
+}
+
+TEST(UserForce, SaysWhatIsWrongWithATable) {
+  const auto says = [](const std::string& text, const std::string& words) {
+    const std::string complaint = Table(text).complaint();
+    EXPECT_NE(complaint.find(words), std::string::npos) << complaint;
+  };
+  says("", "has fewer than two points");
+  says("x,force\n0,1\n", "has fewer than two points");
+  says("0,1\n1,2\n", "does not name its columns");
+  says("x,newton\n0,1\n", "does not name its columns");
+  says("x\n0\n", "has one column");
+  says("x,force\n0,one\n", "holds one (a number is expected)");
+  says("x,force\n0,nan\n1,2\n", "a number is expected");
+  says("x,force\n1,1\n0,2\n", "does not ascend (0 after 1)");
+  EXPECT_NE(Table("x,force\n0,1\n1,2\n").complaint("force = \"x\"\n").find("is given beside force"),
+            std::string::npos);
+  EXPECT_THROW(parse_setup("[[effect]]\nname = \"user_force\"\ntable = \"none.csv\"\n", "s", all_effects()),
+               InputError);
+  // A variable that a force does not have is found as in any formula.
+  EXPECT_THROW(Table("w,force\n0,1\n1,2\n").setup(), InputError);
 }

@@ -96,6 +96,23 @@ TEST(Fit, WhatTheDataCannotTellIsSaid) {
   EXPECT_NE(fit.parameters[1].remark.find("do not tell"), std::string::npos) << fit.parameters[1].remark;
 }
 
+TEST(Fit, WhatTheDataCannotTellIsKnownAsWellAsIsBelieved) {
+  const shakedown::Setup start = believed();
+  std::vector<Knob> knobs =
+      free_parameters("restitution.grain_grain,spring.frequency,grains.diameter", start, all_effects());
+  constexpr double known_to = 1e-4;
+  knobs.back().believed = knobs.back().centre, knobs.back().believed_error = known_to;
+  FitOptions options;
+  options.on = {"L040"};
+  options.count = 64;
+  options.threads = 1;
+  options.known = all_effects();
+  const Fit fit =
+      fit_parameters(start, measurement_of(start, measured(), all_effects()), knobs, StandIn(), options);
+  EXPECT_LT(fit.parameters.back().error, 2 * known_to);
+  EXPECT_GT(fit.parameters.back().error, known_to / 2);
+}
+
 TEST(Fit, TwoThatOnlyTheirProductTellsAreConfounded) {
   const Fit fit = fitted("restitution.grain_grain,restitution.grain_wall", {}, 1.23);
   EXPECT_LT(fit.correlation(0, 1), -0.95);

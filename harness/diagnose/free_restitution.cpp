@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "free_restitution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "errors.hpp"
+#include "key_unit.hpp"
+#include "known_effects.hpp"
+#include "setup_file.hpp"
+#include "verdict.hpp"
+
+namespace shakedown {
+
+namespace {
+
+constexpr const char* stage = "restitution as a function of speed";
+
+/// The model with a level curve in place of its own law, and its strength gone from the knobs.
+DiagnosisState with_curve(const DiagnosisState& failing, std::span<const EffectRecord* const> known) {
+  DiagnosisState state = is_led_astray(failing) ? as_believed(failing) : failing;
+  state.setup = with_restitution_curve(state.setup, "all", known);
+  std::erase_if(state.found, [&](const Knob& knob) {
+    const std::string key = joined_keys(knob.key).front();
+    return find_choice(state.setup, effect_of(key)) == nullptr;
+  });
+  return state;
+}
+
+/// Four digits: people read them, and no interval is narrower.
+Setup setup_at(Setup setup, const Refit& fit, std::span<const EffectRecord* const> known) {
+  for (std::size_t k = 0; k < fit.values.size(); ++k)
+    if (!fit.knobs[k].exact)
+      for (const std::string& key : joined_keys(fit.values[k].key))
+        set_number(setup, key,
+                   key == "spring.frequency" ? fit.values[k].value
+                                             : std::stod(fmt::format("{:.4g}", fit.values[k].value)),
+                   known);
+  return setup;
+}
+
+bool foretells_better(const LadderStep& without, const LadderStep& with) {
+  return !(with.held_out_error_box > without.held_out_error_box);  // NaN of one length only
+}
+
+std::string mm(double metres) { return fmt::format("{:.2f} mm", 1e3 * metres); }
+
+}  // namespace
+
+FreeRestitution free_restitution_beside(const DiagnosisState& failing, DiagnosisTools& tools) {
+  const std::span<const EffectRecord* const> known = tools.known();
+  const DiagnosisState state = with_curve(failing, known);
+  const std::vector<Knob> curve = knobs_of_curve(state.setup, known);
+  const auto fitted = [&](const std::vector<Knob>& of_curve) {
+    return tools.fit(state, stage, together(state.knobs(), of_curve), effort::attempt, &failing.fit);
+  };
+  Refit fit = fitted(curve);
+  if (const std::vector<Knob> held = monotone(curve, fit.values, known);
+      std::any_of(held.begin(), held.end(), [](const Knob& knob) { return knob.low == 0 || knob.high == 0; }))
+    fit = fitted(held);
+  Setup setup = setup_at(state.setup, fit, known);
+  RestitutionCurve told = restitution_curve(setup, fit.values, fit.covariance, known);
+  FreeRestitution law{std::move(told), std::move(setup),
+                      step_of("without a curve of restitution", failing.fit),
+                      step_of("with a curve of restitution", fit), false};
+  law.explains = explains(fit.p_value, fit.scatter, failing.fit.scatter, fit.error_box(), fit.floor_box()) &&
+                 foretells_better(law.without, law.with);
+  return law;
+}
+
+void offer_free_restitution(const Setup& user, const DiagnosisState& failing, DiagnosisTools& tools,
+                            Diagnosis& d) {
+  const EffectRecord* record = restitution_formula(tools.known());
+  if (record == nullptr || !allowed(tools.options(), std::string(record->name))) return;
+  if (tools.workshop().engine->can_model(*record).fidelity == Fidelity::not_modelled) return;
+  try {
+    FreeRestitution law = free_restitution_beside(failing, tools);
+    if (law.explains) {
+      law.setup.hard = user.hard;  // a diagnosis simulates less exactly than it may
+      d.free_restitution = std::move(law);
+      return;
+    }
+    d.notes.push_back("restitution as a free function of the closing speed leaves " + mm(law.with.error_box) +
+                      " of the box (without it " + mm(law.without.error_box) + ", noise and spread " +
+                      mm(law.with.floor_box) + "): no law of restitution alone is what is missing");
+  } catch (const BudgetSpent&) {
+    d.not_tried.push_back(stage);
+  } catch (const PhysicsError& error) {
+    d.notes.push_back(std::string(stage) + " could not be simulated: " + error.what());
+  }
+}
+
+}  // namespace shakedown

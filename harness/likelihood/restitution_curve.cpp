@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "restitution_curve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "errors.hpp"
+#include "key_unit.hpp"
+#include "known_effects.hpp"
+#include "physics.hpp"
+#include "quantity.hpp"
+#include "setup_file.hpp"
+#include "suggestion.hpp"
+#include "toml_string.hpp"
+
+namespace shakedown {
+
+namespace {
+
+using Known = std::span<const EffectRecord* const>;
+
+constexpr int points = 5;
+constexpr double slowest = 0.032, step = 2.5;  // of the box's greatest speed
+/// The point at which the curve is 1: between a tenth and four tenths of the losses are of slower impacts.
+constexpr int reference = 3;
+
+const Parameter& parameter_of_kind(const EffectRecord& record, ParameterKind kind) {
+  const auto found = std::find_if(record.parameters.begin(), record.parameters.end(),
+                                  [&](const Parameter& parameter) { return parameter.kind == kind; });
+  EXPECT(found != record.parameters.end());
+  return *found;
+}
+
+std::string key_of(const EffectRecord& record, ParameterKind kind) {
+  return std::string(record.name) + "." + std::string(parameter_of_kind(record, kind).name);
+}
+
+std::string fall(int i) { return "fall_" + std::to_string(i + 1); }
+
+/// Height of a point over that of the reference: "1+fall_2+fall_3".
+std::string height(int point) {
+  std::string text = "1";
+  for (int i = point; i < reference; ++i) text += "+" + fall(i);
+  for (int i = reference; i < point; ++i) text += "-" + fall(i);
+  return text;
+}
+
+bool is_restitution_formula(const EffectRecord& record) {
+  return record.acts_on == ActsOn::contact && record.takes_formula();
+}
+
+const EffectRecord& formula_or_refuse(Known known) {
+  const EffectRecord* record = restitution_formula(known);
+  EXPECT(record != nullptr);
+  return *record;
+}
+
+std::string formula_through(const std::vector<double>& speeds) {
+  const double at = speeds[static_cast<std::size_t>(reference)];
+  std::string text = "e*curve(ln(v/" + fmt::format("{:.4g}", at) + ")";
+  for (int i = 0; i < points; ++i)
+    text += fmt::format(", {:.4g}, {}", std::log(speeds[static_cast<std::size_t>(i)] / at), height(i));
+  return text + ")";
+}
+
+/// Restitutions of both kinds of contact at these speeds, one after the other.
+Eigen::VectorXd restitutions_of(const Setup& setup, const std::vector<double>& speeds) {
+  const Physics physics = physics_of(setup);
+  Eigen::VectorXd list(2 * std::ssize(speeds));
+  Eigen::Index i = 0;
+  for (const ContactClass kind : {ContactClass::grain_grain, ContactClass::end_wall})
+    for (const double speed : speeds) list[i++] = physics.contact.restitution_of(kind, speed);
+  return list;
+}
+
+Setup moved(Setup setup, const std::string& keys, double by, Known known) {
+  for (const std::string& key : joined_keys(keys))
+    set_number(setup, key, get_number(setup, key, known) + by, known);
+  return setup;
+}
+
+/// Change of the restitutions for one standard error of this value, to the side where it changes more: no
+/// restitution goes beyond 1, and no key beyond its bounds.
+Eigen::VectorXd change_by(const FittedValue& value, const Setup& fitted, const std::vector<double>& speeds,
+                          Known known) {
+  const Eigen::VectorXd here = restitutions_of(fitted, speeds);
+  Eigen::VectorXd most = Eigen::VectorXd::Zero(here.size());
+  for (const double side : {1.0, -1.0}) try {
+      const Eigen::VectorXd change =
+          side * (restitutions_of(moved(fitted, value.key, side * value.error, known), speeds) - here);
+      most = (change.array().abs() > most.array().abs()).select(change, most);
+    } catch (const InputError&) {
+    }
+  return most;
+}
+
+/// What the law may differ by from the curve between two of its points, one standard deviation: half of what
+/// a step at an unknown place between them makes.
+Eigen::VectorXd between_points(const Setup& fitted, const std::vector<double>& speeds) {
+  const std::vector<double> points_at = speeds_of_curve(fitted);
+  const Eigen::VectorXd heights = restitutions_of(fitted, points_at);
+  Eigen::VectorXd error(2 * std::ssize(speeds));
+  for (Eigen::Index i = 0; i < error.size(); ++i) {
+    const bool of_walls = i >= std::ssize(speeds);
+    const double speed = speeds[static_cast<std::size_t>(i - (of_walls ? std::ssize(speeds) : 0))];
+    const double place = std::clamp(std::log(speed / points_at.front()) / std::log(step), 0.0, points - 1.0);
+    const auto before = std::min<Eigen::Index>(static_cast<Eigen::Index>(place), points - 2);
+    const double share = place - static_cast<double>(before);
+    const Eigen::Index at = before + (of_walls ? points : 0);
+    error[i] = 0.5 * std::abs(heights[at + 1] - heights[at]) * std::sqrt(std::max(0.0, share * (1 - share)));
+  }
+  return error;
+}
+
+std::string words_of(const RestitutionBand& band, const std::vector<double>& speed, const char* of) {
+  const double first = band.restitution.front(), last = band.restitution.back();
+  constexpr double level = 5e-3;
+  const auto at = [](double v) { return write_quantity(std::round(v * 1e3) / 1e3, "m/s"); };
+  if (std::abs(first - last) < level) return fmt::format("stays at {:.2f} ({})", last, of);
+  return fmt::format("{} from {:.2f} at {} to {:.2f} at {} ({})", first > last ? "falls" : "rises", first,
+                     at(speed.front()), last, at(speed.back()), of);
+}
+
+}  // namespace
+
+const EffectRecord* restitution_formula(Known known) {
+  for (const EffectRecord* record : known)
+    if (is_restitution_formula(*record)) return record;
+  return nullptr;
+}
+
+std::vector<std::string_view> contacts_of_a_curve(Known known) {
+  return parameter_of_kind(formula_or_refuse(known), ParameterKind::choice).choices;
+}
+
+std::vector<double> speeds_of_curve(const Setup& setup) {
+  const double top = 2 * std::numbers::pi * setup.spring.frequency * std::abs(setup.release.displacement);
+  if (!(top > 0) || setup.grains.count == 0)
+    throw InputError({{{},
+                       "restitution curve",
+                       "has no range of speeds (nothing is let go, or there are no grains)",
+                       "give a setup with grains whose box is let go"}});
+  std::vector<double> speeds{slowest * top};
+  while (std::ssize(speeds) < points) speeds.push_back(step * speeds.back());
+  return speeds;
+}
+
+Setup with_restitution_curve(const Setup& setup, const std::string& contacts, Known known) {
+  const EffectRecord& record = formula_or_refuse(known);
+  const std::vector<std::string_view> possible = contacts_of_a_curve(known);
+  if (std::find(possible.begin(), possible.end(), contacts) == possible.end())
+    throw InputError({{{"--restitution-curve", 0, 0},
+                       contacts,
+                       "is no kind of contact",
+                       "take one of " + listed(possible)}});
+  Setup bare = setup;
+  std::erase_if(bare.effects,
+                [&](const EffectChoice& choice) { return choice.record->claims == record.claims; });
+  std::string falls;
+  for (int i = 0; i + 1 < points; ++i) falls += (i > 0 ? ", " : "") + fall(i) + " = 0";
+  const std::string origin = "restitution curve";
+  const std::vector<Override> overrides{
+      {key_of(record, ParameterKind::choice), contacts, origin},
+      {key_of(record, ParameterKind::text), toml_string(formula_through(speeds_of_curve(setup))), origin},
+      {key_of(record, ParameterKind::constants), "{" + falls + "}", origin}};
+  return with_overrides(std::move(bare), overrides, known);
+}
+
+std::string curve_as_toml(const Setup& setup) {
+  for (const EffectChoice& choice : setup.effects)
+    if (is_restitution_formula(*choice.record)) return write_effect(choice).substr(1);
+  return "";
+}
+
+std::vector<Knob> knobs_of_curve(const Setup& setup, Known known) {
+  constexpr double believed = 0.15, steepest_fall = 0.5, steepest_rise = -0.4;
+  const std::string constants = key_of(formula_or_refuse(known), ParameterKind::constants) + ".";
+  std::vector<Knob> knobs;
+  for (int i = 0; i + 1 < points; ++i) {
+    const std::string key = constants + fall(i);
+    knobs.push_back(
+        {key, get_number(setup, key, known), believed, steepest_rise, steepest_fall, true, 0, believed});
+  }
+  return knobs;
+}
+
+std::vector<Knob> monotone(std::vector<Knob> knobs, const std::vector<FittedValue>& fitted, Known known) {
+  const std::string constants = key_of(formula_or_refuse(known), ParameterKind::constants) + ".";
+  double falls = 0, rises = 0;
+  for (const FittedValue& value : fitted)
+    if (value.key.starts_with(constants)) (value.value > 0 ? falls : rises) += std::abs(value.value);
+  if (falls == 0 || rises == 0) return knobs;
+  for (Knob& knob : knobs) {
+    if (!knob.key.starts_with(constants)) continue;
+    for (const FittedValue& value : fitted)
+      if (value.key == knob.key) knob.centre = value.value;
+    (falls > rises ? knob.low : knob.high) = 0;
+    knob.centre = std::clamp(knob.centre, knob.low, knob.high);
+  }
+  return knobs;
+}
+
+double RestitutionBand::low(std::size_t i) const { return std::max(0.0, restitution[i] - 1.96 * error[i]); }
+double RestitutionBand::high(std::size_t i) const { return std::min(1.0, restitution[i] + 1.96 * error[i]); }
+
+RestitutionCurve restitution_curve(const Setup& fitted, const std::vector<FittedValue>& values,
+                                   const Eigen::MatrixXd& covariance, Known known) {
+  EXPECT(covariance.rows() == std::ssize(values) && covariance.cols() == std::ssize(values));
+  constexpr int drawn = 60;
+  RestitutionCurve curve;
+  const std::vector<double> ends = speeds_of_curve(fitted);
+  for (int i = 0; i < drawn; ++i)
+    curve.speed.push_back(ends.front() * std::pow(ends.back() / ends.front(), i / (drawn - 1.0)));
+  const Eigen::VectorXd restitution = restitutions_of(fitted, curve.speed);
+  Eigen::MatrixXd slopes(restitution.size(), std::ssize(values));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    slopes.col(static_cast<Eigen::Index>(k)) =
+        values[k].error > 0 ? change_by(values[k], fitted, curve.speed, known) / values[k].error
+                            : Eigen::VectorXd::Zero(restitution.size()).eval();
+  Eigen::VectorXd variance = (slopes * covariance * slopes.transpose()).diagonal().cwiseMax(0);
+  if (find_choice(fitted, formula_or_refuse(known).name) != nullptr)
+    variance += between_points(fitted, curve.speed).cwiseAbs2();
+  RestitutionBand* const bands[] = {&curve.grains, &curve.walls};
+  for (Eigen::Index i = 0; i < restitution.size(); ++i) {
+    RestitutionBand& band = *bands[i / drawn];
+    band.restitution.push_back(restitution[i]);
+    band.error.push_back(std::sqrt(variance[i]));
+  }
+  return curve;
+}
+
+std::string words_of(const RestitutionCurve& curve) {
+  return words_of(curve.grains, curve.speed, "grains") + ", " + words_of(curve.walls, curve.speed, "walls");
+}
+
+}  // namespace shakedown

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "restitution_curve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "effects.hpp"
+#include "errors.hpp"
+#include "physics.hpp"
+#include "setup_file.hpp"
+#include "within.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+constexpr const char* fall_1 = "user_restitution.constants.fall_1";
+constexpr const char* fall_3 = "user_restitution.constants.fall_3";
+
+shakedown::Setup with_curve(const std::string& contacts = "all") {
+  return with_restitution_curve({}, contacts, all_effects());
+}
+
+double restitution(const shakedown::Setup& setup, double speed,
+                   ContactClass kind = ContactClass::grain_grain) {
+  return physics_of(setup).contact.restitution_of(kind, speed);
+}
+
+FittedValue value(const std::string& key, double at, double error = 0.1) {
+  return {key, at, at - 1.96 * error, at + 1.96 * error, error, false};
+}
+
+}  // namespace
+
+TEST(RestitutionCurve, ReachesOverTheSpeedsOfTheDamper) {
+  const std::vector<double> speeds = speeds_of_curve({});
+  const double top = 2 * std::numbers::pi * 1.23 * 0.1075;
+  ASSERT_EQ(speeds.size(), 5u);
+  EXPECT_DOUBLE_EQ(speeds.front(), 0.032 * top);
+  EXPECT_DOUBLE_EQ(speeds.back(), 1.25 * top);
+  shakedown::Setup empty, held;
+  empty.grains.count = 0;
+  held.release.displacement = 0;
+  EXPECT_THROW(speeds_of_curve(empty), InputError);
+  EXPECT_THROW(speeds_of_curve(held), InputError);
+}
+
+TEST(RestitutionCurve, BeginsLevel) {
+  for (const double speed : {0.0, 0.02, 0.3, 1.0, 5.0}) {
+    EXPECT_DOUBLE_EQ(restitution(with_curve(), speed), 0.75);
+    EXPECT_DOUBLE_EQ(restitution(with_curve("walls"), speed, ContactClass::end_wall), 0.76);
+  }
+  EXPECT_THROW(with_curve("floors"), InputError);
+}
+
+TEST(RestitutionCurve, FallsFromOnePointToTheNext) {
+  shakedown::Setup setup = with_curve();
+  const std::vector<double> speeds = speeds_of_curve(setup);
+  set_number(setup, fall_1, 0.1, all_effects());
+  set_number(setup, fall_3, 0.2, all_effects());
+  // Speeds stand in the formula with four digits.
+  const double expected[] = {1.3, 1.2, 1.2, 1.0, 1.0};
+  for (std::size_t i = 0; i < speeds.size(); ++i)
+    WITHIN(restitution(setup, speeds[i]), 0.75 * expected[i], 2e-4, 1.7e-5) << i;
+}
+
+TEST(RestitutionCurve, TakesThePlaceOfAnotherLawOfRestitution) {
+  const auto viscoelastic = parse_setup(
+      "[[effect]]\nname = \"velocity_dependent_restitution\"\n[[effect]]\nname = "
+      "\"grain_friction\"\ngrain_grain = "
+      "0.2\n",
+      "s", all_effects());
+  const shakedown::Setup setup = with_restitution_curve(viscoelastic, "grains", all_effects());
+  ASSERT_EQ(setup.effects.size(), 2u);
+  EXPECT_EQ(setup.effects[0].record->name, "grain_friction");
+  EXPECT_EQ(setup.effects[1].record->name, "user_restitution");
+  EXPECT_TRUE(curve_as_toml(setup).starts_with("[[effect]]\nname = \"user_restitution\"\n"));
+  EXPECT_EQ(curve_as_toml(viscoelastic), "");
+}
+
+TEST(RestitutionCurve, IsHeldToTheSideToWhichItGoesMore) {
+  const std::vector<Knob> knobs = knobs_of_curve(with_curve(), all_effects());
+  ASSERT_EQ(knobs.size(), 4u);
+  const std::vector<Knob> falling =
+      monotone(knobs, {value(fall_1, -0.05), value(fall_3, 0.2)}, all_effects());
+  for (const Knob& knob : falling) EXPECT_EQ(knob.low, 0) << knob.key;
+  EXPECT_EQ(falling[0].centre, 0);
+  EXPECT_EQ(falling[2].centre, 0.2);
+  const std::vector<Knob> rising = monotone(knobs, {value(fall_1, -0.3), value(fall_3, 0.2)}, all_effects());
+  for (const Knob& knob : rising) EXPECT_EQ(knob.high, 0) << knob.key;
+  for (const Knob& knob : monotone(knobs, {value(fall_1, 0.3), value(fall_3, 0.2)}, all_effects()))
+    EXPECT_LT(knob.low, 0);
+}
+
+TEST(RestitutionCurve, BandIsThatOfItsParametersAndOfWhatAStepBetweenPointsWouldMake) {
+  const shakedown::Setup setup = with_curve();
+  Eigen::Matrix2d covariance;
+  covariance << 4e-4, -1e-4, -1e-4, 9e-4;
+  const RestitutionCurve level = restitution_curve(
+      setup, {value("restitution.grain_grain", 0.75, 0.02), value("restitution.grain_wall", 0.76, 0.03)},
+      covariance, all_effects());
+  for (std::size_t i = 0; i < level.speed.size(); ++i) {
+    WITHIN(level.grains.error[i], 0.02, 1e-14, 1e-15);
+    WITHIN(level.walls.error[i], 0.03, 1e-14, 1e-15);
+    EXPECT_DOUBLE_EQ(level.grains.low(i), 0.75 - 1.96 * level.grains.error[i]);
+  }
+  EXPECT_EQ(words_of(level), "stays at 0.75 (grains), stays at 0.76 (walls)");
+  shakedown::Setup falling = setup;
+  set_number(falling, fall_1, 0.2, all_effects());
+  const RestitutionCurve known =
+      restitution_curve(falling, {value(fall_1, 0.2, 0)}, Eigen::MatrixXd::Zero(1, 1), all_effects());
+  // Known at its points; half-way between the first two by a quarter of the step, which is 0.15.
+  WITHIN(known.grains.error.front(), 0, 1e-9, 1e-10);
+  WITHIN(*std::max_element(known.grains.error.begin(), known.grains.error.end()), 0.0375, 4e-4, 3e-5);
+  EXPECT_EQ(words_of(known),
+            "falls from 0.90 at 0.027 m/s to 0.75 at 1.038 m/s (grains), falls from 0.91 at "
+            "0.027 m/s to 0.76 at 1.038 m/s (walls)");
+}
