@@ -49,6 +49,7 @@ std::optional<Fit> by_waveform(const Setup& setup, const Measurement& recorded,
   fit.p_value = judged->refit.p_value;
   fit.scatter = judged->refit.scatter;
   fit.judgement = judged->judgement;
+  fit.start = setup;
   fit.fitted = judged->fitted;
   fit.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return fit;
@@ -123,8 +124,8 @@ Fit fitted_and_judged(const Setup& given, const Measurement& recorded, const Fit
 namespace {
 
 /// The keys that were fitted are there to be turned.
-ReportKnobs knobs_of_fit(const Fit& fit, const Setup& given, const Measurement& measurement,
-                         const Engine& engine, int threads, const std::atomic<bool>* stop) {
+ReportKnobs knobs_of_fit(const Fit& fit, const Measurement& measurement, const Engine& engine, int threads,
+                         const std::atomic<bool>* stop) {
   if (fit.measured.empty()) return {};
   const Workshop workshop{&engine, all_effects(), threads, stop, {}, nullptr};
   RefitOptions once;
@@ -140,7 +141,7 @@ ReportKnobs knobs_of_fit(const Fit& fit, const Setup& given, const Measurement& 
   options.stop = stop;
   constexpr double share_of_time = 0.2, least = 20;  // beside that of the fit itself; s
   options.seconds = std::max(least, share_of_time * fit.seconds);
-  return knobs_of(turned_model(*last.ensembles, given, engine, options), last, fit.fitted);
+  return knobs_of(turned_model(*last.ensembles, fit.start, engine, options), last, fit.fitted);
 }
 
 }  // namespace
@@ -151,7 +152,7 @@ Report report_of(const Fit& fit, const Setup& given, const Measurement& recorded
   const Measurement measurement =
       from_first_turns(empty ? with_setup(recorded, fit.fitted, all_effects()) : recorded, engine);
   return report_of(fit, measurement, drawn_curves(measurement, &given, fit.fitted, engine, threads, stop),
-                   knobs_of_fit(fit, given, measurement, engine, threads, stop));
+                   knobs_of_fit(fit, measurement, engine, threads, stop));
 }
 
 }  // namespace shakedown

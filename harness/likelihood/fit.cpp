@@ -85,6 +85,7 @@ class Fitter {
   Fitter(const Setup& setup, const Measurement& measurement, std::vector<Knob> knobs, const Engine& engine,
          const FitOptions& options)
       : setup_(setup), knobs_(std::move(knobs)), start_(knobs_), options_(options) {
+    fit_.start = setup;
     refuse_unknown_runs(measurement, options.on);
     refuse_too_few_simulations(knobs_, options.count);
     for (const MeasuredFeatures& run : features_of(measurement)) {

@@ -43,6 +43,7 @@ struct Fit {
   double scatter = 1;  ///< misfit over that of the model's own runs
   /// Of the fitted model; by the runs used alone where nobody has asked the momentum balance too.
   ModelJudgement judgement;
+  Setup start;  ///< from which it began, with a curve where one was asked for
   Setup fitted;
   std::optional<RestitutionCurve> curve{};  ///< where restitution was a free function of the speed
   std::int64_t runs = 0;                    ///< simulated

@@ -13,6 +13,7 @@
 #include "grain_column.hpp"
 #include "grain_file.hpp"
 #include "layer_check.hpp"
+#include "physics.hpp"
 #include "quantity.hpp"
 #include "rough_motion.hpp"
 #include "setup_keys.hpp"
@@ -52,12 +53,22 @@ std::string factor_text(double factor) {
   return text;
 }
 
+/// Where the setup's steady forces hold the box, m: gravity along the motion pulls grains and box.
+double rest_of(const Setup& setup) {
+  const Physics physics = physics_of(setup);
+  if (!(physics.stiffness > 0)) return 0;
+  const double of_grains =
+      static_cast<double>(setup.grains.count) * setup.grains.mass * physics.grains.constant.sum().x();
+  return (physics.box.constant.sum() + of_grains) / physics.stiffness;
+}
+
 class RunCheck {
  public:
   /// Wrong frames say nothing of units, origins and columns: they are left out beforehand.
   RunCheck(const MeasuredRun& run, const Setup& setup, std::vector<Finding>& findings)
       : run_(run),
         setup_(setup),
+        rests_at_(rest_of(setup)),
         findings_(findings),
         audit_(audit_run(run)),
         motion_(rough_motion(run.time, audit_.x_box)) {}
@@ -158,13 +169,16 @@ class RunCheck {
 
   bool check_scale() {
     if (!released()) return true;
-    const double stated = std::abs(setup_.release.displacement);
+    const double stated = std::abs(setup_.release.displacement - rests_at_);
     const double shown = std::max(motion_.amplitude, std::abs(motion_.first - motion_.centre));
     const double tens = std::log10(shown / stated);
     constexpr double near = 0.12;     // of a power of ten: 30 %
     constexpr double doubtful = 1.3;  // of what was set with a ruler
-    const std::string found = "the box starts with a swing of " + rounded_mm(shown) +
-                              " where release.displacement is " + rounded_mm(stated);
+    const std::string found =
+        "the box starts with a swing of " + rounded_mm(shown) +
+        (rests_at_ == 0 ? " where release.displacement is " + rounded_mm(stated)
+                        : " where that from release.displacement is " + rounded_mm(stated) +
+                              " (the setup's steady forces hold the box at " + rounded_mm(rests_at_) + ")");
     if (std::abs(tens) > 0.5 && std::abs(tens - std::round(tens)) < near) {
       const double factor = std::pow(10, -std::round(tens));
       const char* unit = factor == 10      ? "centimetres? Write unit = \"cm\" where it says mm"
@@ -180,7 +194,8 @@ class RunCheck {
     }
     if (shown > stated * doubtful || shown < stated / doubtful) {
       add("release", starts_at_rest(), "release.displacement", found,
-          "write release.displacement = \"" + rounded_mm(shown) +
+          "write release.displacement = \"" +
+              rounded_mm(std::copysign(shown, setup_.release.displacement - rests_at_) + rests_at_) +
               "\" under its [[run]], or correct the scale of the picture (pixel_size, unit)");
       return !starts_at_rest();
     }
@@ -190,7 +205,7 @@ class RunCheck {
   void check_side() {
     const double from_centre = motion_.first - motion_.centre;
     if (!released() || std::abs(from_centre) < 0.5 * motion_.amplitude) return;
-    if ((from_centre > 0) == (setup_.release.displacement > 0)) return;
+    if ((from_centre > 0) == (setup_.release.displacement > rests_at_)) return;
     add("side", true, "column.box_position",
         "the box starts on the other side (" + rounded_mm(from_centre) +
             " from where it swings about; released at " + rounded_mm(setup_.release.displacement) + ")",
@@ -201,15 +216,17 @@ class RunCheck {
   void check_origin() {
     if (starts_anywhere(run_, setup_) && !run_.origin_stated) return;  // unknown, and fitted
     constexpr double worth_saying = 0.01, absurd = 0.5;                // of the amplitude
-    const double off = std::abs(motion_.centre);
+    const double away = motion_.centre - rests_at_, off = std::abs(away);
     if (off < std::max(worth_saying * motion_.amplitude, 4 * motion_.centre_error)) return;
     const bool impossible = released() && off > absurd * motion_.amplitude;
     add("origin", impossible, "column.box_position.origin",
-        "the box swings about x = " + rounded_mm(motion_.centre) +
-            ", not about 0 (where the spring is relaxed)",
+        "the box swings about x = " + rounded_mm(motion_.centre) + ", not about " +
+            (rests_at_ == 0 ? "0 (where the spring is relaxed)"
+                            : rounded_mm(rests_at_) + " (where the setup's steady forces hold it)"),
         run_.origin_stated
-            ? "move the origin by that much, unless a steady force pulls there"
-            : "write origin = \"" + rounded_mm(motion_.centre) +
+            ? "move the origin by " + (rests_at_ == 0 ? "that much" : rounded_mm(away)) +
+                  ", unless a steady force pulls there"
+            : "write origin = \"" + rounded_mm(away) +
                   "\" in [column.box_position] and [column.grain_centre], unless a steady force pulls there");
   }
 
@@ -299,6 +316,7 @@ class RunCheck {
 
   const MeasuredRun& run_;
   const Setup& setup_;
+  const double rests_at_;
   std::vector<Finding>& findings_;
   RunAudit audit_;
   RoughMotion motion_;

@@ -3,6 +3,7 @@
 // was not fitted to, without and with a curve.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -52,5 +53,9 @@ TEST(SlowFreeRestitution, ForetellsALengthThatItWasNotFittedTo) {
         << curve.speed[i];
   }
   EXPECT_NE(fit_json(with).find("\"restitution_curve\""), std::string::npos);
+  const Report page = report_of(with, believed, films, *hard, 2, nullptr);
+  EXPECT_TRUE(std::any_of(page.sections.begin(), page.sections.end(), [](const ReportSection& section) {
+    return section.title == "Restitution against speed" && section.plots.size() == 2;
+  }));
   EXPECT_NE(fit_text(with).find("restitution rises from"), std::string::npos);
 }

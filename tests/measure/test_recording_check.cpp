@@ -7,10 +7,12 @@
 #include <numbers>
 
 #include "effects.hpp"
+#include "physics.hpp"
 #include "prelude.hpp"
 #include "random.hpp"
 #include "recording_check.hpp"
 #include "rough_motion.hpp"
+#include "setup_file.hpp"
 #include "within.hpp"
 
 namespace shakedown {
@@ -145,6 +147,25 @@ TEST(RecordingCheck, AnOriginThatIsOffIsNamed) {
   std::vector<DamperSetup> empty = setups_for(far);
   for (DamperSetup& setup : empty) setup.grains.count = 0;
   EXPECT_EQ(said_of(far, empty).impossible, "");  // unknown, and fitted
+}
+
+// Gravity along the motion, as the setup has it: the box swings about where the two hold it.
+TEST(RecordingCheck, WhatTheSetupPullsByIsNoWrongOrigin) {
+  constexpr double pull = 2.5;  // m/s^2, a fourth of gravity: 49 mm
+  std::vector<DamperSetup> pulled = setups_for(three_runs());
+  for (DamperSetup& setup : pulled)
+    setup = with_overrides(
+        std::move(setup),
+        std::vector<Override>{{"constant_acceleration.acceleration.x", std::to_string(pull) + " m/s^2"}},
+        all_effects());
+  const Physics physics = physics_of(pulled[0]);
+  const double away = (physics.box.constant.sum() + 37 * 4.04e-3 * pull) / physics.stiffness;
+  for (DamperSetup& setup : pulled) setup.release.displacement += away;
+  const Said said = said_of(changed(1, away), pulled);
+  EXPECT_EQ(said.impossible, "");
+  EXPECT_EQ(said.notes.find("swings about"), std::string::npos) << said.notes;
+  const Said elsewhere = said_of(changed(1, away + 2e-3), pulled);
+  expect_parts(elsewhere.notes, {"steady forces hold it", "move the origin by 2"});
 }
 
 TEST(RecordingCheck, TheOtherSideIsNamed) {
