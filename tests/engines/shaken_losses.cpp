@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Prints what grains in a shaken box lose about the amplitude where they stop going as one: the tables of
-// bench/results/2026-11-26-shaken-box.md.
+// bench/results/2026-11-27-shaken-box.md.
 #include <cstdio>
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A shaken box without gravity: above an amplitude of L_g/pi its grains go as one and lose what the closed
-// form says, below they do not. The tables are in bench/results/2026-11-26-shaken-box.md.
+// form says, below they do not. The tables are in bench/results/2026-11-27-shaken-box.md.
 #include <gtest/gtest.h>
 
 #include "shaken_box.hpp"
