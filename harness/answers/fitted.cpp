@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
+#include <optional>
 
 #include "course.hpp"
 #include "drawn_curves.hpp"
@@ -77,22 +77,13 @@ std::vector<Knob> knobs_asked(const FitQuestion& asked, const Setup& setup) {
   return knobs;
 }
 
-std::vector<FittedValue> values_of(const Fit& fit) {
-  std::vector<FittedValue> values;
-  for (const FittedParameter& p : fit.parameters)
-    values.push_back({p.key, p.value, p.low, p.high, p.error, false});
-  return values;
-}
-
 Fit fitted_by_ensembles(const Setup& setup, const Measurement& measurement, const FitQuestion& asked,
                         const Engine& engine, const FitOptions& options) {
   const std::vector<Knob> knobs = knobs_asked(asked, setup);
   Fit fit = fit_parameters(setup, measurement, knobs, engine, options);
   if (asked.curve_of.empty()) return fit;
-  const std::vector<Knob> held = monotone(knobs, values_of(fit), all_effects());
-  const auto is_bounded = [](const Knob& a, const Knob& b) { return a.low != b.low || a.high != b.high; };
-  if (!std::equal(held.begin(), held.end(), knobs.begin(), std::not_fn(is_bounded)))
-    fit = fit_parameters(setup, measurement, held, engine, options);
+  if (const std::optional<std::vector<Knob>> held = held_to_one_side(knobs, values_of(fit), all_effects()))
+    fit = fit_parameters(setup, measurement, *held, engine, options);
   fit.curve = curve_of(fit, all_effects());
   return fit;
 }

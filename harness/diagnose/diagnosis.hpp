@@ -58,7 +58,6 @@ struct FreeRestitution {
   RestitutionCurve curve;
   Setup setup;               ///< with the effect user_restitution and what else was fitted, ready to try
   LadderStep without, with;  ///< the model that fails, and the same with the curve
-  bool explains = false;     ///< what that model leaves, also of box lengths that it was not fitted to
 };
 
 /// What explains the data nearly as well as the effect that was added, as it was fitted.

@@ -5,6 +5,7 @@
 #include "last_fit.hpp"
 #include "missing_numbers.hpp"
 #include "setup_file.hpp"
+#include "unlisted_force.hpp"
 #include "validation.hpp"
 
 namespace shakedown {
@@ -126,22 +127,10 @@ Json steps_json(const std::vector<LadderStep>& ladder) {
   return list;
 }
 
-const char* name_of(ShapeOf of) {
-  switch (of) {
-    case ShapeOf::position: return "force_at_x";
-    case ShapeOf::damping_at_x: return "damping_at_x";
-    case ShapeOf::velocity: return "force_at_v";
-    case ShapeOf::damping_at_t: return "damping_at_t";
-    case ShapeOf::stiffness_at_t: return "stiffness_at_t";
-    case ShapeOf::time: return "force_at_t";
-  }
-  return "";
-}
-
 Json force_curves_json(const std::vector<ForceCurve>& curves) {
   Json list = Json::array();
   for (const ForceCurve& curve : curves)
-    list.push_back({{"of", name_of(curve.of)},
+    list.push_back({{"of", std::string(quantity_of(curve.of)) + "_at_" + std::string(variable_of(curve.of))},
                     {"argument", curve.argument},
                     {"value", curve.value},
                     {"error", curve.error},

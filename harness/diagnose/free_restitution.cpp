@@ -41,8 +41,11 @@ Setup setup_at(Setup setup, const Refit& fit, std::span<const EffectRecord* cons
   return setup;
 }
 
-bool foretells_better(const LadderStep& without, const LadderStep& with) {
-  return !(with.held_out_error_box > without.held_out_error_box);  // NaN of one length only
+/// What the model without it leaves, also of box lengths that it was not fitted to.
+bool is_worth_offering(const FreeRestitution& law) {
+  const LadderStep &without = law.without, &with = law.with;
+  const bool foretells = !(with.held_out_error_box > without.held_out_error_box);  // NaN of one length only
+  return foretells && explains(with.p_value, with.scatter, without.scatter, with.error_box, with.floor_box);
 }
 
 std::string mm(double metres) { return fmt::format("{:.2f} mm", 1e3 * metres); }
@@ -57,17 +60,12 @@ FreeRestitution free_restitution_beside(const DiagnosisState& failing, Diagnosis
     return tools.fit(state, stage, together(state.knobs(), of_curve), effort::attempt, &failing.fit);
   };
   Refit fit = fitted(curve);
-  if (const std::vector<Knob> held = monotone(curve, fit.values, known);
-      std::any_of(held.begin(), held.end(), [](const Knob& knob) { return knob.low == 0 || knob.high == 0; }))
-    fit = fitted(held);
+  if (const std::optional<std::vector<Knob>> held = held_to_one_side(curve, fit.values, known))
+    fit = fitted(*held);
   Setup setup = setup_at(state.setup, fit, known);
   RestitutionCurve told = restitution_curve(setup, fit.values, fit.covariance, known);
-  FreeRestitution law{std::move(told), std::move(setup),
-                      step_of("without a curve of restitution", failing.fit),
-                      step_of("with a curve of restitution", fit), false};
-  law.explains = explains(fit.p_value, fit.scatter, failing.fit.scatter, fit.error_box(), fit.floor_box()) &&
-                 foretells_better(law.without, law.with);
-  return law;
+  return {std::move(told), std::move(setup), step_of("without a curve of restitution", failing.fit),
+          step_of("with a curve of restitution", fit)};
 }
 
 void offer_free_restitution(const Setup& user, const DiagnosisState& failing, DiagnosisTools& tools,
@@ -77,7 +75,7 @@ void offer_free_restitution(const Setup& user, const DiagnosisState& failing, Di
   if (tools.workshop().engine->can_model(*record).fidelity == Fidelity::not_modelled) return;
   try {
     FreeRestitution law = free_restitution_beside(failing, tools);
-    if (law.explains) {
+    if (is_worth_offering(law)) {
       law.setup.hard = user.hard;  // a diagnosis simulates less exactly than it may
       d.free_restitution = std::move(law);
       return;
@@ -87,6 +85,8 @@ void offer_free_restitution(const Setup& user, const DiagnosisState& failing, Di
                       mm(law.with.floor_box) + "): no law of restitution alone is what is missing");
   } catch (const BudgetSpent&) {
     d.not_tried.push_back(stage);
+  } catch (const InputError& error) {  // a box that is not let go has no range of speeds
+    d.notes.push_back(std::string(stage) + " could not be asked for: " + error.what());
   } catch (const PhysicsError& error) {
     d.notes.push_back(std::string(stage) + " could not be simulated: " + error.what());
   }

@@ -8,7 +8,7 @@ namespace shakedown {
 
 /// Fits a curve of restitution (likelihood/restitution_curve.hpp) in place of the model's own law, everything
 /// else free as before; a curve that turns is held to one side and fitted again. Throws BudgetSpent,
-/// PhysicsError.
+/// PhysicsError, InputError where the setup has no range of speeds.
 FreeRestitution free_restitution_beside(const DiagnosisState& failing, DiagnosisTools& tools);
 
 /// Offers such a curve, in the user's setup, where it explains what `failing` leaves and foretells the box

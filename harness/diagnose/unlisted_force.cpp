@@ -46,22 +46,36 @@ UnlistedForce sum_of(const std::vector<ForceFormula>& formulas) {
   return sum;
 }
 
+std::string_view variable_of(ShapeOf shape) {
+  switch (shape) {
+    case ShapeOf::position:
+    case ShapeOf::damping_at_x: return "x";
+    case ShapeOf::velocity: return "v";
+    case ShapeOf::damping_at_t:
+    case ShapeOf::stiffness_at_t:
+    case ShapeOf::time: break;
+  }
+  return "t";
+}
+
+std::string_view quantity_of(ShapeOf shape) {
+  switch (shape) {
+    case ShapeOf::damping_at_x:
+    case ShapeOf::damping_at_t: return "damping";
+    case ShapeOf::stiffness_at_t: return "stiffness";
+    case ShapeOf::position:
+    case ShapeOf::velocity:
+    case ShapeOf::time: break;
+  }
+  return "force";
+}
+
 std::string points_of_force(const std::vector<ForceCurve>& curves) {
   if (curves.empty()) return "";
-  const auto header_of = [](ShapeOf of) -> std::string {
-    switch (of) {
-      case ShapeOf::position: return "x,force";
-      case ShapeOf::damping_at_x: return "x,damping";
-      case ShapeOf::velocity: return "v,force";
-      case ShapeOf::damping_at_t: return "t,damping";
-      case ShapeOf::stiffness_at_t: return "t,stiffness";
-      case ShapeOf::time: break;
-    }
-    return "t,force";
-  };
   const ForceCurve& most = *std::max_element(
       curves.begin(), curves.end(), [](const ForceCurve& a, const ForceCurve& b) { return a.gain < b.gain; });
-  std::string table = header_of(most.of) + ",error\n";
+  std::string table =
+      std::string(variable_of(most.of)) + "," + std::string(quantity_of(most.of)) + ",error\n";
   for (std::size_t i = 0; i < most.argument.size(); ++i)
     table += write_number(most.argument[i]) + "," + write_number(most.value[i]) + "," +
              write_number(most.error[i]) + "\n";

@@ -2,6 +2,7 @@
 // A force that no effect of the library describes, as the effect user_force: ready to add.
 #pragma once
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,11 @@ struct UnlistedForce {
 
 /// The sum of all formulas; constants of the second and later ones are numbered (c, c2).
 UnlistedForce sum_of(const std::vector<ForceFormula>& formulas);
+
+/// "x", "v" or "t": what such a force depends on.
+std::string_view variable_of(ShapeOf shape);
+/// "force"; "damping" of a force -v c, "stiffness" of one -x k.
+std::string_view quantity_of(ShapeOf shape);
 
 /// The points of the curve that explains most, as a CSV table that user_force takes: header x,force,error (or
 /// x,damping of a force -v c(x), t,stiffness of -x k(t) and so on), SI, error the standard error. Empty

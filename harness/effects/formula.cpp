@@ -13,6 +13,7 @@
 #include "expect.hpp"
 #include "interpolation.hpp"
 #include "suggestion.hpp"
+#include "text.hpp"
 
 namespace shakedown {
 
@@ -96,19 +97,13 @@ bool is_name(const std::string& name) {
          std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
 }
 
-std::string listed_with_commas(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += name + ", ";
-  return list;
-}
-
 FormulaProblem problem_of(const mu::ParserError& error, const std::string& text,
                           const std::map<std::string, double>& constants,
                           const std::vector<std::string>& variables) {
   const std::size_t position = std::min(static_cast<std::size_t>(error.GetPos()), text.size()) + 1;
   if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN)
-    return {"'" + error.GetToken() + "' is neither " + listed_with_commas(variables) +
-                "a constant nor a function" + suggestion_for(error.GetToken(), constants, variables),
+    return {"'" + error.GetToken() + "' is neither " + joined(variables) + ", a constant nor a function" +
+                suggestion_for(error.GetToken(), constants, variables),
             position};
   std::string message = error.GetMsg();
   while (!message.empty() && message.back() == '.') message.pop_back();

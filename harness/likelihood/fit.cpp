@@ -233,16 +233,19 @@ Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance) {
   return correlation;
 }
 
-RestitutionCurve curve_of(const Fit& fit, std::span<const EffectRecord* const> known) {
-  const auto count = static_cast<Eigen::Index>(fit.parameters.size());
+std::vector<FittedValue> values_of(const Fit& fit) {
   std::vector<FittedValue> values;
-  Eigen::VectorXd error(count);
-  for (const FittedParameter& p : fit.parameters) {
-    error[static_cast<Eigen::Index>(values.size())] = p.error;
+  for (const FittedParameter& p : fit.parameters)
     values.push_back({p.key, p.value, p.low, p.high, p.error, false});
-  }
-  return restitution_curve(fit.fitted, values, error.asDiagonal() * fit.correlation * error.asDiagonal(),
-                           known);
+  return values;
+}
+
+RestitutionCurve curve_of(const Fit& fit, std::span<const EffectRecord* const> known) {
+  Eigen::VectorXd error(std::ssize(fit.parameters));
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k)
+    error[static_cast<Eigen::Index>(k)] = fit.parameters[k].error;
+  return restitution_curve(fit.fitted, values_of(fit),
+                           error.asDiagonal() * fit.correlation * error.asDiagonal(), known);
 }
 
 Fit fit_parameters(const Setup& setup, const Measurement& measurement, std::vector<Knob> knobs,

@@ -65,6 +65,9 @@ std::vector<FittedParameter> parameters_of(const Refit& fit, const std::vector<K
 
 Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance);
 
+/// The parameters as a fit by ensembles has them.
+std::vector<FittedValue> values_of(const Fit& fit);
+
 /// Restitution against closing speed with its band, by the parameters of the fit.
 RestitutionCurve curve_of(const Fit& fit, std::span<const EffectRecord* const> known);
 

@@ -117,7 +117,7 @@ Eigen::VectorXd between_points(const Setup& fitted, const std::vector<double>& s
 
 std::string words_of(const RestitutionBand& band, const std::vector<double>& speed, const char* of) {
   const double first = band.restitution.front(), last = band.restitution.back();
-  constexpr double level = 5e-3;
+  constexpr double level = 5e-3;  // the last digit that is told
   const auto at = [](double v) { return write_quantity(std::round(v * 1e3) / 1e3, "m/s"); };
   if (std::abs(first - last) < level) return fmt::format("stays at {:.2f} ({})", last, of);
   return fmt::format("{} from {:.2f} at {} to {:.2f} at {} ({})", first > last ? "falls" : "rises", first,
@@ -176,6 +176,8 @@ std::string curve_as_toml(const Setup& setup) {
 }
 
 std::vector<Knob> knobs_of_curve(const Setup& setup, Known known) {
+  // The bounds keep the regression where it holds: beyond what is believed by three times its error, less one
+  // way so that not every height below the reference begins above 1.
   constexpr double believed = 0.15, steepest_fall = 0.5, steepest_rise = -0.4;
   const std::string constants = key_of(formula_or_refuse(known), ParameterKind::constants) + ".";
   std::vector<Knob> knobs;
@@ -187,12 +189,13 @@ std::vector<Knob> knobs_of_curve(const Setup& setup, Known known) {
   return knobs;
 }
 
-std::vector<Knob> monotone(std::vector<Knob> knobs, const std::vector<FittedValue>& fitted, Known known) {
+std::optional<std::vector<Knob>> held_to_one_side(std::vector<Knob> knobs,
+                                                  const std::vector<FittedValue>& fitted, Known known) {
   const std::string constants = key_of(formula_or_refuse(known), ParameterKind::constants) + ".";
   double falls = 0, rises = 0;
   for (const FittedValue& value : fitted)
     if (value.key.starts_with(constants)) (value.value > 0 ? falls : rises) += std::abs(value.value);
-  if (falls == 0 || rises == 0) return knobs;
+  if (falls == 0 || rises == 0) return {};
   for (Knob& knob : knobs) {
     if (!knob.key.starts_with(constants)) continue;
     for (const FittedValue& value : fitted)
@@ -209,7 +212,7 @@ double RestitutionBand::high(std::size_t i) const { return std::min(1.0, restitu
 RestitutionCurve restitution_curve(const Setup& fitted, const std::vector<FittedValue>& values,
                                    const Eigen::MatrixXd& covariance, Known known) {
   EXPECT(covariance.rows() == std::ssize(values) && covariance.cols() == std::ssize(values));
-  constexpr int drawn = 60;
+  constexpr int drawn = 60;  // for the eye
   RestitutionCurve curve;
   const std::vector<double> ends = speeds_of_curve(fitted);
   for (int i = 0; i < drawn; ++i)

@@ -3,6 +3,7 @@
 // whose heights are fitted like any other parameter.
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,10 +40,11 @@ std::string curve_as_toml(const Setup& setup);
 /// one of restitution 0.75 by 0.06.
 std::vector<Knob> knobs_of_curve(const Setup& setup, std::span<const EffectRecord* const> known);
 
-/// The knobs held to one side where those of a fit fall here and rise there: a law that only falls, or only
-/// rises, whichever they do more. The same knobs where the fit does so already.
-std::vector<Knob> monotone(std::vector<Knob> knobs, const std::vector<FittedValue>& fitted,
-                           std::span<const EffectRecord* const> known);
+/// Where the curve of a fit falls here and rises there: the knobs held to one side, for a law that only
+/// falls, or only rises, whichever this one does more. Nothing where it does so already.
+std::optional<std::vector<Knob>> held_to_one_side(std::vector<Knob> knobs,
+                                                  const std::vector<FittedValue>& fitted,
+                                                  std::span<const EffectRecord* const> known);
 
 /// Restitutions of one kind of contact with their standard error, at each speed.
 struct RestitutionBand {
@@ -62,7 +64,7 @@ RestitutionCurve restitution_curve(const Setup& fitted, const std::vector<Fitted
                                    const Eigen::MatrixXd& covariance,
                                    std::span<const EffectRecord* const> known);
 
-/// "falls from 0.91 at 27 mm/s to 0.62 at 1.04 m/s (grains), from ... (walls)".
+/// "falls from 0.91 at 0.027 m/s to 0.62 at 1.039 m/s (grains), falls from ... (walls)".
 std::string words_of(const RestitutionCurve& curve);
 
 /// As JSON: closing_speed_m_per_s, and of grains and walls restitution, low and high of the 95 % interval at
