@@ -10,8 +10,9 @@ struct ElasticLimits {
   double wall_fraction = 0.02;  ///< of the box's current top speed, end walls
   double pair_speed = 1e-3;     ///< m/s
   double wall_speed = 0;        ///< m/s, end and side walls
+  double free_path = 0;  ///< m; impacts after less of it within `HeldBonds::quick` are elastic at any speed
   double pull =
-      -1;  ///< m/s^2, acceleration that presses layers on walls and sets the last two; negative: none does
+      -1;  ///< m/s^2, acceleration that presses layers on walls and sets the last; negative: none does
 };
 
 /// The limits of a setup at release.

@@ -2,6 +2,8 @@
 // What happens when grains touch each other or a wall: restitution along the normal, friction across, rolling
 // resistance.
 #pragma once
+#include <utility>
+
 #include "elastic_limits.hpp"
 #include "rolling_impact.hpp"
 #include "wells.hpp"
@@ -43,7 +45,15 @@ class Impacts {
 
  private:
   double restitution(ContactClass contact, double closing, double elastic_below, std::int64_t& rescues) const;
-  bool rubs(double closing, double elastic_below, int i, int j = -1);
+  /// s since grain i (or j) last touched anything, before this touch, which counts from now on.
+  double since_touch(int i, int j = -1);
+  /// Below which closing speed an impact is elastic so long after the grains touched anything, s, where
+  /// `limit` holds at any time.
+  double elastic_below(double limit, double since) const {
+    const bool is_rest = since < HeldBonds::quick && limits_.free_path > limit * since;
+    return is_rest ? limits_.free_path / since : limit;
+  }
+  static bool rubs(double closing, double elastic_below, double since);
   /// Whether contacts of this kind rub or resist rolling.
   bool touches_roughly(std::size_t kind) const {
     return law_.friction[kind] > 0 || (law_.rolling_resistance[kind] > 0 && !spin_.empty());
@@ -70,7 +80,7 @@ class Impacts {
   ElasticLimits limits_, limits_at_release_;
   double speed_at_release_ = 0;  // box's top speed then, m/s
   std::vector<Vec3> spin_;       // empty without friction
-  std::vector<double> touched_;  // latest impact of each grain, s; likewise
+  std::vector<double> touched_;  // latest impact of each grain, s; empty where nothing asks for it
   std::int64_t elastic_walls_ = 0, elastic_pairs_ = 0;
   double virial_ = 0;
 };
@@ -80,9 +90,9 @@ void Impacts<Scene>::start(const State& state, const Physics& physics, const Set
   law_ = physics.contact;
   limits_ = limits_at_release_ = elastic_limits(setup, physics);
   speed_at_release_ = scene_.box.top_speed();
-  if (!law_.has_friction()) return;
-  spin_ = state.spin.empty() ? std::vector<Vec3>(state.size(), Vec3::Zero()) : state.spin;
-  touched_.assign(state.size(), -1.0);
+  if (law_.has_friction() || limits_.pull >= 0) touched_.assign(state.size(), -1.0);
+  if (law_.has_friction())
+    spin_ = state.spin.empty() ? std::vector<Vec3>(state.size(), Vec3::Zero()) : state.spin;
 }
 
 template <class Scene>
@@ -103,16 +113,18 @@ double Impacts<Scene>::restitution(ContactClass contact, double closing, double 
 /// apart: one run in 4000 made 22 million impacts of it. 1 us to 10 us without friction forbid that and give
 /// the same peaks within 0.1 mm.
 template <class Scene>
-bool Impacts<Scene>::rubs(double closing, double elastic_below, int i, int j) {
+bool Impacts<Scene>::rubs(double closing, double elastic_below, double since) {
   constexpr double slow = 0.1, at_once = 1e-5;  // of the limit; s
+  return closing >= elastic_below || (closing >= slow * elastic_below && since > at_once);
+}
+
+template <class Scene>
+double Impacts<Scene>::since_touch(int i, int j) {
+  if (touched_.empty()) return HeldBonds::quick;
   double& touched = touched_[static_cast<std::size_t>(i)];
-  double before = touched;
-  touched = scene_.now;
-  if (j >= 0) {
-    before = std::max(before, touched_[static_cast<std::size_t>(j)]);
-    touched_[static_cast<std::size_t>(j)] = scene_.now;
-  }
-  return closing >= elastic_below || (closing >= slow * elastic_below && scene_.now - before > at_once);
+  double before = std::exchange(touched, scene_.now);
+  if (j >= 0) before = std::max(before, std::exchange(touched_[static_cast<std::size_t>(j)], scene_.now));
+  return scene_.now - before;
 }
 
 /// Friction between two grains; returns what it takes, J.
@@ -163,13 +175,14 @@ void Impacts<Scene>::pair(int i, int j) {
   MeetingPair pair = partings_.pair_now(i, j);
   const double closing = -pair.opening;
   if (closing <= 0) return partings_.refuse(i, pair.a, nullptr);
-  const double limit = wells_.elastic_below(limits_.pair_speed, i, j),
+  const double since = since_touch(i, j),
+               limit = wells_.elastic_below(elastic_below(limits_.pair_speed, since), i, j),
                e = restitution(ContactClass::grain_grain, closing, limit, elastic_pairs_);
   const double ma = scene_.grains.mass(i), mb = scene_.grains.mass(j), reduced = ma * mb / (ma + mb);
   const double impulse = reduced * (1 + e) * closing;
   double loss = reduced / 2 * (1 - e * e) * closing * closing;
   if constexpr (Scene::driven) {
-    if (touches_roughly(0) && rubs(closing, limit, i, j))
+    if (touches_roughly(0) && rubs(closing, limit, since))
       loss += rub_pair(i, j, pair, {reduced, closing, e, impulse});
     if (wells_.act()) wells_.note_touch(HeldBonds::of_pair(i, j), reduced * e * closing, i, j);
   }
@@ -231,8 +244,9 @@ void Impacts<Scene>::end_wall(int i, int side) {
   const double closing = side * (flight.v[0] - wall);
   if (closing <= 0) return partings_.refuse(i, flight, &walls_.across(0));
   if constexpr (driven) press_by_the_swing();
-  const double limit =
-      wells_.elastic_below(std::max(limits_.wall_fraction * scene_.box.top_speed(), limits_.wall_speed), i);
+  const double since = since_touch(i);
+  const double slow = std::max(limits_.wall_fraction * scene_.box.top_speed(), limits_.wall_speed),
+               limit = wells_.elastic_below(elastic_below(slow, since), i);
   const double top = driven ? walls_.now(0).top_acceleration : scene_.box.top_acceleration();
   const double e =
       resolved(restitution(ContactClass::end_wall, closing, limit, elastic_walls_), closing, top);
@@ -242,7 +256,7 @@ void Impacts<Scene>::end_wall(int i, int side) {
   double loss = reduced / 2 * (1 - e * e) * closing * closing;
   if constexpr (driven) {
     Vec3 on_grain(-side * impulse, 0, 0);
-    if (touches_roughly(1) && rubs(closing, limit, i)) {
+    if (touches_roughly(1) && rubs(closing, limit, since)) {
       const Vec3 normal(side, 0, 0), moving = walls_.velocity();
       Vec3 slip = vec(flight.v) + surface_velocity(i, normal);
       slip -= Vec3(0, moving.y(), moving.z());
@@ -291,13 +305,14 @@ void Impacts<Scene>::moving_side_wall(int i, int axis, int side) {
   const Vec3 wall = walls_.velocity();
   const double closing = side * (flight.v[static_cast<std::size_t>(axis)] - wall[axis]);
   if (closing <= 0) return partings_.refuse(i, flight, walls_.has_sides() ? &walls_.across(axis) : nullptr);
-  const double limit = wells_.elastic_below(limits_.wall_speed, i),
+  const double since = since_touch(i),
+               limit = wells_.elastic_below(elastic_below(limits_.wall_speed, since), i),
                e = resolved(restitution(ContactClass::side_wall, closing, limit, elastic_walls_), closing,
                             walls_.now(axis).top_acceleration);
   const double m = scene_.grains.mass(i), impulse = m * (1 + e) * closing;
   double loss = m / 2 * (1 - e * e) * closing * closing, jump = 0;
   Vec3 on_grain = Vec3::Zero();
-  if (touches_roughly(2) && rubs(closing, limit, i)) {
+  if (touches_roughly(2) && rubs(closing, limit, since)) {
     Vec3 normal = Vec3::Zero();
     normal[axis] = side;
     Vec3 slip = vec(flight.v) - wall + surface_velocity(i, normal);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <set>
 
+#include "steady_pull.hpp"
+
 namespace shakedown {
 
 namespace {
@@ -151,6 +153,8 @@ std::string readable_summary(const Ensemble& ensemble, const Setup& setup) {
   else if (ensemble.interrupted)
     text += fmt::format("  interrupted: {} of {} runs finished\n", finished, ensemble.requested);
   if (finished == 0) return text;
+  if (const std::string pull = words_of_pull(steady_pull(setup)); !pull.empty())
+    text += line("shaking over the steady pull", pull);
   if (setup.domain == Domain::damper) text += motion_lines(ensemble, setup) + forced_lines(ensemble);
   text += energy_lines(ensemble, setup) + health_lines(ensemble);
   double collisions = 0, seconds = 0;

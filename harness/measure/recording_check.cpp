@@ -13,11 +13,11 @@
 #include "grain_column.hpp"
 #include "grain_file.hpp"
 #include "layer_check.hpp"
-#include "physics.hpp"
 #include "quantity.hpp"
 #include "rough_motion.hpp"
 #include "setup_keys.hpp"
 #include "steady_forcing.hpp"
+#include "steady_pull.hpp"
 
 namespace shakedown {
 
@@ -53,22 +53,13 @@ std::string factor_text(double factor) {
   return text;
 }
 
-/// Where the setup's steady forces hold the box, m: gravity along the motion pulls grains and box.
-double rest_of(const Setup& setup) {
-  const Physics physics = physics_of(setup);
-  if (!(physics.stiffness > 0)) return 0;
-  const double of_grains =
-      static_cast<double>(setup.grains.count) * setup.grains.mass * physics.grains.constant.sum().x();
-  return (physics.box.constant.sum() + of_grains) / physics.stiffness;
-}
-
 class RunCheck {
  public:
   /// Wrong frames say nothing of units, origins and columns: they are left out beforehand.
   RunCheck(const MeasuredRun& run, const Setup& setup, std::vector<Finding>& findings)
       : run_(run),
         setup_(setup),
-        rests_at_(rest_of(setup)),
+        rests_at_(steady_pull(setup).rest),
         findings_(findings),
         audit_(audit_run(run)),
         motion_(rough_motion(run.time, audit_.x_box)) {}
@@ -364,7 +355,9 @@ std::vector<std::string> notes_before_modelling(const Experiment& experiment,
   RecordingCheck check = check_recordings(experiment, setups);
   if (!check.impossible.empty()) throw InputError(std::move(check.impossible));
   for (const Setup& setup : setups)
-    if (const std::string note = note_on_measured_grains(setup); !note.empty()) check.notes.push_back(note);
+    for (const std::string& note : {note_on_measured_grains(setup), note_on_pull(steady_pull(setup))})
+      if (!note.empty() && std::find(check.notes.begin(), check.notes.end(), note) == check.notes.end())
+        check.notes.push_back(note);
   check.notes.insert(check.notes.begin(), experiment.notes.begin(), experiment.notes.end());
   return check.notes;
 }

@@ -159,9 +159,9 @@ SteadyState steady_state(const Setup& setup, const Trajectory& trajectory) {
   // x = A sin(wt + phi - lag) has the Fourier component A exp(-i lag)/i.
   const Complex box = fundamental(trajectory.x_box) * Complex(0, 1);
   state.phase_lag = -std::arg(box);
-  // In the laboratory, all masses accelerate by what the forcing adds.
+  // What the forcing gives to a mass by itself is not a force of box or grains upon each other.
   const auto acceleration = [&](const Complex& place) {
-    return -omega * omega * place + forcing->acceleration;
+    return -omega * omega * place - forcing->acceleration;
   };
   state.effective_mass = std::numeric_limits<double>::quiet_NaN();
   if (grains > 0)

@@ -78,12 +78,10 @@ const std::vector<SetupKey>& table() {
        "End-wall impacts slower than this times the box's current top speed are elastic."},
       {"hard.pair_elastic_speed", &field<&S::hard, &S::Hard::pair_elastic_speed>, "m/s", 0, fastest, false,
        "Impacts between grains slower than this are elastic; 10 mm/s at least where something presses layers "
-       "on "
-       "walls or impacts give little back."},
+       "on walls or impacts give little back."},
       {"hard.wall_elastic_speed", &field<&S::hard, &S::Hard::wall_elastic_speed>, "m/s", 0, fastest, false,
        "End- and side-wall impacts slower than this are elastic; 1 mm/s at least where something presses "
-       "layers on walls, grains are unequal or impacts give little back, more the harder layers are "
-       "pressed."},
+       "layers on walls, grains are unequal or impacts give little back."},
       {"hard.kick_interval", &field<&S::hard, &S::Hard::kick_interval>, "ms", 0, 0.1, true,
        "Drag and formulas act on grains in impulses so far apart; the error is of second order in it, and "
        "beyond a part of a swing they would come too late."},

@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"hard_driven", "hard",
              "duration = \"1 s\"\n[[effect]]\nname = \"spring_cubic\"\ncoefficient = 0.1\n[[effect]]\nname = "
              "\"oscillating_acceleration\"\namplitude = {x = \"0.1 m/s^2\"}\n",
-             0x6ec47465597d78f4u},
+             0x031f5f78ecc99912u},
         Case{"hard_sticky", "hard",
              "duration = \"1 s\"\n[[effect]]\nname = \"grain_cohesion\"\nforce = \"0.02 N\"\nrange = \"0.02 "
              "mm\"\n[[effect]]\nname = \"clamp_dry_friction\"\nforce = \"0.02 N\"\n",

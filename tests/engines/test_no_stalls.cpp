@@ -46,7 +46,8 @@ std::vector<Strong> strong_settings() {
           {"formula", "user_force", {{"force", std::string("-0.4*v*exp(-((x-0.045)/0.012)^2)")}}},
           {"clamp", "clamp_dry_friction", {{"force", 0.1}}},
           {"gravity_along", "constant_acceleration", {{"acceleration", Vec3(-twentieth_of_g, 0, 0)}}},
-          {"gravity_across", "constant_acceleration", {{"acceleration", Vec3(0, 0, -twentieth_of_g)}}}};
+          {"gravity_across", "constant_acceleration", {{"acceleration", Vec3(0, 0, -twentieth_of_g)}}},
+          {"tenth_of_gravity_along", "constant_acceleration", {{"acceleration", Vec3(-1, 0, 0)}}}};
 }
 
 class SlowStalls : public testing::TestWithParam<Strong> {
@@ -79,13 +80,15 @@ TEST_P(SlowStalls, NoneOf32Seeds) {
     most_events = std::max(most_events, result.events);
     most_impacts = std::max(most_impacts, result.collisions[0] + result.collisions[1] + result.collisions[2]);
     EXPECT_DOUBLE_EQ(result.end_time, 22);
-    EXPECT_LE(result.health.ledger_error, exact() ? 1e-12 : 1e-10);
+    // most seen: 1.1e-12, under a tenth of gravity, whose frame is 242 m away at the end
+    EXPECT_LE(result.health.ledger_error, exact() ? 3e-12 : 1e-10);
     EXPECT_LE(result.health.momentum_error, exact() ? 1e-12 : 1e-10);
     EXPECT_LE(result.health.deepest_overlap, 1e-12);
   }
   std::printf("%s: at most %.3g impacts, %.3g events, %.2f CPU s a run\n", GetParam().name.c_str(),
               static_cast<double>(most_impacts), static_cast<double>(most_events), worst_time);
-  // most seen: 1.16 million, grains glued by 200 mN; a stall makes as many in a second and does not end
+  // most seen: 2.0 million, a tenth of gravity along; a stall makes as many in a second and does not
+  // end
   EXPECT_LE(most_impacts, 6'000'000);
   EXPECT_LE(worst_time, 10);
 }
