@@ -61,6 +61,7 @@ std::string readable(const std::vector<DecayComparison>& decays) {
     for (const MeasuredNumber& peak : run.peaks) text += " " + beside(peak, 1e3, 1);
     text += "\n";
     if (run.forced) text += "      forced: " + told(*run.forced) + "\n";
+    if (!run.landings.empty()) text += "      " + told(run.landings) + "\n";
   }
   return text;
 }
@@ -113,6 +114,16 @@ nlohmann::ordered_json json_of(const MeasuredNumber& number, double scale) {
           {"spread", number.spread * scale}};
 }
 
+nlohmann::ordered_json json_of(const std::vector<LandingComparison>& landings) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const LandingComparison& landing : landings) {
+    list.push_back({{"time_s", landing.time}});
+    for (const LandingRow& row : landing_rows())
+      list.back()[row.key] = json_of(landing.*row.number, row.scale);
+  }
+  return list;
+}
+
 nlohmann::ordered_json json_of(const std::vector<DecayComparison>& decays) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const DecayComparison& run : decays) {
@@ -122,9 +133,10 @@ nlohmann::ordered_json json_of(const std::vector<DecayComparison>& decays) {
                     {"frequency_hz", json_of(run.frequency, 1)},
                     {"slope_mm_per_s", json_of(run.slope, 1e3)},
                     {"peaks_mm", peaks}});
-    if (!run.forced) continue;
-    for (const ForcedRow& row : rows_of(*run.forced))
-      list.back()["forced"][row.key] = json_of(row.number, row.scale);
+    if (run.forced)
+      for (const ForcedRow& row : rows_of(*run.forced))
+        list.back()["forced"][row.key] = json_of(row.number, row.scale);
+    list.back()["landings"] = json_of(run.landings);
   }
   return list;
 }
@@ -256,7 +268,8 @@ ReportKnobs knobs_of_comparison(const LastFit& last, const Setup& setup, const E
 
 Report report_of(const Compared& compared, const Setup& setup, const Engine& engine, int threads,
                  const std::atomic<bool>* stop) {
-  return report_of({compared.fit, compared.momentum, compared.judgement}, compared.measurement, setup,
+  return report_of({compared.fit, compared.momentum, compared.judgement, compared.decays},
+                   compared.measurement, setup,
                    drawn_curves(compared.measurement, nullptr, setup, engine, threads, stop),
                    knobs_of_comparison(compared.last, setup, engine, threads, stop));
 }

@@ -7,7 +7,9 @@
 #include "experiment_file.hpp"
 #include "frame_motion.hpp"
 #include "in_order.hpp"
+#include "landings.hpp"
 #include "observables.hpp"
+#include "random.hpp"
 
 namespace shakedown {
 
@@ -18,6 +20,7 @@ struct Numbers {
   std::vector<double> peaks;
   std::string why_not;
   std::optional<SteadyState> steady{};
+  std::vector<Landing> landings{};
 };
 
 /// Frames of one run that take part: right ones, from its start to the end of what still moves.
@@ -82,6 +85,26 @@ std::optional<SteadyState> steady_by_frames(const Setup& setup, const std::vecto
   return steady_state_if_any(seen, even);
 }
 
+/// Of a run that is not forced.
+std::vector<Landing> landings_of(const UsedFrames& frames, const Setup& setup) {
+  constexpr std::size_t most = 12;  // later ones are slow, and chaos has parted the runs
+  if (frames.centre.empty() || is_shaken(setup)) return {};
+  std::vector<Landing> found =
+      landings(frames.time, frames.x, frames.centre,
+               {setup.box.length, static_cast<double>(setup.grains.count) * setup.grains.mass,
+                1 / setup.spring.frequency});
+  if (found.size() > most) found.resize(most);
+  return found;
+}
+
+/// What is told of single landings has the camera's noise in it, of simulations as of the film.
+UsedFrames with_noise(UsedFrames frames, const RunAudit& audit, std::uint64_t seed, int run) {
+  Random random(seed, static_cast<std::uint64_t>(run), Stream::camera);
+  for (double& x : frames.x) x += audit.box.standard_deviation * random.normal();
+  for (double& x : frames.centre) x += audit.com.standard_deviation * random.normal();
+  return frames;
+}
+
 Numbers numbers_of(const UsedFrames& frames, const Setup& setup, int most_peaks) {
   const FrameMotion motion =
       frame_motion(frames.time, frames.x, frames.middle, 4 * shortest_half_period(setup));
@@ -105,11 +128,41 @@ MeasuredNumber beside(double measured, const std::vector<double>& simulated) {
   return {measured, mean, std::sqrt(std::max(0.0, (squares / count - mean * mean) * count / (count - 1)))};
 }
 
+/// Each measured landing beside those of the simulations that come within a quarter of a period of it.
+std::vector<LandingComparison> compare_landings(const std::vector<Landing>& measured,
+                                                const std::vector<Numbers>& simulated, double period) {
+  std::vector<LandingComparison> list;
+  for (const Landing& one : measured) {
+    std::vector<Landing> same;
+    for (const Numbers& run : simulated)
+      for (const Landing& other : run.landings)
+        if (std::abs(other.time - one.time) < period / 4) same.push_back(other);
+    const auto of = [&](double Landing::*member) {
+      std::vector<double> values;
+      for (const Landing& other : same) values.push_back(other.*member);
+      return beside(one.*member, values);
+    };
+    if (std::isfinite(one.time))
+      list.push_back({one.time, of(&Landing::speed), of(&Landing::momentum), of(&Landing::rebound),
+                      of(&Landing::lasting), of(&Landing::thickness)});
+  }
+  return list;
+}
+
 template <class Pick>
 MeasuredNumber number(const Numbers& measured, const std::vector<Numbers>& simulated, const Pick& pick) {
   std::vector<double> values;
   for (const Numbers& one : simulated) values.push_back(pick(one));
   return beside(pick(measured), values);
+}
+
+/// "lag 0.31 (0.30 +- 0.01) rad": measured (model +- spread).
+template <class Row>
+std::string told(const Row& row, const MeasuredNumber& number) {
+  char numbers[128];
+  std::snprintf(numbers, sizeof numbers, " %.*f (%.*f +- %.*f)", row.digits, number.measured * row.scale,
+                row.digits, number.model * row.scale, row.digits, number.spread * row.scale);
+  return std::string(row.label) + numbers + (*row.unit ? " " : "") + row.unit;
 }
 
 }  // namespace
@@ -126,14 +179,39 @@ std::vector<ForcedRow> rows_of(const ForcedComparison& forced) {
 
 std::string told(const ForcedComparison& forced) {
   std::string text;
-  for (const ForcedRow& row : rows_of(forced)) {
-    char numbers[128];
-    std::snprintf(numbers, sizeof numbers, " %.*f (%.*f +- %.*f)", row.digits,
-                  row.number.measured * row.scale, row.digits, row.number.model * row.scale, row.digits,
-                  row.number.spread * row.scale);
-    text += (text.empty() ? "" : ", ") + std::string(row.label) + numbers + (*row.unit ? " " : "") + row.unit;
-  }
+  for (const ForcedRow& row : rows_of(forced)) text += (text.empty() ? "" : ", ") + told(row, row.number);
   return text;
+}
+
+std::span<const LandingRow> landing_rows() {
+  static constexpr LandingRow rows[] = {
+      {"speed_m_per_s", "speed at landing", "at", "m/s", 1, 3, &LandingComparison::speed},
+      {"momentum_mn_s", "momentum given to the wall", "given to the wall", "mN s", 1e3, 1,
+       &LandingComparison::momentum},
+      {"rebound", "rebound of the layer", "rebound", "", 1, 3, &LandingComparison::rebound},
+      {"lasting_ms", "duration of the landing", "lasting", "ms", 1e3, 1, &LandingComparison::lasting},
+      {"thickness_mm", "thickness of the layer", "layer", "mm", 1e3, 2, &LandingComparison::thickness}};
+  return rows;
+}
+
+MeasuredNumber mean_of(const std::vector<LandingComparison>& landings, const LandingRow& row) {
+  double measured = 0, model = 0, squares = 0, count = 0;
+  for (const LandingComparison& landing : landings) {
+    const MeasuredNumber& number = landing.*row.number;
+    if (!std::isfinite(number.measured) || !std::isfinite(number.model)) continue;
+    measured += number.measured, model += number.model, squares += number.spread * number.spread, ++count;
+  }
+  if (count == 0) return {absent, absent, absent};
+  return {measured / count, model / count, std::sqrt(squares) / count};
+}
+
+std::string told(const std::vector<LandingComparison>& landings) {
+  std::string text;
+  for (const LandingRow& row : landing_rows()) {
+    const MeasuredNumber mean = mean_of(landings, row);
+    if (std::isfinite(mean.measured)) text += (text.empty() ? "" : ", ") + told(row, mean);
+  }
+  return text.empty() ? "" : std::to_string(landings.size()) + " landings, mean: " + text;
 }
 
 std::vector<DecayComparison> compare_decay(const Measurement& measurement, const Workshop& workshop, int runs,
@@ -159,12 +237,15 @@ std::vector<DecayComparison> compare_decay(const Measurement& measurement, const
         UsedFrames as_filmed{frames[r].time, at_times(frames[r].time, seen.time, seen.x_box), {}, 0};
         if (!frames[r].centre.empty()) as_filmed.centre = at_times(frames[r].time, seen.time, seen.x_com);
         Numbers numbers = numbers_of(as_filmed, measurement.runs[r].setup, most_peaks);
+        numbers.landings = landings_of(
+            with_noise(std::move(as_filmed), measurement.runs[r].audit, setup.run.seed, options.run), setup);
         return [&, r, numbers = std::move(numbers)] { simulated[r].push_back(numbers); };
       });
   std::vector<DecayComparison> list;
   for (std::size_t r = 0; r < frames.size(); ++r) {
     const Measurement::Run& run = measurement.runs[r];
-    const Numbers measured = numbers_of(frames[r], run.setup, most_peaks);
+    Numbers measured = numbers_of(frames[r], run.setup, most_peaks);
+    measured.landings = landings_of(frames[r], run.setup);
     DecayComparison one{run.recorded.name,
                         number(measured, simulated[r], [](const Numbers& n) { return n.frequency; }),
                         number(measured, simulated[r], [](const Numbers& n) { return n.slope; }),
@@ -181,6 +262,7 @@ std::vector<DecayComparison> compare_decay(const Measurement& measurement, const
       one.forced = {of_steady(&SteadyState::amplitude), of_steady(&SteadyState::phase_lag),
                     of_steady(&SteadyState::loss_factor), of_steady(&SteadyState::effective_mass)};
     }
+    one.landings = compare_landings(measured.landings, simulated[r], 1 / run.setup.spring.frequency);
     list.push_back(std::move(one));
   }
   return list;

@@ -51,9 +51,49 @@ ReportTable validation_table(const std::vector<Validation>& rows) {
   return table;
 }
 
+namespace {
+
+/// What the layer does at each landing, a run at a time.
+ReportSection landings_section(const std::vector<DecayComparison>& decays) {
+  ReportSection section;
+  section.title = "Landings of the layer";
+  for (const DecayComparison& run : decays)
+    for (const LandingRow& row : landing_rows()) {
+      ReportPlot plot;
+      plot.title = fmt::format("{}: {}", run.run, row.name);
+      plot.x_label = "time, s";
+      plot.y_label = *row.unit ? fmt::format("{}, {}", row.name, row.unit) : row.name;
+      plot.group = run.run;
+      ReportCurve measured{"measured", CurveRole::points, {}}, model{"model", CurveRole::model, {}};
+      std::vector<double> low, high;
+      for (const LandingComparison& landing : run.landings) {
+        const MeasuredNumber& number = landing.*row.number;
+        plot.x.push_back(landing.time);
+        measured.y.push_back(number.measured * row.scale);
+        model.y.push_back(number.model * row.scale);
+        low.push_back((number.model - 2 * number.spread) * row.scale);
+        high.push_back((number.model + 2 * number.spread) * row.scale);
+      }
+      if (plot.x.size() < 2) continue;
+      plot.curves = band("two spreads from run to run", low, high);
+      plot.curves.push_back(std::move(model));
+      plot.curves.push_back(std::move(measured));
+      section.plots.push_back(std::move(plot));
+    }
+  if (!section.plots.empty())
+    section.paragraphs = {
+        "What the grains give to an end wall from one flight to the next, how fast they come, how they "
+        "rebound, how "
+        "long it takes from 90 % to 10 % of the speed and how thick they lie: contacts show here before they "
+        "show in the decay."};
+  return section;
+}
+
+}  // namespace
+
 Report report_of(const ComparedModel& found, const Measurement& measurement, const Setup& setup,
                  const std::vector<MeasuredAgainstModel>& curves, ReportKnobs knobs) {
-  const auto& [fit, momentum, judgement] = found;
+  const auto& [fit, momentum, judgement, decays] = found;
   const bool holds = judgement.holds();
   Report report;
   report.kind = "compare";
@@ -86,6 +126,8 @@ Report report_of(const ComparedModel& found, const Measurement& measurement, con
   }
   report.sections.push_back(errors_section("Error by run", fit.runs));
   report.sections.back().tables.push_back(validation_table(fit.validation()));
+  if (ReportSection landings = landings_section(decays); !landings.plots.empty())
+    report.sections.push_back(std::move(landings));
   report.sections.push_back(momentum_section(momentum));
   if (!curves.empty()) report.sections.push_back(energy_section(curves));
   if (const std::vector<std::string> notes = all_notes(measurement); !notes.empty()) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "decay_comparison.hpp"
 #include "judgement.hpp"
 #include "measured_against_model.hpp"
 #include "momentum.hpp"
@@ -14,6 +15,7 @@ struct ComparedModel {
   const Refit& fit;
   const MomentumAudit& momentum;
   const ModelJudgement& judgement;
+  const std::vector<DecayComparison>& decays;
 };
 
 /// The report of a comparison; the curves must come from measured_against_model() with this setup alone;

@@ -79,3 +79,25 @@ TEST(DecayComparison, NothingIsSaidOfADamperThatIsLeftToItselfOrSeldomFilmed) {
   slow.frame_rate = 15;  // 14 frames a cycle
   EXPECT_FALSE(compared(forced(0), forced(0), slow).at(0).forced);
 }
+
+// Livelier grains make a thicker layer; the right model tells each landing within some spreads.
+TEST(SlowDecayComparison, LandingsTellLooserGrains) {
+  shakedown::Setup truth;
+  truth.box.length = 0.065;
+  truth.run.duration = 6;
+  shakedown::Setup believed = truth;
+  believed.restitution.grain_grain = 0.9;
+  const std::vector<DecayComparison> right = compared(truth, truth), wrong = compared(truth, believed);
+  const std::vector<LandingComparison>& landings = right.at(0).landings;
+  ASSERT_GE(landings.size(), 8u);
+  const auto mean = [](const std::vector<DecayComparison>& runs, std::string_view key) {
+    for (const LandingRow& row : landing_rows())
+      if (row.key == key) return mean_of(runs.at(0).landings, row);
+    return MeasuredNumber{};
+  };
+  const MeasuredNumber thickness = mean(right, "thickness_mm"), momentum = mean(right, "momentum_mn_s");
+  WITHIN(thickness.model / thickness.measured, 1, 0.05, 0.01);
+  WITHIN(momentum.model / momentum.measured, 1, 0.05, 0.01);
+  EXPECT_GT(mean(wrong, "thickness_mm").model, 1.03 * thickness.measured);
+  EXPECT_NE(told(landings).find("given to the wall"), std::string::npos);
+}
