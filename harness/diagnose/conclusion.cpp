@@ -195,7 +195,9 @@ void advise_by_simulation(const DiagnosisState& final, DiagnosisTools& tools, Di
 
 void set_formula(Diagnosis& d) {
   if (d.momentum.formulas.empty()) return;
-  d.force_formula = as_table(sum_of(d.momentum.formulas));
+  UnlistedForce force = sum_of(d.momentum.formulas);
+  if (has_force_on_grains(d.amended)) force = shared_by_grains(force, d.amended.grains.count).value_or(force);
+  d.force_formula = as_table(force);
   for (const std::string& alike : d.momentum.formulas.front().look_alikes)
     d.notes.push_back("the force could as well be " + alike);
 }

@@ -135,7 +135,7 @@ void Course::judge() {
   // Beside a force that is known by its trace alone nothing else can be told for sure.
   DiagnosisState final = refitted;
   if (balance.unlisted)
-    final = beside(refitted);
+    final = with_the_force_on_its_body(beside(refitted));
   else
     final = search(refitted);
   if (refitted.missing.empty() && !balance.unlisted) note_failures(refitted.fit, result_);
@@ -250,6 +250,32 @@ Refit Course::fit_within(double share, const DiagnosisState& state, const std::s
     tools_.without_limit();
     return tools_.fit(state, stage, state.knobs(), effort::least);
   }
+}
+
+/// The balance tells the sum of forces on box and grains; where the model with the box's fails, that with the
+/// grains' may hold.
+DiagnosisState Course::with_the_force_on_its_body(const DiagnosisState& on_box) {
+  if (!is_rejected(on_box.fit) || !allowed(tools_.options(), "user_force")) return on_box;
+  const std::optional<UnlistedForce> shared =
+      shared_by_grains(sum_of(result_.momentum.formulas), on_box.setup.grains.count);
+  if (!shared) return on_box;
+  DiagnosisState on_grains = on_box;
+  on_grains.setup = with_force(on_box.setup, *shared, tools_.known());
+  try {
+    on_grains.fit = tools_.fit(on_grains, "refitting with the force on the grains", on_grains.knobs(),
+                               effort::refit, &on_box.fit);
+  } catch (const BudgetSpent&) {
+    leave_out("the force of the formula on the grains");
+    return on_box;
+  } catch (const PhysicsError& error) {
+    result_.notes.push_back(std::string("with the force on the grains the model cannot be simulated: ") +
+                            error.what());
+    return on_box;
+  }
+  if (on_grains.fit.judged_chi2 > on_box.fit.judged_chi2 - 2 * rules::emulator_noise) return on_box;
+  result_.ladder.push_back(
+      step_of(step_name(on_grains.missing) + " + the force of the formula on the grains", on_grains.fit));
+  return on_grains.settled(tools_.known());
 }
 
 DiagnosisState Course::settled_by_ensembles(const DiagnosisState& before, const DiagnosisState& found) {

@@ -58,6 +58,7 @@ class Course {
   void take_back(const std::string& effect);
   /// The balance weighs impulses alone. Where what it found leaves the whole motion unexplained, the sets
   /// that it could not rule out are tried, and the most probable one with the motion counted in is kept.
+  DiagnosisState with_the_force_on_its_body(const DiagnosisState& on_box);
   DiagnosisState settled_by_ensembles(const DiagnosisState& before, const DiagnosisState& found);
   /// The fit of parameters may have ended at the wrong place of a valley. The state with the better fit; the
   /// ladder follows.

@@ -11,6 +11,7 @@
 #include "known_effects.hpp"
 #include "quantity.hpp"
 #include "rules.hpp"
+#include "unlisted_force.hpp"
 #include "verdict.hpp"
 
 namespace shakedown {
@@ -115,7 +116,8 @@ std::string beside_the_unknown(const Diagnosis& d, std::span<const EffectRecord*
 std::string of_the_unknown(const Diagnosis& d, std::span<const EffectRecord* const> known) {
   const MomentumAudit& balance = d.momentum;
   if (balance.unlisted)
-    return "Something that is not in the library acts on the box" + beside_the_unknown(d, known) +
+    return "Something that is not in the library acts on the " +
+           std::string(has_force_on_grains(d.amended) ? "grains" : "box") + beside_the_unknown(d, known) +
            ": no known force alone brings the momentum balance into order.";
   const bool much = p_value_of_left(d.left) < 1;
   if (much && is_empty(d))

@@ -11,23 +11,32 @@ namespace shakedown {
 
 namespace {
 
+/// Calls use(piece, is_name) for the words of a formula and for what lies between them, in order.
+template <class Use>
+void each_piece(const std::string& formula, const Use& use) {
+  const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (std::size_t i = 0; i < formula.size();) {
+    std::size_t end = i;
+    while (end < formula.size() && in_word(formula[end])) ++end;
+    const bool is_name = end > i;
+    if (!is_name) ++end;
+    use(formula.substr(i, end - i), is_name);
+    i = end;
+  }
+}
+
 /// The formula with this name, where it stands as a whole word, replaced.
 std::string renamed(const std::string& formula, const std::string& name, const std::string& to) {
   std::string out;
-  for (std::size_t i = 0; i < formula.size();) {
-    std::size_t end = i;
-    while (end < formula.size() &&
-           (std::isalnum(static_cast<unsigned char>(formula[end])) || formula[end] == '_'))
-      ++end;
-    if (end == i) {
-      out += formula[i++];
-      continue;
-    }
-    const std::string word = formula.substr(i, end - i);
-    out += word == name ? to : word;
-    i = end;
-  }
+  each_piece(formula,
+             [&](const std::string& piece, bool is_name) { out += is_name && piece == name ? to : piece; });
   return out;
+}
+
+bool mentions(const std::string& formula, std::string_view name) {
+  bool found = false;
+  each_piece(formula, [&](const std::string& piece, bool) { found = found || piece == name; });
+  return found;
 }
 
 }  // namespace
@@ -44,6 +53,16 @@ UnlistedForce sum_of(const std::vector<ForceFormula>& formulas) {
     sum.formula += (i > 0 && !formula.starts_with('-') ? "+" : "") + formula;
   }
   return sum;
+}
+
+std::optional<UnlistedForce> shared_by_grains(const UnlistedForce& force, int grains) {
+  if (mentions(force.formula, "x") || mentions(force.formula, "v")) return {};
+  return UnlistedForce{"(" + force.formula + ")/" + std::to_string(grains), force.constants, "grains"};
+}
+
+bool has_force_on_grains(const Setup& setup) {
+  const EffectChoice* choice = find_choice(setup, "user_force");
+  return choice != nullptr && choice->text("on") == "grains";
 }
 
 std::string_view variable_of(ShapeOf shape) {
@@ -87,13 +106,13 @@ std::string as_table(const UnlistedForce& force) {
   std::string constants;
   for (const auto& [name, value] : force.constants)
     constants += (constants.empty() ? "" : ", ") + name + " = \"" + value + "\"";
-  return "[[effect]]\nname = \"user_force\"\non = \"box\"\nforce = \"" + force.formula + "\"\nconstants = {" +
-         constants + "}\n";
+  return "[[effect]]\nname = \"user_force\"\non = \"" + force.on + "\"\nforce = \"" + force.formula +
+         "\"\nconstants = {" + constants + "}\n";
 }
 
 Setup with_force(const Setup& setup, const UnlistedForce& force, std::span<const EffectRecord* const> known) {
   const std::string origin = "force found by the momentum balance";
-  std::vector<Override> overrides{{"user_force.on", "box", origin},
+  std::vector<Override> overrides{{"user_force.on", force.on, origin},
                                   {"user_force.force", "\"" + force.formula + "\"", origin}};
   for (const auto& [name, value] : force.constants)
     overrides.push_back({"user_force.constants." + name, value, origin});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A force that no effect of the library describes, as the effect user_force: ready to add.
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,10 +16,18 @@ namespace shakedown {
 struct UnlistedForce {
   std::string formula;                                         ///< of x, v and t; empty: none
   std::vector<std::pair<std::string, std::string>> constants;  ///< name and quantity
+  std::string on = "box";                                      ///< or "grains": on each of them
 };
 
 /// The sum of all formulas; constants of the second and later ones are numbered (c, c2).
 UnlistedForce sum_of(const std::vector<ForceFormula>& formulas);
+
+/// The same force in sum, each of so many grains its share; nothing where it depends on x or v, which are the
+/// box's. The momentum balance does not tell the two apart.
+std::optional<UnlistedForce> shared_by_grains(const UnlistedForce& force, int grains);
+
+/// Whether the setup's user_force acts on the grains.
+bool has_force_on_grains(const Setup& setup);
 
 /// "x", "v" or "t": what such a force depends on.
 std::string_view variable_of(ShapeOf shape);
@@ -33,7 +42,7 @@ std::string points_of_force(const std::vector<ForceCurve>& curves);
 /// As a table of a setup file.
 std::string as_table(const UnlistedForce& force);
 
-/// The setup with this force on the box in place of a user_force that it may have.
+/// The setup with this force in place of a user_force that it may have.
 Setup with_force(const Setup& setup, const UnlistedForce& force, std::span<const EffectRecord* const> known);
 
 }  // namespace shakedown

@@ -2,6 +2,7 @@
 // What a diagnosis writes for physics that no list has.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "effects.hpp"
@@ -34,6 +35,27 @@ TEST(PointsOfAForce, NameWhatEachShapeDependsOnAndIs) {
         std::pair(ShapeOf::time, "t,force"), std::pair(ShapeOf::damping_at_t, "t,damping"),
         std::pair(ShapeOf::stiffness_at_t, "t,stiffness")})
     EXPECT_TRUE(points_of_force({{shape, {0}, {1}, {1}, 1, 1}}).starts_with(header)) << header;
+}
+
+// The momentum balance tells the sum of forces on box and grains: in time alone it may be either.
+TEST(UnlistedForce, OfTimeAloneMayBeTheGrains) {
+  const UnlistedForce push{"F*exp(-((t-t0)/w)^2)", {{"F", "0.05 N"}, {"t0", "4 s"}, {"w", "0.4 s"}}};
+  const std::optional<UnlistedForce> shared = shared_by_grains(push, 37);
+  ASSERT_TRUE(shared);
+  shakedown::Setup setup = with_force({}, *shared, all_effects());
+  EXPECT_TRUE(has_force_on_grains(setup));
+  EXPECT_DOUBLE_EQ(physics_of(setup).grains.free.at(0).newton(0, 0, 4.4), 0.05 * std::exp(-1) / 37);
+  EXPECT_TRUE(physics_of(setup).box.free.empty());
+  EXPECT_NE(as_table(*shared).find("on = \"grains\""), std::string::npos);
+  setup = with_force(setup, push, all_effects());
+  EXPECT_FALSE(has_force_on_grains(setup));
+  EXPECT_TRUE(physics_of(setup).grains.free.empty());
+}
+
+TEST(UnlistedForce, OfPlaceOrSpeedIsTheBoxsAlone) {
+  EXPECT_FALSE(shared_by_grains({"-c*v*exp(-(t/w)^2)", {}}, 37));
+  EXPECT_FALSE(shared_by_grains({"-k*max(0,x-x0)", {}}, 37));
+  EXPECT_TRUE(shared_by_grains({"-k*max(0,t-x0)", {}}, 37));  // neither x0 nor the x of max
 }
 
 // A box that is shaken and not let go has no range of speeds: the diagnosis goes on without the question.
