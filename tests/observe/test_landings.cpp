@@ -60,9 +60,9 @@ TEST(Landings, OfABodyThatIsCaughtGiveTwiceItsMomentum) {
   const std::vector<Landing> list = seen(one_body(2000, 0));
   ASSERT_GE(list.size(), 10u);
   for (const Landing& landing : list) {
-    WITHIN(landing.momentum / (2 * mass * amplitude * omega), 1, 1e-9, 1e-10);
-    WITHIN(landing.thickness, length - room, 1e-12, 1e-13);
-    WITHIN(landing.rebound, 0, 1e-12, 1e-13);
+    WITHIN(landing.momentum / (2 * mass * amplitude * omega), 1, 4e-11, 2.3e-12);
+    WITHIN(landing.thickness, length - room, 8e-16, 4.2e-17);
+    EXPECT_LT(std::abs(landing.rebound), 1e-15);  // rounding
     EXPECT_LT(landing.lasting, landing_window / frequency);
   }
   // It leaves where the box is fastest and comes where A (w t - sin w t) = room.
