@@ -17,8 +17,8 @@ namespace {
 /// engine by default). Films of soft contacts under 0.1 g along the motion leave the misfit of the model's
 /// own runs 1.07 times, with twice the path 1.18 times. Under 1 g runs cost a tenth as with 2 um, and lose
 /// the same to 1 %.
-constexpr double path_per_acceleration = HeldBonds::hairbreadth / 1;  // s^2
-constexpr double widest_path = 2e-3;                                  // diameters
+constexpr double path_per_acceleration = HeldBonds::hairbreadth / 1.0;  // m of path for m/s^2
+constexpr double widest_path = 2e-3;                                    // diameters
 
 /// Restitutions below this stall rows between side walls. 0.5 does not, in 100 runs of 22 s; 0.3 of all walls
 /// does, in a few runs.

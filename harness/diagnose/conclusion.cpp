@@ -140,12 +140,15 @@ void advise_by_words(const Setup& user, const DiagnosisState& final, bool refitt
       if (!term.look_alikes.empty())
         list.push_back("the box alone, grains.count = 0, ringing down: tells " + term.effect + " from " +
                        term.look_alikes.front() + " without any grains");
-    if (d.verdict == Verdict::unknown)
-      list.push_back(d.force_formula.empty()
-                         ? "the same box with half the grains and with none: what stays acts "
-                           "on the box, what goes lies in the contacts"
-                         : "the box alone, grains.count = 0, ringing down: shows whether the "
-                           "force acts on the box or on the grains");
+    if (d.verdict == Verdict::unknown && d.force_formula.empty())
+      list.push_back(
+          "the same box with half the grains and with none: what stays acts on the box, what goes lies in "
+          "the "
+          "contacts");
+    else if (d.verdict == Verdict::unknown && !has_force_on_grains(d.amended))
+      list.push_back(
+          "the box alone, grains.count = 0, ringing down: shows whether the force acts on the box or on the "
+          "grains");
   }
   for (const NuisanceFound& nuisance : standing_out(d.camera)) {
     list.push_back(nuisance.name.starts_with("box.") || nuisance.name.starts_with("grains.")

@@ -2,13 +2,13 @@
 #include "decay_comparison.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include "experiment_file.hpp"
 #include "frame_motion.hpp"
 #include "in_order.hpp"
 #include "landings.hpp"
 #include "observables.hpp"
+#include "printed_text.hpp"
 #include "random.hpp"
 
 namespace shakedown {
@@ -159,10 +159,10 @@ MeasuredNumber number(const Numbers& measured, const std::vector<Numbers>& simul
 /// "lag 0.31 (0.30 +- 0.01) rad": measured (model +- spread).
 template <class Row>
 std::string told(const Row& row, const MeasuredNumber& number) {
-  char numbers[128];
-  std::snprintf(numbers, sizeof numbers, " %.*f (%.*f +- %.*f)", row.digits, number.measured * row.scale,
-                row.digits, number.model * row.scale, row.digits, number.spread * row.scale);
-  return std::string(row.label) + numbers + (*row.unit ? " " : "") + row.unit;
+  return row.label +
+         text_of(" %.*f (%.*f +- %.*f)", row.digits, number.measured * row.scale, row.digits,
+                 number.model * row.scale, row.digits, number.spread * row.scale) +
+         (*row.unit ? " " : "") + row.unit;
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace shakedown {
 struct Landing {
   double time = 0;   ///< s, when the layer has lost half of its speed relative to the wall
   double speed = 0;  ///< m/s, greatest relative speed before
-  double momentum =
-      0;  ///< kg m/s, of the grains in the flight before less in the one after, towards the wall
+  /// kg m/s, of the grains in the flight before less in the one after, towards the wall
+  double momentum = 0;
   /// Mean relative speed away from the wall within `landing_window` after it has landed, over `speed`: a
   /// rebound that the wall catches sooner shows less.
   double rebound = 0;
@@ -27,8 +27,9 @@ struct LandingBox {
   double period = 0;       ///< s, of the swing
 };
 
-/// Speeds are slopes of straight lines over a thirtieth of a period: with fewer than five frames in it
-/// nothing is told.
+/// Of a period. Speeds are slopes of straight lines over so much, and a layer that is caught at once comes
+/// 14 % too slow by that: two recordings are to be compared at the same frames. With fewer than five frames
+/// in it nothing is told.
 constexpr double landing_window = 1.0 / 30;
 
 /// `box`, `centre`: m, in the laboratory, at `time`, s; NaN where missing. A number that the frames do not

@@ -2,11 +2,11 @@
 #include "steady_pull.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
 #include "physics.hpp"
+#include "printed_text.hpp"
 
 namespace shakedown {
 
@@ -16,12 +16,6 @@ namespace {
 /// films of soft contacts under it leave the right model of hard spheres 1.61, 1.31 and more times the misfit
 /// of its own runs from 5.7 (0.15 g) on, 0.90 to 1.24 times at 7.6 (0.1 g).
 constexpr double engines_part = 7;
-
-std::string text_of(const char* format, double first, double second = 0, double third = 0) {
-  char text[96];
-  std::snprintf(text, sizeof text, format, first, second, third);
-  return text;
-}
 
 }  // namespace
 
@@ -53,11 +47,10 @@ std::string note_on_pull(const SteadyPull& pull) {
   std::string note = "shaking over the setup's steady pull: " + words_of_pull(pull);
   if (pull.shaking < engines_part * std::abs(pull.along))
     note +=
-        "; under so much of it along the motion layers rest on a wall for most of each swing, where hard "
-        "spheres, "
-        "whose impacts come one after the other, lose energy otherwise than contacts that last. A model may "
-        "be "
-        "rejected for that alone: `shakedown crosscheck --engines hard,soft` tells by how much the two part";
+        "; under so much of it along the motion layers rest on a wall for most of each swing, and hard "
+        "spheres, whose impacts come one after the other, lose energy there otherwise than contacts that "
+        "last. A model may be rejected for that alone: `shakedown crosscheck --engines hard,soft` tells by "
+        "how much the two part";
   return note;
 }
 

@@ -75,7 +75,7 @@ ReportSection landings_section(const std::vector<DecayComparison>& decays) {
         high.push_back((number.model + 2 * number.spread) * row.scale);
       }
       if (plot.x.size() < 2) continue;
-      plot.curves = band("two spreads from run to run", low, high);
+      plot.curves = band("two spreads, from run to run and of the camera", low, high);
       plot.curves.push_back(std::move(model));
       plot.curves.push_back(std::move(measured));
       section.plots.push_back(std::move(plot));
@@ -83,9 +83,8 @@ ReportSection landings_section(const std::vector<DecayComparison>& decays) {
   if (!section.plots.empty())
     section.paragraphs = {
         "What the grains give to an end wall from one flight to the next, how fast they come, how they "
-        "rebound, how "
-        "long it takes from 90 % to 10 % of the speed and how thick they lie: contacts show here before they "
-        "show in the decay."};
+        "rebound, how long it takes from 90 % to 10 % of the speed and how thick they then lie. Told with "
+        "the same frames and noise of film and model."};
   return section;
 }
 

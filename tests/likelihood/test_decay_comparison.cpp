@@ -81,7 +81,7 @@ TEST(DecayComparison, NothingIsSaidOfADamperThatIsLeftToItselfOrSeldomFilmed) {
 }
 
 // Livelier grains make a thicker layer; the right model tells each landing within some spreads.
-TEST(SlowDecayComparison, LandingsTellLooserGrains) {
+TEST(DecayComparison, LandingsTellLooserGrains) {
   shakedown::Setup truth;
   truth.box.length = 0.065;
   truth.run.duration = 6;

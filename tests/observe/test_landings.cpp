@@ -17,7 +17,6 @@ const double omega = 2 * std::numbers::pi * frequency;
 
 struct Tracks {
   std::vector<double> time, box, centre;  ///< s, m
-  double contact = 0;                     ///< s, from wall to rest
 };
 
 /// A body that lies on a wall until the box is fastest, flies to the other wall at that speed and is brought
