@@ -124,8 +124,9 @@ TEST(SlowScreen, AReleaseWithVelocityIsRankedAtItsStrength) {
   WITHIN(found.value, 0.01, 1.4e-3, 7.3e-5);
 }
 
-// A glance at the middle level rules most effects out: the others are not simulated then.
-TEST(Screen, WhatTheMiddleLevelRulesOutCostsOneLevel) {
+// What the middle level rules out may be there weaker: while nothing is found, weaker levels are looked at,
+// but only those that may explain something more than once.
+TEST(Screen, WhatTheMiddleLevelRulesOutIsLookedAtWeakerWhereNothingIsFound) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const shakedown::Setup setup = believed("2 s");
   const Measurement measurement =
@@ -147,7 +148,9 @@ TEST(Screen, WhatTheMiddleLevelRulesOutCostsOneLevel) {
           .list;
   ASSERT_EQ(list.size(), 1u);
   EXPECT_TRUE(list[0].weighed);
-  EXPECT_LE(runs, effort.nothing + effort.slopes + 2 * effort.glance.slow);  // moved along at most once
+  const int once = effort.nothing + effort.slopes + 3 * effort.glance.slow;
+  EXPECT_GE(runs, once);
+  EXPECT_LE(runs, once + 3 * effort.glance.slow);  // each level moved along at most once
 }
 
 }  // namespace
