@@ -20,7 +20,6 @@ void weigh_by(const Signature& signature, const Candidate& candidate, ScreenedEf
   effect.log_evidence = found.log_evidence;
   effect.gain = found.gain;
   effect.share_seen = found.share_seen;
-  effect.could_be = found.could_be;
   effect.value = candidate.value_of(found.strength);
   effect.seen.gain = found.gain;
   effect.seen.value = effect.seen.one_sided ? std::abs(found.strength) : found.strength;
@@ -39,17 +38,15 @@ void name_look_alikes(const std::vector<Eigen::VectorXd>& changes, std::vector<S
     }
 }
 
-/// More simulations may make it more than doubtful, beside the best one and beside nothing.
+/// A second look may make it more than doubtful, beside the best one and beside nothing.
 bool is_left_open(const ScreenedEffect& effect, double most, double known) {
   if (!effect.weighed) return false;
   const double doubted = std::log(rules::doubtful);
+  // What the noise of a glance has taken off the gain comes back with more simulations.
+  const double share = std::max<double>(effect.share_seen, effort::glance_tells),
+               could_be = effect.log_evidence + effect.gain / 2 * (1 / share - 1);
   return effect.log_evidence > effort::glance_sees * most + doubted &&
-         effect.could_be + prior_log_odds(effect.seen.odds, known) > doubted;
-}
-
-/// More probable than nothing: a fit decides what more simulations would not.
-bool is_ahead(const ScreenedEffect& effect, double known) {
-  return effect.weighed && effect.log_evidence + prior_log_odds(effect.seen.odds, known) > 0;
+         could_be + prior_log_odds(effect.seen.odds, known) > doubted;
 }
 
 }  // namespace
@@ -113,35 +110,19 @@ bool EffectScreen::glance(const Candidate& candidate, Weighed& one) {
   return !one.looked.levels.empty();
 }
 
-EffectScreen::Weighed* EffectScreen::most_open(const std::vector<Candidate>& candidates,
-                                               std::vector<Weighed>& list) const {
-  double most = 0;
-  bool ahead = false;
-  for (const Weighed& one : list)
-    if (one.effect.weighed) {
-      most = std::max(most, one.effect.log_evidence);
-      ahead = ahead || is_ahead(one.effect, static_cast<double>(known_));
-    }
-  Weighed* first = nullptr;
-  for (Weighed& one : list)
-    if (may_be_missing(one.effect, most) &&
-        ScreenSimulations::may_look_closer(candidates[one.effect.candidate],
-                                           ahead ? effort_.look : effort_.most, one.looked) &&
-        (first == nullptr || one.effect.could_be > first->effect.could_be))
-      first = &one;
-  if (first != nullptr || ahead) return first;
-  // Weaker levels may move the features elsewhere than the middle one does.
-  const auto partly = std::find_if(
-      list.begin(), list.end(), [](const Weighed& one) { return one.effect.weighed && !one.looked.whole; });
-  return partly == list.end() ? nullptr : &*partly;
-}
-
 void EffectScreen::look_closer(const std::vector<Candidate>& candidates, std::vector<Weighed>& list) {
-  while (Weighed* one = most_open(candidates, list)) {
-    const Candidate& candidate = candidates[one->effect.candidate];
-    simulations_->look(candidate, one->looked.whole ? effort_.look : effort_.glance, one->looked);
-    weigh_again(candidate, *one);
-  }
+  std::stable_sort(list.begin(), list.end(), [](const Weighed& a, const Weighed& b) {
+    return a.effect.log_evidence > b.effect.log_evidence;
+  });
+  double most = 0;
+  for (const Weighed& one : list)
+    if (one.effect.weighed) most = std::max(most, one.effect.log_evidence);
+  for (Weighed& one : list)
+    if (one.looked.whole && may_be_missing(one.effect, most)) {
+      const Candidate& candidate = candidates[one.effect.candidate];
+      simulations_->look(candidate, effort_.look, one.looked);
+      weigh_again(candidate, one);
+    }
 }
 
 Screening EffectScreen::weigh(const std::vector<Candidate>& candidates) {

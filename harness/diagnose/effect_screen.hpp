@@ -23,7 +23,6 @@ struct ScreenedEffect {
       look_alikes{};      ///< candidates whose signature after refitting has a cosine above 0.9 with its own
   bool weighed = false;   ///< false: not simulated, for want of simulations or time
   double share_seen = 1;  ///< of the gain, that the noise of the simulations leaves
-  double could_be = 0;    ///< ln evidence that more simulations may show (StrengthPosterior)
 };
 
 struct Screening {
@@ -51,8 +50,7 @@ struct ScreenEffort {
   int slopes = 64;               ///< for what the fitted parameters do, beside those that fits have made
   int nothing = 96;              ///< of the model without candidates
   LevelEffort glance{12, 8, 8};  ///< of every candidate
-  LevelEffort look{24, 16, 12};  ///< more, of those that a glance leaves open, and then as many again
-  LevelEffort most{96, 64, 48};  ///< of those that stay open
+  LevelEffort look{24, 16, 12};  ///< more, of those that a glance leaves open
 };
 
 /// What the fit of the model without candidates has found already. Empty: the screen simulates.
@@ -96,10 +94,8 @@ class EffectScreen {
   /// False: it cannot be simulated here.
   bool glance(const Candidate& candidate, Weighed& one);
   bool may_be_missing(const ScreenedEffect& effect, double best) const;
-  /// Those worth more simulations than a glance, what they may show most first, until none is left open.
+  /// Those worth more simulations than a glance, best first.
   void look_closer(const std::vector<Candidate>& candidates, std::vector<Weighed>& list);
-  /// Null: none is.
-  Weighed* most_open(const std::vector<Candidate>& candidates, std::vector<Weighed>& list) const;
 
   std::unique_ptr<ScreenSimulations> simulations_;
   std::map<std::size_t, Signature> signatures_;  ///< of candidates that were simulated, by index

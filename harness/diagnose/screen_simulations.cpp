@@ -95,35 +95,14 @@ void ScreenSimulations::look(const Candidate& candidate, const LevelEffort& effo
     looked.whole = true;
     return add_levels(candidate, candidate.levels, looked.count, looked);
   }
-  const std::vector<double> open = in_question(looked);
   for (const Candidate::Level& level : candidate.levels) try {
-      if (std::find(open.begin(), open.end(), level.strength) != open.end())
-        looked.add(simulated_level(candidate, level, count, looked), count);
+      if (looked.has(level.strength)) looked.add(simulated_level(candidate, level, count, looked), count);
     } catch (const PhysicsError& error) {
       looked.reason = error.what();
     } catch (const InputError& error) {
       looked.reason = error.what();
     }
   looked.count += count;
-}
-
-std::vector<double> ScreenSimulations::in_question(const Looked& looked) const {
-  std::vector<double> open;
-  for (const SignatureLevel& level : looked.levels) {
-    const bool weakest =
-        std::none_of(looked.levels.begin(), looked.levels.end(), [&](const SignatureLevel& other) {
-          return other.strength * level.strength > 0 && std::abs(other.strength) < std::abs(level.strength);
-        });
-    const Eigen::ArrayXd strength = Eigen::ArrayXd::Constant(1, level.strength);
-    if (weakest || Signature({level}, without_).most_likely_at_best(strength) > 0)
-      open.push_back(level.strength);
-  }
-  return open;
-}
-
-bool ScreenSimulations::may_look_closer(const Candidate& candidate, const LevelEffort& most,
-                                        const Looked& looked) {
-  return !looked.exact && (!looked.whole || looked.count < count_of(candidate, most));
 }
 
 void ScreenSimulations::add_levels(const Candidate& candidate, const std::vector<Candidate::Level>& chosen,
@@ -136,10 +115,8 @@ void ScreenSimulations::add_levels(const Candidate& candidate, const std::vector
     });
   };
   for (const Candidate::Level& level : chosen) try {
-      if (!looked.has(level.strength) && !is_hopeless(level.strength)) {
+      if (!looked.has(level.strength) && !is_hopeless(level.strength))
         looked.levels.push_back(simulated_level(candidate, level, count, looked));
-        looked.points.at(level.strength).count = count;
-      }
     } catch (const PhysicsError& error) {
       looked.reason = error.what();
     } catch (const InputError& error) {
@@ -316,7 +293,7 @@ SignatureLevel ScreenSimulations::simulated_level(const Candidate& candidate, co
       point = *moved;
       change = change_at(there, point.fitted, of_means_);
     }
-    looked.points.insert_or_assign(level.strength, point);
+    looked.points[level.strength] = point;
   }
   return {level.strength, (*outside_)(change), chaos_of(there, of_means_) / count};
 }

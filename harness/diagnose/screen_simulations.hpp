@@ -19,14 +19,13 @@ namespace shakedown {
 struct LevelPoint {
   std::vector<Knob> fitted;  ///< the fitted parameters, moved to where they go beside it
   Knob knob;                 ///< of the candidate
-  int count = 0;             ///< simulations of each different setup
 };
 
 /// Levels of a candidate as far as they were simulated.
 struct Looked {
   std::vector<SignatureLevel> levels{};
   std::map<double, LevelPoint> points{};  ///< by strength
-  int count = 0;                          ///< simulations of each level in question, of each different setup
+  int count = 0;                          ///< simulations of each level, of each different setup
   bool whole = false;                     ///< all levels were looked at, not the middle one alone
   std::string reason{};
   bool exact = false;
@@ -37,14 +36,12 @@ struct Looked {
   }
   /// The mean of those before and of `more` simulations.
   void add(const SignatureLevel& level, int more) {
-    int& count = points.at(level.strength).count;
     const double before = count, all = count + more;
     for (SignatureLevel& one : levels)
       if (one.strength == level.strength) {
         one.change = (before * one.change + more * level.change) / all;
         one.noise = (before * before * one.noise + double(more) * more * level.noise) / (all * all);
       }
-    count += more;
   }
 };
 
@@ -58,13 +55,9 @@ class ScreenSimulations {
   /// Simulates the candidate's middle level alone, of each sign that it has, so many times.
   void look_at_the_middle(const Candidate& candidate, const LevelEffort& effort, Looked& looked);
 
-  /// Simulates those of the candidate's levels that are in question so many times more; those not looked at
-  /// yet as often as the middle ones were, where only those were. Those that the engine cannot simulate are
-  /// left out, with the reason.
+  /// Simulates the candidate's levels so many times more; those not looked at yet as often as the middle ones
+  /// were, where only those were. Those that the engine cannot simulate are left out, with the reason.
   void look(const Candidate& candidate, const LevelEffort& effort, Looked& looked);
-
-  /// Levels were not looked at yet, or less often than `most` allows.
-  static bool may_look_closer(const Candidate& candidate, const LevelEffort& most, const Looked& looked);
 
   /// What the model without candidates leaves, and a candidate's signature as far as it was looked at.
   Signature signature_of(const Looked& looked) const { return {looked.levels, without_, looked.exact}; }
@@ -78,10 +71,6 @@ class ScreenSimulations {
     std::vector<Coordinates> coordinates;
     FirstModel model;
   };
-
-  /// Strengths of the levels that more simulations may show to be more likely than nothing, and of the
-  /// weakest of each sign, by which the curve goes at weaker strengths.
-  std::vector<double> in_question(const Looked& looked) const;
 
   int next_run() { return first_run_ + 1000 * batches_++; }
 

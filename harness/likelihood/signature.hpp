@@ -21,11 +21,9 @@ struct SignatureResidual {
   double noise = 0;          ///< expected square of the error of that mean, which every change has too
 };
 
-/// Nothing at strength zero; between levels a curve as the levels themselves make it most likely: a Gaussian
-/// process of any slope about zero that bends as a random walk (from corner to corner, for what changes at
-/// its own scale in each decade), as its integral (a smoothing spline; G. Wahba, J. R. Stat. Soc. B 40, 364
-/// (1978)) or as a parabola with that one's integral. Where simulations are few it is close to a line, where
-/// they are many it goes through the levels; beyond the last it goes on straight.
+/// Nothing at strength zero. Levels within a decade: a polynomial, straight with one level, a parabola with
+/// two or three, a cubic with more. Levels over more than a decade, all of one sign: straight from one to the
+/// next and on beyond the last, for no polynomial follows what changes at its own scale in each decade.
 class Signature {
  public:
   /// `exact`: the changes are arithmetic and share no error with the residual.
@@ -43,10 +41,6 @@ class Signature {
   /// a / (a + nu) at this strength: the share of the log likelihood that is left by the simulations' noise.
   double share_seen(double strength) const;
 
-  /// The largest log_likelihood() at these strengths and at the levels themselves, but not below nothing's,
-  /// that simulations without end may show with a probability of one in twenty: by their noise in b.
-  double most_likely_at_best(const Eigen::ArrayXd& strengths) const;
-
  private:
   friend class PairSignature;
 
@@ -55,20 +49,16 @@ class Signature {
     double square, noise;
   };
   Squares squares(const Eigen::VectorXd& weights) const;
-  /// Weights of the levels at this strength.
+  /// Weights of the shapes at this strength.
   Eigen::VectorXd weights(double strength) const;
 
-  /// Which curve the levels make most likely.
-  void choose_curve();
-
-  std::vector<double> at_{};        ///< strengths of the levels, in units of the strongest
-  double unit_ = 1;                 ///< that one
-  Eigen::MatrixXd changes_;         ///< features x levels
-  Eigen::MatrixXd square_, noise_;  ///< levels x levels: products of the changes, and of their errors
+  std::vector<double> corners_{};   ///< strengths of the levels, ascending, where it is straight between them
+  Eigen::Index order_ = 1;          ///< number of shapes
+  double unit_ = 1;                 ///< strength of which powers are taken
+  Eigen::MatrixXd shapes_;          ///< features x order
+  Eigen::MatrixXd square_, noise_;  ///< order x order: of the shapes, and of their errors
   Eigen::VectorXd overlap_;         ///< with the residual
-  double line_ = 0, bend_ = 0;      ///< variances of slope and of what bends it
-  int integrals_ = 1;               ///< of a random walk, by which it bends
-  Eigen::MatrixXd inverse_;         ///< of the levels' covariance
+  Eigen::VectorXd shared_;          ///< the part of the error of nothing that each shape has
   double of_nothing_ = 0;           ///< expected square of that error
   double chi2_per_feature_ = 1;
 };
@@ -84,7 +74,7 @@ class PairSignature {
 
  private:
   const Signature *first_, *second_;
-  Eigen::MatrixXd cross_, shared_;  ///< levels x levels: of the changes, and of the error that both have
+  Eigen::MatrixXd cross_, shared_;  ///< order x order: of the shapes, and of the error that both have
 };
 
 /// What is known of a strength before and where it may lie.
@@ -99,7 +89,6 @@ struct StrengthPosterior {
   double strength = 0;      ///< where that is
   double error = 0;         ///< standard deviation of the strength, the likelihood alone counted
   double share_seen = 1;    ///< of the gain, that the simulations' noise leaves there
-  double could_be = 0;  ///< ln evidence that more simulations may show, with a probability of one in twenty
 };
 
 /// By a sum over 2000 strengths, equally likely beforehand.

@@ -102,10 +102,10 @@ TEST(SlowScreen, GravityAcrossIsRankedAtItsStrength) {
                        weak = screened("constant_acceleration=acceleration.y:0.15 m/s^2",
                                        "constant_acceleration"),
                        none = screened("", "constant_acceleration");
-  EXPECT_GT(strong.gain, 1.5 * weak.gain);  // weak: 59
+  EXPECT_GT(strong.gain, 1.5 * weak.gain);  // seen: 52, 20, 2
   EXPECT_GT(weak.gain, 3 * none.gain);
   WITHIN(strong.value, 0.4, 0.1, 0.016);
-  WITHIN(weak.value, 0.15, 0.2, 0.101);  // of eight films: 0.182 on average, scattered by 0.066
+  WITHIN(weak.value, 0.15, 0.1, 0.034);
 }
 
 TEST(SlowScreen, AirDragIsRankedAtItsStrength) {
@@ -124,9 +124,8 @@ TEST(SlowScreen, AReleaseWithVelocityIsRankedAtItsStrength) {
   WITHIN(found.value, 0.01, 1.4e-3, 7.3e-5);
 }
 
-// What the middle level rules out may be there weaker: while nothing is found, weaker levels are looked at,
-// but only those that may explain something more than once.
-TEST(Screen, WhatTheMiddleLevelRulesOutIsLookedAtWeakerWhereNothingIsFound) {
+// A glance at the middle level rules most effects out: the others are not simulated then.
+TEST(Screen, WhatTheMiddleLevelRulesOutCostsOneLevel) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const shakedown::Setup setup = believed("2 s");
   const Measurement measurement =
@@ -148,9 +147,7 @@ TEST(Screen, WhatTheMiddleLevelRulesOutIsLookedAtWeakerWhereNothingIsFound) {
           .list;
   ASSERT_EQ(list.size(), 1u);
   EXPECT_TRUE(list[0].weighed);
-  const int once = effort.nothing + effort.slopes + 3 * effort.glance.slow;
-  EXPECT_GE(runs, once);
-  EXPECT_LE(runs, once + 3 * effort.glance.slow);  // each level moved along at most once
+  EXPECT_LE(runs, effort.nothing + effort.slopes + 2 * effort.glance.slow);  // moved along at most once
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "random.hpp"
@@ -43,21 +42,6 @@ std::vector<SignatureLevel> simulated(const std::vector<double>& strengths, int 
   return levels;
 }
 
-/// Of many experiments with `truth` in them, the levels simulated so many times: ln evidence, on average.
-double mean_evidence(const std::function<Eigen::VectorXd(double)>& change, double truth, int runs) {
-  constexpr int experiments = 30;
-  constexpr double of_nothing = 200;  // simulations
-  double sum = 0;
-  for (int e = 0; e < experiments; ++e) {
-    const auto seed = static_cast<std::uint64_t>(1000 + 10 * e);
-    const Eigen::VectorXd nothing = noise(seed, 1 / std::sqrt(of_nothing));
-    const Signature signature(simulated({0.05, 0.1, 0.2, 0.35, 0.6}, runs, seed + 1, change, nothing),
-                              {change(truth) + noise(seed + 9) - nothing, features / of_nothing});
-    sum += posterior_of(signature, {0.2, 0, 1.2}).log_evidence;
-  }
-  return sum / experiments;
-}
-
 }  // namespace
 
 TEST(Signature, OfAnExactLineIsTheClosedForm) {
@@ -76,19 +60,16 @@ TEST(Signature, OfAnExactLineIsTheClosedForm) {
   WITHIN(found.log_evidence, b * b / a / 2 + std::log(share), 0.02, 5.5e-3);
 }
 
-TEST(Signature, GoesThroughExactLevelsAndNearlyAsTheParabolaBetween) {
+TEST(Signature, IsAParabolaThroughItsLevels) {
   const Eigen::VectorXd slope = 5 * shape(2), bend = 9 * shape(5);
   const auto change = [&](double s) -> Eigen::VectorXd { return s * slope + s * s * bend; };
   const Signature signature({{0.5, change(0.5), 0}, {1, change(1), 0}, {2, change(2), 0}}, {noise(1), 0},
                             true);
-  for (const double s : {0.5, 1.0, 2.0})
-    EXPECT_LT((signature.change(s) - change(s)).cwiseAbs().maxCoeff(), 5e-8);  // seen: 2.3e-9
-  const double largest = change(2).cwiseAbs().maxCoeff();
-  for (const double s : {0.1, 0.7, 1.5})
-    EXPECT_LT((signature.change(s) - change(s)).cwiseAbs().maxCoeff(), 0.005 * largest);  // seen: 0.001
+  for (const double s : {-1.0, 0.1, 1.5})
+    EXPECT_LT((signature.change(s) - change(s)).cwiseAbs().maxCoeff(), 1e-12);  // seen: 3e-14
 }
 
-TEST(Signature, GoesThroughLevelsOverDecadesWithoutLeavingTheLineBetweenThem) {
+TEST(Signature, GoesStraightFromLevelToLevelOverDecades) {
   const auto change = [](double s) -> Eigen::VectorXd {
     return 10 * s / (1 + s) * shape(2) + (s > 1 ? s - 1 : 0) * shape(5);  // saturates, then something else
   };
@@ -96,39 +77,10 @@ TEST(Signature, GoesThroughLevelsOverDecadesWithoutLeavingTheLineBetweenThem) {
   for (const double s : {8.0, 0.1, 1.0}) levels.push_back({s, change(s), 0});
   const Signature signature(levels, {noise(1), 0}, true);
   for (const double s : {0.1, 1.0, 8.0})
-    EXPECT_LT((signature.change(s) - change(s)).cwiseAbs().maxCoeff(), 4e-9) << s;  // seen: 2e-10
-  const double largest = change(8).cwiseAbs().maxCoeff();
-  EXPECT_LT((signature.change(0.05) - change(0.1) / 2).cwiseAbs().maxCoeff(), 0.01 * largest);
-  EXPECT_LT((signature.change(4.5) - (change(1) + change(8)) / 2).cwiseAbs().maxCoeff(), 0.4 * largest);
-}
-
-// Where the effect is a line all levels tell of one slope: a cubic through them lost a third of ln evidence
-// to the noise of eight simulations (9.8 of 15.4).
-TEST(Signature, OfALineLosesLittleToFewSimulations) {
-  const auto line = [](double s) -> Eigen::VectorXd { return 80 * s * shape(2); };
-  EXPECT_GT(mean_evidence(line, 0.075, 8), 0.9 * mean_evidence(line, 0.075, 96));  // seen: 16.7, 17.2
-  EXPECT_LT(mean_evidence(line, 0, 8), -1);                                        // seen: -2.6
-}
-
-// A weak effect that moves the features by what strong ones do not, as friction of 0.05 does.
-TEST(Signature, SeesAWeakEffectThatStrongOnesDoNotContinue) {
-  const auto turning = [](double s) -> Eigen::VectorXd {
-    return 200 * s * std::exp(-s / 0.06) * shape(2) + 45 * s * shape(5);
-  };
-  EXPECT_GT(mean_evidence(turning, 0.05, 96), 4.3);  // that of a level alone is 6 to 7; seen: 5.9
-  EXPECT_LT(mean_evidence(turning, 0, 96), -1);      // seen: -2.1
-}
-
-TEST(Signature, SimulationsWithoutEndMayShowWhatTheirNoiseInTheOverlapHides) {
-  const Eigen::VectorXd line = 10 * shape(3), residual = 0.3 * line + noise(4);
-  const double nu = 36, a = line.squaredNorm() - nu, b = line.dot(residual);
-  const Signature signature({{1.0, line, nu}}, {residual, 0});
-  const double wider = std::max(1.0, residual.squaredNorm() / features);
-  WITHIN(signature.most_likely_at_best(Eigen::ArrayXd::Constant(1, 1.0)),
-         std::max(0.0, b + 1.645 * std::sqrt(nu * wider) - a / 2), 1e-12, 1e-13);
-  // What is surely absent cannot become likely.
-  EXPECT_EQ(
-      Signature({{1.0, line, nu}}, {-residual, 0}).most_likely_at_best(Eigen::ArrayXd::Constant(1, 1.0)), 0);
+    EXPECT_LT((signature.change(s) - change(s)).cwiseAbs().maxCoeff(), 1e-14) << s;  // seen: 4e-16
+  EXPECT_LT((signature.change(0.05) - change(0.1) / 2).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT((signature.change(4.5) - (change(1) + change(8)) / 2).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT((signature.change(15) - (2 * change(8) - change(1))).cwiseAbs().maxCoeff(), 1e-14);
 }
 
 // An effect whose change has its square alone, far beyond any line about nothing, is seen at its strength.
