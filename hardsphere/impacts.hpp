@@ -22,6 +22,24 @@ inline double resolved(double restitution, double closing, double wall_accelerat
   return std::max(restitution, std::sqrt(2 * wall_acceleration * lowest_bounce) / closing);
 }
 
+/// m/s: what the components of both velocities are rounded by, some times over.
+inline double rounding_of(const MeetingPair& pair) {
+  double sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) sum += std::abs(pair.a.v[axis]) + std::abs(pair.b.v[axis]);
+  return 4 * std::numeric_limits<double>::epsilon() * sum;
+}
+
+/// A pair whose impact is lost when velocities are rounded meets again at the same instant, without end: two
+/// grains that drift side by side closed at 1e-19 m/s (one plain run in 20 000). Larger than its restitution,
+/// then, so that they part. (A wall that moves without being accelerated would need it too; there is none.)
+inline double resolved(double restitution, double closing, const MeetingPair& pair) {
+  const double least = rounding_of(pair);
+  if (closing >= least) [[likely]]
+    return restitution;
+  constexpr double most = 1e100;  // its square is a number
+  return std::max(restitution, std::min(most, least / closing));
+}
+
 template <class Scene>
 class Impacts {
  public:
@@ -121,22 +139,6 @@ bool Impacts<Scene>::rubs(double closing, double elastic_below, double since) {
   return closing >= elastic_below || (closing >= slow * elastic_below && since > at_once);
 }
 
-/// Components of its velocity, m/s.
-inline double speed_of(const Flight3& flight) {
-  return std::abs(flight.v[0]) + std::abs(flight.v[1]) + std::abs(flight.v[2]);
-}
-
-/// The restitution e or, where what it leaves of the closing speed is lost when `speed` (m/s) is rounded, one
-/// that is not: two grains that drift side by side closed at 1e-19 m/s, an impact changed no bit of their
-/// velocities, and they met again at the same instant without end (one plain run in 20 000).
-inline double told_apart(double e, double closing, double speed) {
-  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-  if (closing >= rounding * speed) [[likely]]
-    return e;
-  constexpr double most = 1e100;  // its square is a number
-  return std::max(e, std::min(most, rounding * speed / closing));
-}
-
 template <class Scene>
 double Impacts<Scene>::since_touch(int i, int j) {
   if (touched_.empty()) return HeldBonds::quick;
@@ -196,8 +198,8 @@ void Impacts<Scene>::pair(int i, int j) {
   if (closing <= 0) return partings_.refuse(i, pair.a, nullptr);
   const double since = since_touch(i, j),
                limit = wells_.elastic_below(elastic_below(limits_.pair_speed, since), i, j),
-               e = told_apart(restitution(ContactClass::grain_grain, closing, limit, elastic_pairs_), closing,
-                              speed_of(pair.a) + speed_of(pair.b));
+               e = resolved(restitution(ContactClass::grain_grain, closing, limit, elastic_pairs_), closing,
+                            pair);
   const double ma = scene_.grains.mass(i), mb = scene_.grains.mass(j), reduced = ma * mb / (ma + mb);
   const double impulse = reduced * (1 + e) * closing;
   double loss = reduced / 2 * (1 - e * e) * closing * closing;
@@ -269,8 +271,7 @@ void Impacts<Scene>::end_wall(int i, int side) {
                limit = wells_.elastic_below(elastic_below(slow, since), i);
   const double top = driven ? walls_.now(0).top_acceleration : scene_.box.top_acceleration();
   const double e =
-      told_apart(resolved(restitution(ContactClass::end_wall, closing, limit, elastic_walls_), closing, top),
-                 closing, speed_of(flight) + std::abs(wall));
+      resolved(restitution(ContactClass::end_wall, closing, limit, elastic_walls_), closing, top);
   const double m = scene_.grains.mass(i), M = scene_.box.mass();
   const double reduced = scene_.has_spring ? m * M / (m + M) : m;
   const double impulse = reduced * (1 + e) * closing;
@@ -328,9 +329,8 @@ void Impacts<Scene>::moving_side_wall(int i, int axis, int side) {
   if (closing <= 0) return partings_.refuse(i, flight, walls_.has_sides() ? &walls_.across(axis) : nullptr);
   const double since = since_touch(i),
                limit = wells_.elastic_below(elastic_below(limits_.wall_speed, since), i),
-               e = told_apart(resolved(restitution(ContactClass::side_wall, closing, limit, elastic_walls_),
-                                       closing, walls_.now(axis).top_acceleration),
-                              closing, speed_of(flight) + std::abs(wall[axis]));
+               e = resolved(restitution(ContactClass::side_wall, closing, limit, elastic_walls_), closing,
+                            walls_.now(axis).top_acceleration);
   const double m = scene_.grains.mass(i), impulse = m * (1 + e) * closing;
   double loss = m / 2 * (1 - e * e) * closing * closing, jump = 0;
   Vec3 on_grain = Vec3::Zero();
