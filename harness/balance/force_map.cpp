@@ -46,6 +46,7 @@ Arguments arguments_of(ShapeOf of, const MomentumRun& run) {
     case ShapeOf::damping_at_t: return {run.time, -run.v_smooth};
     case ShapeOf::stiffness_at_t: return {run.time, -run.x_box};
     case ShapeOf::time: return {run.time, ones};
+    case ShapeOf::friction_at_x: return {run.x_box, -known_sign(run).sign};
   }
   return {};
 }
@@ -72,7 +73,8 @@ ForceMap::ForceMap(const MomentumProblem& problem, const std::vector<MomentumRun
            grid(-v, v, 201),
            grid(earliest, scales_.duration, 61),
            grid(earliest, scales_.duration, 61),
-           grid(earliest, scales_.duration, 121)};
+           grid(earliest, scales_.duration, 121),
+           grid(-x, x, 221)};
   for (std::size_t kind = 0; kind < shape_kinds; ++kind) {
     columns_[kind] = Eigen::MatrixXd::Zero(problem.size(), grid_[kind].nodes);
     for (std::size_t run = 0; run < problem.runs(); ++run) {
@@ -187,6 +189,13 @@ ForceSamples shape_samples(const ForceShape& shape, const ShapeValues& values, c
       samples.force_dx = -g;
       break;
     case ShapeOf::time: samples.force = g; break;
+    case ShapeOf::friction_at_x: {
+      const KnownSign direction = known_sign(run);
+      samples.force = -direction.sign * g;
+      samples.force_dx = -direction.sign * slope;
+      samples.force_dv = -direction.slope * g;
+      break;
+    }
   }
   return samples;
 }

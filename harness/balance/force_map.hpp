@@ -10,7 +10,7 @@
 
 namespace shakedown {
 
-constexpr int shape_kinds = 6;
+constexpr int shape_kinds = 7;
 
 /// A whitened column of the balance for every node of a grid, for each kind; columns that are already in the
 /// fit projected out.

@@ -12,6 +12,7 @@ using S = const ShapeValues&;
 constexpr double turn = 6.283185307179586;
 
 double gaussian(double x, S s) { return std::exp(-std::pow((x - s[0]) / s[1], 2)); }
+double step_up(double x, S s) { return 1 / (1 + std::exp(std::clamp(-(x - s[0]) / s[1], -500.0, 500.0))); }
 double sign(double v) { return (v > 0) - (v < 0); }
 
 const ShapeParameter place{
@@ -20,6 +21,7 @@ const ShapeParameter place{
     {-0.9, -0.8, -0.7, -0.6, -0.5, -0.4, -0.3, -0.2, -0.1, 0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9},
     ShapeOf::position};
 const ShapeParameter width{"w", "m", {0.04, 0.08, 0.15, 0.3, 0.6}, ShapeOf::position};
+const ShapeParameter edge_width{"w", "m", {-0.1, -0.02, 0.02, 0.1}, ShapeOf::position};
 const ShapeParameter edge{"x0", "m", {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}, ShapeOf::position};
 const ShapeParameter speed{"v0", "m/s", {0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.8, 1.2}, ShapeOf::velocity};
 const ShapeParameter moment{"t0",
@@ -68,8 +70,31 @@ const std::vector<ForceShape>& force_shapes() {
        ShapeOf::damping_at_x,
        "c",
        "N s/m",
-       {place, {"w", "m", {-0.1, -0.02, 0.02, 0.1}, ShapeOf::position}},
-       [](double x, S s) { return 1 / (1 + std::exp(std::clamp(-(x - s[0]) / s[1], -500.0, 500.0))); }},
+       {place, edge_width},
+       step_up},
+      // Friction that depends on where the box is: a blade whose layers rub as it bends (T. J. Reid, J. R.
+      // Aeronaut. Soc. 60, 283 (1956): damping that does not depend on the frequency), a guide that squeezes.
+      {"friction that grows with the excursion",
+       "-c*sign(v)*abs(x)",
+       ShapeOf::friction_at_x,
+       "c",
+       "N/m",
+       {},
+       [](double x, S) { return std::abs(x); }},
+      {"friction near one place",
+       "-F*sign(v)*exp(-((x-x0)/w)^2)",
+       ShapeOf::friction_at_x,
+       "F",
+       "N",
+       {place, width},
+       gaussian},
+      {"friction beyond one place",
+       "-F*sign(v)/(1+exp(-(x-x0)/w))",
+       ShapeOf::friction_at_x,
+       "F",
+       "N",
+       {place, edge_width},
+       step_up},
       // Forces of position alone.
       {"a force with the square of the excursion, towards one side",
        "-c*x^2",

@@ -16,6 +16,7 @@ enum class ShapeOf {
   damping_at_t,    ///< F = -s v g(t)
   stiffness_at_t,  ///< F = -s x g(t)
   time,            ///< F = s g(t)
+  friction_at_x,   ///< F = -s sign(v) g(x)
 };
 
 /// The scales of the motion from which searches start.

@@ -68,7 +68,8 @@ bool has_force_on_grains(const Setup& setup) {
 std::string_view variable_of(ShapeOf shape) {
   switch (shape) {
     case ShapeOf::position:
-    case ShapeOf::damping_at_x: return "x";
+    case ShapeOf::damping_at_x:
+    case ShapeOf::friction_at_x: return "x";
     case ShapeOf::velocity: return "v";
     case ShapeOf::damping_at_t:
     case ShapeOf::stiffness_at_t:
@@ -82,6 +83,7 @@ std::string_view quantity_of(ShapeOf shape) {
     case ShapeOf::damping_at_x:
     case ShapeOf::damping_at_t: return "damping";
     case ShapeOf::stiffness_at_t: return "stiffness";
+    case ShapeOf::friction_at_x: return "friction";
     case ShapeOf::position:
     case ShapeOf::velocity:
     case ShapeOf::time: break;

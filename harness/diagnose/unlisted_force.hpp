@@ -31,7 +31,7 @@ bool has_force_on_grains(const Setup& setup);
 
 /// "x", "v" or "t": what such a force depends on.
 std::string_view variable_of(ShapeOf shape);
-/// "force"; "damping" of a force -v c, "stiffness" of one -x k.
+/// "force"; "damping" of a force -v c, "stiffness" of one -x k, "friction" of one -sign(v) f.
 std::string_view quantity_of(ShapeOf shape);
 
 /// The points of the curve that explains most, as a CSV table that user_force takes: header x,force,error (or

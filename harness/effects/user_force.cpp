@@ -86,7 +86,8 @@ extern const EffectRecord user_force{
                     .kind = ParameterKind::text,
                     .default_value = std::string(),
                     .sentence = "Path of a CSV table of points instead of the formula, SI: header x,force "
-                                "(or v,force, t,force; x,damping of -v c(x), t,stiffness of -x k(t) ...); a "
+                                "(or v,force, t,force; x,damping of -v c(x), x,friction of -sign(v) f(x), "
+                                "t,stiffness of -x k(t) ...); a "
                                 "curve goes through them, level beyond.",
                     .example = "\"force.csv\"",
                     .becomes = "force"},

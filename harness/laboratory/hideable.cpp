@@ -61,15 +61,17 @@ std::vector<Hideable> forces_of_no_list() {
       {"force:lopsided spring", "-c*x^2", "", 5, "N/m^2", true},
       {"force:soft stop", "-c*max(x-x0,0)", "x0 = \"60 mm\"", 5, "N/m", true},
       {"force:fading push", "c*exp(-t/tau)", "tau = \"2 s\"", 0.1, "N", true},
-      // Forms of no dictionary: a spot that rubs, a brake between two places, a stop that loses energy,
-      // a saw tooth, knocks, a spring with hysteresis (Reid's element), a table drawn at random.
       {"force:rubbing spot", "-c*v/sqrt(v^2+v0^2)/(1+((x-x0)/w)^4)",
-       "x0 = \"45 mm\", w = \"12 mm\", v0 = \"10 mm/s\"", 0.05, "N"},
+       "x0 = \"45 mm\", w = \"12 mm\", v0 = \"10 mm/s\"", 0.05, "N", true},
+      {"force:hysteresis", "-c*abs(x)*v/sqrt(v^2+v0^2)", "v0 = \"10 mm/s\"", 1, "N/m", true},
+      // Forms of no dictionary: a brake between two places, a stop that loses energy, a saw tooth, knocks,
+      // drag where x > 0 alone, a spring that the speed softens, a table drawn at random.
       {"force:brake between", "-c*v*(x>x0)*(x<x1)", "x0 = \"20 mm\", x1 = \"50 mm\"", 0.2, "N s/m"},
       {"force:lossy stop", "-c*max(x-x0,0)*(1+v/v0)", "x0 = \"60 mm\", v0 = \"200 mm/s\"", 5, "N/m"},
       {"force:saw tooth", "c*(t/T-rint(t/T))", "T = \"1.7 s\"", 0.1, "N"},
       {"force:knocks", "c*exp(-((t-T*rint(t/T))/w)^2)", "T = \"1.3 s\", w = \"30 ms\"", 0.2, "N"},
-      {"force:hysteresis", "-c*abs(x)*v/sqrt(v^2+v0^2)", "v0 = \"10 mm/s\"", 1, "N/m"},
+      {"force:drag on one side", "-c*v*abs(v)*(x>0)", "", 0.05, "N s^2/m^2"},
+      {"force:softened by the speed", "c*x*v^2", "", 1, "N s^2/m^3"},
       {"force:table", table_of_seven, "w = \"30 mm\"", 0.05, "N", false, true},
   };
   std::vector<Hideable> list;

@@ -159,7 +159,8 @@ ReportSection suspects_section(const Diagnosis& diagnosis) {
 const char* argument_of(ShapeOf of) {
   switch (of) {
     case ShapeOf::position:
-    case ShapeOf::damping_at_x: return "position of the box, m";
+    case ShapeOf::damping_at_x:
+    case ShapeOf::friction_at_x: return "position of the box, m";
     case ShapeOf::velocity: return "speed of the box, m/s";
     case ShapeOf::damping_at_t:
     case ShapeOf::stiffness_at_t:
@@ -173,6 +174,7 @@ const char* value_of(ShapeOf of) {
     case ShapeOf::damping_at_x:
     case ShapeOf::damping_at_t: return "damping, N s/m";
     case ShapeOf::stiffness_at_t: return "stiffness, N/m";
+    case ShapeOf::friction_at_x: return "friction, N";
     case ShapeOf::position:
     case ShapeOf::velocity:
     case ShapeOf::time: break;

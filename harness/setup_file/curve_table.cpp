@@ -55,12 +55,16 @@ class TableReader {
   void begin(std::string_view variable, std::string_view value) {
     if (variable.empty() || !std::isalpha(static_cast<unsigned char>(variable.front())) || !is_known(value))
       refuse(number_, "does not name its columns", "write the variable and " + value_ + ", e.g. x," + value_);
-    const std::string_view times = value == "damping" ? "-v*" : value == "stiffness" ? "-x*" : "";
-    formula_ = std::string(times) + "curve(" + std::string(variable);
+    formula_ = std::string(factor_of(value)) + "curve(" + std::string(variable);
+  }
+
+  /// What the curve is multiplied by to be a force.
+  static std::string_view factor_of(std::string_view value) {
+    return value == "damping" ? "-v*" : value == "stiffness" ? "-x*" : value == "friction" ? "-sign(v)*" : "";
   }
 
   bool is_known(std::string_view value) const {
-    return value == value_ || (value_ == "force" && (value == "damping" || value == "stiffness"));
+    return value == value_ || (value_ == "force" && !factor_of(value).empty());
   }
 
   double number_in(std::string_view cell) const {

@@ -263,6 +263,14 @@ TEST(SlowMomentum, AForceInNoListIsWrittenAsAFormula) {
   ASSERT_EQ(audit.formulas.size(), 1u);
   EXPECT_EQ(audit.formulas[0].formula, "-k*max(0,x-x0)");
   WITHIN(audit.formulas[0].constants[1].value, 0.06, 1.5e-3, 8e-5);
+
+  // Two variables: what a layered blade loses a turn, whatever the frequency.
+  what.force = [](double x, double v, double) { return -0.6 * std::abs(x) * std::tanh(v / 0.01); };
+  audit = audited(what, 5);
+  EXPECT_EQ(names(audit), "");
+  ASSERT_EQ(audit.formulas.size(), 1u);
+  EXPECT_EQ(audit.formulas[0].formula, "-c*sign(v)*abs(x)");
+  WITHIN(audit.formulas[0].constants[0].value, 0.6, 0.02, 0.005);
 }
 
 TEST(SlowMomentum, AWeakForceInNoListSaysWhatItCannotTell) {

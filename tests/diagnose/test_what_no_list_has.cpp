@@ -32,8 +32,8 @@ TEST(PointsOfAForce, AreThoseOfTheCurveThatExplainsMostAndAreReadAgain) {
 TEST(PointsOfAForce, NameWhatEachShapeDependsOnAndIs) {
   for (const auto& [shape, header] :
        {std::pair(ShapeOf::position, "x,force"), std::pair(ShapeOf::velocity, "v,force"),
-        std::pair(ShapeOf::time, "t,force"), std::pair(ShapeOf::damping_at_t, "t,damping"),
-        std::pair(ShapeOf::stiffness_at_t, "t,stiffness")})
+        std::pair(ShapeOf::time, "t,force"), std::pair(ShapeOf::friction_at_x, "x,friction"),
+        std::pair(ShapeOf::damping_at_t, "t,damping"), std::pair(ShapeOf::stiffness_at_t, "t,stiffness")})
     EXPECT_TRUE(points_of_force({{shape, {0}, {1}, {1}, 1, 1}}).starts_with(header)) << header;
 }
 

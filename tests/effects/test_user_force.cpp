@@ -198,7 +198,10 @@ TEST(UserForce, IsACurveThroughTheTableThatItIsGiven) {
   EXPECT_EQ(digest(again), digest(setup));
 }
 
-TEST(UserForce, TakesTablesOfDampingAndOfStiffness) {
+TEST(UserForce, TakesTablesOfDampingStiffnessAndFriction) {
+  const Physics rubbed = physics_of(Table("x,friction\n-0.1,2\n0.1,4\n").setup());
+  EXPECT_DOUBLE_EQ(rubbed.box.free[0].newton(0, 0.5, 3), -3);
+  EXPECT_DOUBLE_EQ(rubbed.box.free[0].newton(0.1, -0.5, 3), 4);
   const Physics brake = physics_of(Table("x,damping\n-0.1,2\n0.1,4\n").setup());
   EXPECT_DOUBLE_EQ(brake.box.free[0].newton(0, 0.5, 3), -1.5);
   const Physics spring = physics_of(Table("t,stiffness\n0,2\n4,4\n").setup());

@@ -64,6 +64,16 @@ void read_as_table(std::string_view bytes) {
   (void)digest(experiment);
 }
 
+void read_as_curve(std::string_view bytes) {
+  static const ScratchFolder folder;
+  as_file(folder, "curve.csv", bytes);
+  const Setup setup = parse_setup("[[effect]]\nname = \"user_force\"\ntable = \"curve.csv\"\n", "fuzz.toml",
+                                  all_effects(), {}, folder.path());
+  // The setup holds the points: it needs the table no more.
+  const Setup back = parse_setup(write_setup(setup), "again.toml", all_effects());
+  EXPECT(digest(back) == digest(setup));
+}
+
 void read_as_formula(std::string_view bytes) {
   try {
     const Formula formula(std::string(bytes), {{"k", 1.5}, {"x0", 0.1}});

@@ -19,6 +19,7 @@ void read_as_results(std::string_view bytes);  ///< of a sweep (SQLite)
 void read_as_report(std::string_view bytes);
 void read_as_baselines(std::string_view bytes);
 void read_as_sound(std::string_view bytes);
+void read_as_curve(std::string_view bytes);  ///< a table of user_force, which its setup then holds
 void read_as_words(std::string_view bytes);  ///< quantities, axes of sweeps, --set
 
 }  // namespace shakedown

@@ -36,7 +36,8 @@ constexpr std::array targets{
     FuzzTarget{"grains", refusing<read_as_grains>},   FuzzTarget{"log", refusing<read_as_log>},
     FuzzTarget{"journal", refusing<read_as_journal>}, FuzzTarget{"results", refusing<read_as_results>},
     FuzzTarget{"report", refusing<read_as_report>},   FuzzTarget{"baselines", refusing<read_as_baselines>},
-    FuzzTarget{"sound", refusing<read_as_sound>},     FuzzTarget{"words", refusing<read_as_words>}};
+    FuzzTarget{"sound", refusing<read_as_sound>},     FuzzTarget{"words", refusing<read_as_words>},
+    FuzzTarget{"curve", refusing<read_as_curve>}};
 
 }  // namespace
 

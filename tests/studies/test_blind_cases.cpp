@@ -72,6 +72,7 @@ double likeness_to_family(const Hideable& force, const ForceShape& shape, const 
           case ShapeOf::damping_at_t: offered[i] = -v * g(t); break;
           case ShapeOf::stiffness_at_t: offered[i] = -x * g(t); break;
           case ShapeOf::time: offered[i] = g(t); break;
+          case ShapeOf::friction_at_x: offered[i] = (v > 0 ? -1 : 1) * g(x); break;
         }
       }
       best = std::max(best, force_likeness(hidden, offered, motion.x_box));
