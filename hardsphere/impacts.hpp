@@ -77,7 +77,8 @@ class Impacts {
   static bool rubs(double closing, double elastic_below, double since);
   /// Whether contacts of this kind rub or resist rolling.
   bool touches_roughly(std::size_t kind) const {
-    return law_.friction[kind] > 0 || (law_.rolling_resistance[kind] > 0 && !spin_.empty());
+    return law_.rubs(static_cast<ContactClass>(kind)) ||
+           (law_.rolling_resistance[kind] > 0 && !spin_.empty());
   }
   double rub_pair(int i, int j, MeetingPair& pair, const NormalImpact& normal_impact);
   double roll_pair(int i, int j, MeetingPair& pair, const RollingContact& contact,
@@ -160,7 +161,8 @@ double Impacts<Scene>::rub_pair(int i, int j, MeetingPair& pair, const NormalImp
   const Vec3 felt = Vec3::Constant(normal_impact.reduced_mass / 3.5);
   if (law_.rolling_resistance[0] > 0)
     return roll_pair(i, j, pair, {.slip = -slip, .normal = normal, .mass = felt}, normal_impact);
-  const Friction friction = friction_impulse(slip, felt, law_.friction[0], law_, normal_impact);
+  const Friction friction =
+      friction_impulse(slip, felt, law_.friction_of(ContactClass::grain_grain, slip), law_, normal_impact);
   add(pair.a.v, -friction.impulse / ma);
   add(pair.b.v, friction.impulse / mb);
   spin_a += spin_change(normal, ra, ma, -friction.impulse);
@@ -181,7 +183,7 @@ double Impacts<Scene>::roll_pair(int i, int j, MeetingPair& pair, const RollingC
   rolling.turning -= rolling.turning.dot(contact.normal) * contact.normal;
   rolling.inertia = a * b / (a + b);
   rolling.coupling = ra / a - rb / b;
-  rolling.friction = law_.friction[0];
+  rolling.friction = law_.friction_of(ContactClass::grain_grain, contact.slip);
   rolling.rolling = law_.rolling_resistance[0] * ra * rb / (ra + rb);
   const RollingImpact impact = rolling_impact(rolling, law_, normal_impact);
   add(pair.a.v, impact.impulse / ma);
@@ -234,7 +236,8 @@ Friction Impacts<Scene>::rub_wall(int i, const Vec3& normal, const Vec3& slip, c
   const std::size_t kind = normal.x() != 0 ? 1 : 2;
   if (law_.rolling_resistance[kind] > 0)
     return roll_on_wall(i, {.slip = slip, .normal = normal, .mass = mass}, normal_impact);
-  const Friction friction = friction_impulse(slip, mass, law_.friction[kind], law_, normal_impact);
+  const Friction friction = friction_impulse(
+      slip, mass, law_.friction_of(static_cast<ContactClass>(kind), slip), law_, normal_impact);
   spin_[static_cast<std::size_t>(i)] +=
       spin_change(normal, scene_.grains.radius(i), scene_.grains.mass(i), friction.impulse);
   return friction;
@@ -251,7 +254,7 @@ Friction Impacts<Scene>::roll_on_wall(int i, const RollingContact& contact,
   rolling.turning = spin - spin.dot(contact.normal) * contact.normal;
   rolling.inertia = inertia_of(mass, radius);
   rolling.coupling = radius / rolling.inertia;
-  rolling.friction = law_.friction[kind];
+  rolling.friction = law_.friction_of(static_cast<ContactClass>(kind), contact.slip);
   rolling.rolling = law_.rolling_resistance[kind] * radius;
   const RollingImpact impact = rolling_impact(rolling, law_, normal_impact);
   spin += spin_change(contact.normal, radius, mass, impact.impulse) + impact.turning / rolling.inertia;

@@ -151,6 +151,8 @@ class Merge {
                                     contact.reduced_mass, model_.contact_time);
     contact.dashpot = 2 * part_of_step_inside(contact.overlap, rate, step_);
     contact.stretch.setZero();
+    if (rubs(model_, contact))
+      contact.friction = model_.law.friction_of(contact.kind, slip_velocity(bodies_, contact));
     ++found_.touches[static_cast<std::size_t>(contact.kind)];
   }
 

@@ -19,6 +19,7 @@ struct Contact {
   double overlap = 0;          ///< m, negative: a gap bridged by attraction
   double reduced_mass = 0;     ///< kg
   double closing_speed = 0;    ///< m/s, at first touch
+  double friction = 0;         ///< Coulomb coefficient of the slip at first touch
   SpringDashpot spring;
   bool touching = false;
   bool over = false;  ///< separated in this step; leaves after the closing half kick

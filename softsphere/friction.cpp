@@ -49,9 +49,7 @@ Vec3 slip_velocity(const Bodies& bodies, const Contact& contact) {
   return velocity - velocity.dot(contact.normal) * contact.normal;
 }
 
-bool rubs(const ContactModel& model, const Contact& contact) {
-  return model.law.friction[static_cast<std::size_t>(contact.kind)] > 0;
-}
+bool rubs(const ContactModel& model, const Contact& contact) { return model.law.rubs(contact.kind); }
 
 void stretch_tangentially(const Bodies& bodies, double time, Contact& contact) {
   if (!contact.touching) {
@@ -71,8 +69,7 @@ void set_friction(const ContactModel& model, const Bodies& bodies, Contact& cont
   if (!contact.touching || !rubs(model, contact)) return;
   const Vec3 force =
       -tangential_stiffness(model, contact) * contact.stretch + dashpot_force(model, bodies, contact);
-  const double limit =
-      model.law.friction[static_cast<std::size_t>(contact.kind)] * std::max(contact.elastic_force, 0.0);
+  const double limit = contact.friction * std::max(contact.elastic_force, 0.0);
   const double size = force.norm();
   contact.sliding = size > limit;
   contact.tangential_force = contact.sliding ? Vec3(force * (limit / size)) : force;

@@ -65,44 +65,69 @@ FitOptions usual_fit_options() {
 
 namespace {
 
-Setup with_curve(const FitQuestion& asked, const Setup& setup) {
-  return asked.curve_of.empty() ? setup : with_restitution_curve(setup, asked.curve_of, all_effects());
+struct AskedCurve {
+  const CurveLaw* law;
+  std::string contacts;
+};
+
+std::vector<AskedCurve> curves_asked(const FitQuestion& asked) {
+  std::vector<AskedCurve> curves;
+  if (!asked.restitution_curve.empty())
+    curves.push_back({&restitution_against_speed(), asked.restitution_curve});
+  if (!asked.friction_curve.empty()) curves.push_back({&friction_against_slip(), asked.friction_curve});
+  return curves;
 }
 
-/// `setup`: with its curve.
+Setup with_curves(const FitQuestion& asked, Setup setup) {
+  for (const AskedCurve& curve : curves_asked(asked))
+    setup = with_contact_curve(*curve.law, setup, curve.contacts, all_effects());
+  return setup;
+}
+
+/// `setup`: with its curves.
 std::vector<Knob> knobs_asked(const FitQuestion& asked, const Setup& setup) {
   std::vector<Knob> knobs = free_parameters(asked.free, setup, all_effects());
-  if (asked.curve_of.empty()) return knobs;
-  for (Knob& knob : knobs_of_curve(setup, all_effects())) knobs.push_back(std::move(knob));
+  for (const AskedCurve& curve : curves_asked(asked))
+    for (Knob& knob : knobs_of_curve(*curve.law, setup, all_effects())) knobs.push_back(std::move(knob));
   return knobs;
 }
 
 Fit fitted_by_ensembles(const Setup& setup, const Measurement& measurement, const FitQuestion& asked,
                         const Engine& engine, const FitOptions& options) {
-  const std::vector<Knob> knobs = knobs_asked(asked, setup);
+  std::vector<Knob> knobs = knobs_asked(asked, setup);
   Fit fit = fit_parameters(setup, measurement, knobs, engine, options);
-  if (asked.curve_of.empty()) return fit;
-  if (const std::optional<std::vector<Knob>> held = held_to_one_side(knobs, values_of(fit), all_effects()))
-    fit = fit_parameters(setup, measurement, *held, engine, options);
-  fit.curve = curve_of(fit, all_effects());
+  const std::vector<AskedCurve> curves = curves_asked(asked);
+  if (curves.empty()) return fit;
+  bool turns = false;
+  for (const AskedCurve& curve : curves)
+    if (std::optional<std::vector<Knob>> held =
+            held_to_one_side(*curve.law, knobs, values_of(fit), all_effects())) {
+      knobs = std::move(*held);
+      turns = true;
+    }
+  if (turns) fit = fit_parameters(setup, measurement, knobs, engine, options);
+  for (const AskedCurve& curve : curves) fit.curves.push_back(curve_of(*curve.law, fit, all_effects()));
+  const Fit level =
+      fit_parameters(setup, measurement, free_parameters(asked.free, setup, all_effects()), engine, options);
+  fit.constant = {level.p_value, level.scatter, level.judgement.holds()};
   return fit;
 }
 
 }  // namespace
 
 void check(const FitQuestion& asked, const Setup& setup) {
-  (void)knobs_asked(asked, with_curve(asked, setup));
+  (void)knobs_asked(asked, with_curves(asked, setup));
 }
 
 Fit fitted_and_judged(const Setup& given, const Measurement& recorded, const FitQuestion& asked,
                       const Engine& engine, const FitOptions& options) {
-  const Setup setup = with_curve(asked, given);
+  const Setup setup = with_curves(asked, given);
   const std::vector<Knob> knobs = knobs_asked(asked, setup);
   refuse_unknown_runs(recorded, options.on);
   if (is_empty(setup, recorded))
     if (std::optional<Fit> fit = by_waveform(setup, recorded, knobs, options)) return std::move(*fit);
   const Measurement measurement = from_first_turns(
-      asked.curve_of.empty() ? recorded : with_setup(recorded, setup, all_effects()), engine);
+      curves_asked(asked).empty() ? recorded : with_setup(recorded, setup, all_effects()), engine);
   Fit found = fitted_by_ensembles(setup, measurement, asked, engine, options);
   const MomentumAudit balance =
       audit_momentum(with_setup(measurement, found.fitted, all_effects()), all_effects());

@@ -12,10 +12,10 @@ namespace shakedown {
 FitOptions usual_fit_options();
 
 /// What is to be fitted: keys ("restitution.grain_grain,spring.frequency"; those joined by & move together),
-/// and restitution as a free function of the closing speed of these contacts (restitution_curve.hpp; empty:
+/// and restitution or friction as a free function of a speed, of these contacts (contact_curve.hpp; empty:
 /// not).
 struct FitQuestion {
-  std::string free, curve_of{};
+  std::string free, restitution_curve{}, friction_curve{};
 };
 
 /// Throws InputError for what cannot be fitted.

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "candidates.hpp"
+#include "contact_curve.hpp"
 #include "decay_comparison.hpp"
 #include "evidence.hpp"
 #include "momentum.hpp"
 #include "refit.hpp"
-#include "restitution_curve.hpp"
 
 namespace shakedown {
 
@@ -55,7 +55,7 @@ struct LadderStep {
 
 /// Restitution as a free function of the closing speed, beside a model that no known effect mends.
 struct FreeRestitution {
-  RestitutionCurve curve;
+  ContactCurve curve;
   Setup setup;               ///< with the effect user_restitution and what else was fitted, ready to try
   LadderStep without, with;  ///< the model that fails, and the same with the curve
 };

@@ -70,7 +70,7 @@ std::string restitution_to_try(const Setup& setup) {
       "the "
       "setup):\n",
       setup.restitution.grain_grain, setup.restitution.grain_wall);
-  std::stringstream lines(curve_as_toml(setup));
+  std::stringstream lines(curve_as_toml(restitution_against_speed(), setup));
   for (std::string line; std::getline(lines, line);) text += "    " + line + "\n";
   return text;
 }

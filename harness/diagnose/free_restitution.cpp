@@ -21,7 +21,7 @@ constexpr const char* stage = "restitution as a function of speed";
 /// The model with a level curve in place of its own law, and its strength gone from the knobs.
 DiagnosisState with_curve(const DiagnosisState& failing, std::span<const EffectRecord* const> known) {
   DiagnosisState state = is_led_astray(failing) ? as_believed(failing) : failing;
-  state.setup = with_restitution_curve(state.setup, "all", known);
+  state.setup = with_contact_curve(restitution_against_speed(), state.setup, "all", known);
   std::erase_if(state.found, [&](const Knob& knob) {
     const std::string key = joined_keys(knob.key).front();
     return find_choice(state.setup, effect_of(key)) == nullptr;
@@ -55,22 +55,23 @@ std::string mm(double metres) { return fmt::format("{:.2f} mm", 1e3 * metres); }
 FreeRestitution free_restitution_beside(const DiagnosisState& failing, DiagnosisTools& tools) {
   const std::span<const EffectRecord* const> known = tools.known();
   const DiagnosisState state = with_curve(failing, known);
-  const std::vector<Knob> curve = knobs_of_curve(state.setup, known);
+  const std::vector<Knob> curve = knobs_of_curve(restitution_against_speed(), state.setup, known);
   const auto fitted = [&](const std::vector<Knob>& of_curve) {
     return tools.fit(state, stage, together(state.knobs(), of_curve), effort::attempt, &failing.fit);
   };
   Refit fit = fitted(curve);
-  if (const std::optional<std::vector<Knob>> held = held_to_one_side(curve, fit.values, known))
+  if (const std::optional<std::vector<Knob>> held =
+          held_to_one_side(restitution_against_speed(), curve, fit.values, known))
     fit = fitted(*held);
   Setup setup = setup_at(state.setup, fit, known);
-  RestitutionCurve told = restitution_curve(setup, fit.values, fit.covariance, known);
+  ContactCurve told = contact_curve(restitution_against_speed(), setup, fit.values, fit.covariance, known);
   return {std::move(told), std::move(setup), step_of("without a curve of restitution", failing.fit),
           step_of("with a curve of restitution", fit)};
 }
 
 void offer_free_restitution(const Setup& user, const DiagnosisState& failing, DiagnosisTools& tools,
                             Diagnosis& d) {
-  const EffectRecord* record = restitution_formula(tools.known());
+  const EffectRecord* record = formula_for(restitution_against_speed(), tools.known());
   if (record == nullptr || !allowed(tools.options(), std::string(record->name))) return;
   if (tools.workshop().engine->can_model(*record).fidelity == Fidelity::not_modelled) return;
   try {

@@ -6,7 +6,7 @@
 
 namespace shakedown {
 
-/// Fits a curve of restitution (likelihood/restitution_curve.hpp) in place of the model's own law, everything
+/// Fits a curve of restitution (likelihood/contact_curve.hpp) in place of the model's own law, everything
 /// else free as before; a curve that turns is held to one side and fitted again. Throws BudgetSpent,
 /// PhysicsError, InputError where the setup has no range of speeds.
 FreeRestitution free_restitution_beside(const DiagnosisState& failing, DiagnosisTools& tools);

@@ -43,7 +43,8 @@
   EFFECT(camera_depth)                   \
   EFFECT(camera_origin)                  \
   EFFECT(user_force)                     \
-  EFFECT(user_restitution)
+  EFFECT(user_restitution)               \
+  EFFECT(user_friction)
 
 namespace shakedown {
 

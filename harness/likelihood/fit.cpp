@@ -233,6 +233,18 @@ Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance) {
   return correlation;
 }
 
+namespace {
+
+/// In the units of the values.
+Eigen::MatrixXd covariance_of(const Fit& fit) {
+  Eigen::VectorXd error(std::ssize(fit.parameters));
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k)
+    error[static_cast<Eigen::Index>(k)] = fit.parameters[k].error;
+  return error.asDiagonal() * fit.correlation * error.asDiagonal();
+}
+
+}  // namespace
+
 std::vector<FittedValue> values_of(const Fit& fit) {
   std::vector<FittedValue> values;
   for (const FittedParameter& p : fit.parameters)
@@ -240,12 +252,8 @@ std::vector<FittedValue> values_of(const Fit& fit) {
   return values;
 }
 
-RestitutionCurve curve_of(const Fit& fit, std::span<const EffectRecord* const> known) {
-  Eigen::VectorXd error(std::ssize(fit.parameters));
-  for (std::size_t k = 0; k < fit.parameters.size(); ++k)
-    error[static_cast<Eigen::Index>(k)] = fit.parameters[k].error;
-  return restitution_curve(fit.fitted, values_of(fit),
-                           error.asDiagonal() * fit.correlation * error.asDiagonal(), known);
+ContactCurve curve_of(const CurveLaw& law, const Fit& fit, std::span<const EffectRecord* const> known) {
+  return contact_curve(law, fit.fitted, values_of(fit), covariance_of(fit), known);
 }
 
 Fit fit_parameters(const Setup& setup, const Measurement& measurement, std::vector<Knob> knobs,

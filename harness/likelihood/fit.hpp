@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "contact_curve.hpp"
 #include "refit.hpp"
-#include "restitution_curve.hpp"
 
 namespace shakedown {
 
@@ -31,6 +31,12 @@ struct FittedParameter {
   std::string remark;                              ///< why not, or with what it is confounded
 };
 
+/// What a constant in place of each curve leaves, everything else as free.
+struct ConstantBeside {
+  double p_value = 1, scatter = 1;  ///< as of the fit
+  bool holds = false;               ///< by the runs used
+};
+
 struct Fit {
   std::vector<FittedParameter> parameters;
   Eigen::MatrixXd correlation;             ///< of the estimates
@@ -43,10 +49,11 @@ struct Fit {
   double scatter = 1;  ///< misfit over that of the model's own runs
   /// Of the fitted model; by the runs used alone where nobody has asked the momentum balance too.
   ModelJudgement judgement;
-  Setup start;  ///< from which it began, with a curve where one was asked for
+  Setup start;  ///< from which it began, with the curves that were asked for
   Setup fitted;
-  std::optional<RestitutionCurve> curve{};  ///< where restitution was a free function of the speed
-  std::int64_t runs = 0;                    ///< simulated
+  std::vector<ContactCurve> curves{};        ///< where restitution or friction was a free function of a speed
+  std::optional<ConstantBeside> constant{};  ///< of a fit with curves
+  std::int64_t runs = 0;                     ///< simulated
   double seconds = 0;
 };
 
@@ -68,8 +75,12 @@ Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance);
 /// The parameters as a fit by ensembles has them.
 std::vector<FittedValue> values_of(const Fit& fit);
 
-/// Restitution against closing speed with its band, by the parameters of the fit.
-RestitutionCurve curve_of(const Fit& fit, std::span<const EffectRecord* const> known);
+/// The coefficient against its speed with its band, by the parameters of the fit.
+ContactCurve curve_of(const CurveLaw& law, const Fit& fit, std::span<const EffectRecord* const> known);
+
+/// Whether the measurements tell that what has a curve depends on the speed: where a constant holds they do
+/// not. Empty without a curve.
+std::string words_of_constant(const Fit& fit);
 
 std::string fit_json(const Fit& fit);
 std::string fit_text(const Fit& fit);

@@ -46,6 +46,26 @@ std::string runs_text(const std::string& title, const std::vector<RunComparison>
 
 }  // namespace
 
+std::string words_of_constant(const Fit& fit) {
+  if (!fit.constant) return "";
+  std::string what, speeds;
+  for (const ContactCurve& curve : fit.curves) {
+    what += (what.empty() ? "" : " or ") + std::string(curve.law->coefficient);
+    speeds += (speeds.empty() ? "" : " or ") + std::string(curve.law->speed);
+  }
+  const std::string leaves = fmt::format("{:.2f} times the misfit of its own runs, p = {:.3f}",
+                                         fit.constant->scatter, fit.constant->p_value);
+  if (fit.constant->holds)
+    return fmt::format("the measurements do not tell whether {} depends on the {}: a constant holds too ({})",
+                       what, speeds, leaves);
+  return fit.judgement.holds()
+             ? fmt::format("the measurements tell that {} depends on the {}: a constant fails ({})", what,
+                           speeds, leaves)
+             : fmt::format(
+                   "neither {} that depends on the {} nor a constant is what is missing: both fail ({})",
+                   what, speeds, leaves);
+}
+
 std::string fit_json(const Fit& fit) {
   Json parameters = Json::array(), correlation = Json::array();
   for (const FittedParameter& p : fit.parameters)
@@ -74,7 +94,12 @@ std::string fit_json(const Fit& fit) {
                 {"runs_left_out", runs_json(fit.left_out)},
                 {"simulations", fit.runs},
                 {"setup", write_setup(fit.fitted)}};
-  if (fit.curve) document["restitution_curve"] = Json::parse(curve_json(*fit.curve));
+  for (const ContactCurve& curve : fit.curves)
+    document[std::string(curve.law->coefficient) + "_curve"] = Json::parse(curve_json(curve));
+  if (fit.constant)
+    document["constant_in_place_of_curve"] = {{"p_value", fit.constant->p_value},
+                                              {"scatter", fit.constant->scatter},
+                                              {"holds", fit.constant->holds}};
   explain_missing_numbers(document, [](const std::string& path) -> std::string {
     if (path == "/p_value") return "an empty box has no ensembles: its waveform is judged";
     if (path.ends_with("com_mm")) return "the grains' centre was not tracked";
@@ -96,7 +121,9 @@ std::string fit_text(const Fit& fit) {
       text +=
           fmt::format("  correlation of {} and {}: {:.2f}\n", fit.parameters[static_cast<std::size_t>(j)].key,
                       fit.parameters[static_cast<std::size_t>(i)].key, fit.correlation(i, j));
-  if (fit.curve) text += "  restitution " + words_of(*fit.curve) + "\n";
+  for (const ContactCurve& curve : fit.curves)
+    text += "  " + std::string(curve.law->coefficient) + " " + words_of(curve) + "\n";
+  if (fit.constant) text += "  " + words_of_constant(fit) + "\n";
   if (std::isfinite(fit.p_value))
     text += fmt::format("  misfit {:.2f} times that of the model's own runs, p = {:.3f}\n", fit.scatter,
                         fit.p_value);

@@ -76,12 +76,20 @@ struct ContactLaw {
   }
 
   std::array<double, contact_classes> friction{0, 0, 0};  ///< Coulomb coefficient
+  /// Coefficient at a slip speed (m/s) of the touching points at first touch, and the constant above; empty:
+  /// the constant.
+  std::function<double(ContactClass, double slip_speed, double constant)> friction_at;
+  double friction_of(ContactClass kind, const Vec3& slip) const {
+    const double constant = friction[static_cast<std::size_t>(kind)];
+    return friction_at ? friction_at(kind, slip.norm(), constant) : constant;
+  }
+  bool rubs(ContactClass kind) const { return friction_at || friction[static_cast<std::size_t>(kind)] > 0; }
   double tangential_restitution = 1;  ///< slip reversed times this where friction suffices
   /// Tangential spring over the normal one. With 2/7 the slip of solid spheres has turned round when the
   /// contact ends.
   double stiffness_ratio = turning_ratio;
   static constexpr double turning_ratio = 2.0 / 7;
-  bool has_friction() const { return friction[0] > 0 || friction[1] > 0 || friction[2] > 0; }
+  bool has_friction() const { return friction_at || friction[0] > 0 || friction[1] > 0 || friction[2] > 0; }
 
   /// Torque against the relative rolling over reduced radius times normal force. Grains roll where there is
   /// friction: without it nothing turns them.

@@ -95,8 +95,8 @@ Answer diagnosed(const Setup& setup, const Experiment& experiment, const Diagnos
 }
 
 struct FitAsked {
-  std::string free, curve_of;   ///< as on the command line
-  std::vector<std::string> on;  ///< names of runs; none: all
+  std::string free, restitution_curve, friction_curve;  ///< as on the command line
+  std::vector<std::string> on;                          ///< names of runs; none: all
   int runs = 160, threads = 0;
 };
 
@@ -104,7 +104,7 @@ Answer fitted(const Setup& setup, const Experiment& experiment, const FitAsked& 
               const py::object& listener) {
   const std::shared_ptr<const Question> asked = question_of(setup, experiment);
   const std::shared_ptr<const Engine> engine = shared_engine("hard");
-  const FitQuestion question{how.free, how.curve_of};
+  const FitQuestion question{how.free, how.restitution_curve, how.friction_curve};
   check(question, asked->setup);  // throws before long work
   const auto work = [&](ToldProgress& told, const std::atomic<bool>* stop) {
     FitOptions options = usual_fit_options();
@@ -143,7 +143,7 @@ void bind_judgement(py::module_& module) {
       .def(py::init<std::vector<std::string>, std::vector<std::string>, std::int64_t, double, int>());
   module.def("diagnose", &diagnosed);
   py::class_<FitAsked>(module, "FitAsked")
-      .def(py::init<std::string, std::string, std::vector<std::string>, int, int>());
+      .def(py::init<std::string, std::string, std::string, std::vector<std::string>, int, int>());
   module.def("fit", &fitted);
   py::class_<DropQuestion>(module, "DropQuestion")
       .def(py::init<>())

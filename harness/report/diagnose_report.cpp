@@ -8,12 +8,12 @@
 
 #include "answer_sections.hpp"
 #include "compare_report.hpp"
+#include "contact_curve_section.hpp"
 #include "effects.hpp"
 #include "known_effects.hpp"
 #include "noise_section.hpp"
 #include "page_figures.hpp"
 #include "report_parts.hpp"
-#include "restitution_section.hpp"
 #include "text.hpp"
 
 namespace shakedown {
@@ -279,9 +279,10 @@ Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, con
   if (!curves.empty()) report.sections.push_back(failing_cells(diagnosis, failure_section(curves)));
   if (!diagnosis.ranking.empty()) report.sections.push_back(suspects_section(diagnosis));
   if (diagnosis.free_restitution) {
-    report.sections.push_back(restitution_section(diagnosis.free_restitution->curve));
-    report.sections.back().list = {"Ready for the setup: " +
-                                   curve_as_toml(diagnosis.free_restitution->setup)};
+    report.sections.push_back(contact_curve_section(diagnosis.free_restitution->curve));
+    report.sections.back().list = {
+        "Ready for the setup: " +
+        curve_as_toml(restitution_against_speed(), diagnosis.free_restitution->setup)};
   }
   report.sections.push_back(momentum_section(diagnosis.momentum));
   if (!curves.empty()) report.sections.push_back(energy_section(curves));

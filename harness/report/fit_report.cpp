@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "compare_report.hpp"
+#include "contact_curve_section.hpp"
 #include "page_figures.hpp"
 #include "quantity.hpp"
 #include "report_parts.hpp"
-#include "restitution_section.hpp"
 
 namespace shakedown {
 
@@ -103,7 +103,10 @@ Report report_of(const Fit& fit, const Measurement& measurement,
   report.facts = facts_of_fit(fit);
   report.replays = replays_of(curves);
   report.sections = {curves_section(curves, "Measured against model"), fitted_section(fit)};
-  if (fit.curve) report.sections.push_back(restitution_section(*fit.curve));
+  for (const ContactCurve& curve : fit.curves) {
+    report.sections.push_back(contact_curve_section(curve));
+    report.sections.back().paragraphs.push_back("Without a curve: " + words_of_constant(fit) + ".");
+  }
   report.sections.push_back(errors_section("Runs fitted", fit.used));
   if (!fit.left_out.empty())
     report.sections.push_back(errors_section("Runs left out, foretold", fit.left_out));

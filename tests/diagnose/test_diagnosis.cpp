@@ -127,7 +127,7 @@ TEST(SlowDiagnosis, WhatLiesInTheContactsIsOfferedAsACurve) {
   const FreeRestitution& found = *d.free_restitution;
   EXPECT_LT(found.with.error_box, found.without.error_box / 2);
   EXPECT_LT(found.with.error_box, 2 * found.with.floor_box);
-  EXPECT_LT(found.curve.grains.restitution.front(), found.curve.grains.restitution.back() - 0.1);
+  EXPECT_LT(found.curve.grains.value.front(), found.curve.grains.value.back() - 0.1);
   EXPECT_NE(d.sentence.find("it rises from"), std::string::npos) << d.sentence;
   EXPECT_NE(diagnosis_text(d).find("name = \"user_restitution\""), std::string::npos);
   EXPECT_NE(diagnosis_json(d).find("\"restitution_curve\""), std::string::npos);

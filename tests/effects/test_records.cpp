@@ -291,7 +291,8 @@ TEST(RecordList, KeepsTheNamesOnceGiven) {
                                       "camera_depth",
                                       "camera_origin",
                                       "user_force",
-                                      "user_restitution"})
+                                      "user_restitution",
+                                      "user_friction"})
     EXPECT_NE(find_effect(name), nullptr) << name;
 }
 

@@ -62,7 +62,8 @@ class DiagnosisAsked:
     def __init__(self, effects: list[str], fixed: list[str], budget: int, seconds: float, threads: int) -> None: ...
 
 class FitAsked:
-    def __init__(self, free: str, curve_of: str, on: list[str], runs: int, threads: int) -> None: ...
+    def __init__(self, free: str, restitution_curve: str, friction_curve: str, on: list[str],
+                 runs: int, threads: int) -> None: ...
 
 class DropQuestion:
     files: list[str]

@@ -90,7 +90,7 @@ def diagnose(setup: SetupLike, data: MeasurementLike, *, effects: Sequence[str] 
 
 
 def fit(setup: SetupLike, data: MeasurementLike, free: Union[str, Sequence[str]], *, on: Sequence[str] = (),
-        restitution_curve: str = "", runs: int = 160, threads: int = 0, progress: Progress = None) -> Fit:
+        restitution_curve: str = "", friction_curve: str = "", runs: int = 160, threads: int = 0, progress: Progress = None) -> Fit:
     """Parameters of the model from measurements, and the error on runs left out.
 
     free   keys to fit, starting at the setup's values; keys joined by & move together
@@ -98,12 +98,14 @@ def fit(setup: SetupLike, data: MeasurementLike, free: Union[str, Sequence[str]]
     runs   simulations of each different setup in a round, from 32
     restitution_curve  "all", "grains" or "walls": restitution of these contacts as a free function of the closing
                        speed, fitted too
+    friction_curve     "all", "grains" or "walls": friction of these contacts as a free function of the slip speed,
+                       fitted too
 
     Raises InputError for a key that cannot be fitted, KeyboardInterrupt.
     """
     of, measured = as_setup(setup), _measured(data)
     keys = free if isinstance(free, str) else ",".join(free)
-    asked = _core.FitAsked(keys, restitution_curve, list(on), _whole("runs", runs, 32, 100000),
+    asked = _core.FitAsked(keys, restitution_curve, friction_curve, list(on), _whole("runs", runs, 32, 100000),
                            _whole("threads", threads, 0, 1024))
     return Fit(_core.fit(of._setup, measured._experiment, asked, progress), measured.name)
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "restitution_curve.hpp"
+#include "contact_curve.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "errors.hpp"
@@ -48,31 +49,37 @@ std::string height(int point) {
   return text;
 }
 
-bool is_restitution_formula(const EffectRecord& record) {
-  return record.acts_on == ActsOn::contact && record.takes_formula();
+bool takes_curve(const CurveLaw& law, const EffectRecord& record) {
+  return record.acts_on == ActsOn::contact && record.takes_formula() &&
+         record.find(law.coefficient) != nullptr;
 }
 
-const EffectRecord& formula_or_refuse(Known known) {
-  const EffectRecord* record = restitution_formula(known);
+const EffectRecord& formula_or_refuse(const CurveLaw& law, Known known) {
+  const EffectRecord* record = formula_for(law, known);
   EXPECT(record != nullptr);
   return *record;
 }
 
-std::string formula_through(const std::vector<double>& speeds) {
+/// "user_restitution.constants.", with which the keys of the falls begin.
+std::string constants_of(const CurveLaw& law, Known known) {
+  return key_of(formula_or_refuse(law, known), ParameterKind::constants) + ".";
+}
+
+std::string formula_through(const CurveLaw& law, const std::vector<double>& speeds) {
   const double at = speeds[static_cast<std::size_t>(reference)];
-  std::string text = "e*curve(ln(v/" + fmt::format("{:.4g}", at) + ")";
+  std::string text = std::string(law.symbol) + "*curve(ln(v/" + fmt::format("{:.4g}", at) + ")";
   for (int i = 0; i < points; ++i)
     text += fmt::format(", {:.4g}, {}", std::log(speeds[static_cast<std::size_t>(i)] / at), height(i));
   return text + ")";
 }
 
-/// Restitutions of both kinds of contact at these speeds, one after the other.
-Eigen::VectorXd restitutions_of(const Setup& setup, const std::vector<double>& speeds) {
+/// Coefficients of both kinds of contact at these speeds, one after the other.
+Eigen::VectorXd coefficients_of(const CurveLaw& law, const Setup& setup, const std::vector<double>& speeds) {
   const Physics physics = physics_of(setup);
   Eigen::VectorXd list(2 * std::ssize(speeds));
   Eigen::Index i = 0;
   for (const ContactClass kind : {ContactClass::grain_grain, ContactClass::end_wall})
-    for (const double speed : speeds) list[i++] = physics.contact.restitution_of(kind, speed);
+    for (const double speed : speeds) list[i++] = law.of(physics.contact, kind, speed);
   return list;
 }
 
@@ -82,15 +89,15 @@ Setup moved(Setup setup, const std::string& keys, double by, Known known) {
   return setup;
 }
 
-/// Change of the restitutions for one standard error of this value, to the side where it changes more: no
-/// restitution goes beyond 1, and no key beyond its bounds.
-Eigen::VectorXd change_by(const FittedValue& value, const Setup& fitted, const std::vector<double>& speeds,
-                          Known known) {
-  const Eigen::VectorXd here = restitutions_of(fitted, speeds);
+/// Change of the coefficients for one standard error of this value, to the side where it changes more: no
+/// coefficient goes beyond its bounds, and no key.
+Eigen::VectorXd change_by(const CurveLaw& law, const FittedValue& value, const Setup& fitted,
+                          const std::vector<double>& speeds, Known known) {
+  const Eigen::VectorXd here = coefficients_of(law, fitted, speeds);
   Eigen::VectorXd most = Eigen::VectorXd::Zero(here.size());
   for (const double side : {1.0, -1.0}) try {
       const Eigen::VectorXd change =
-          side * (restitutions_of(moved(fitted, value.key, side * value.error, known), speeds) - here);
+          side * (coefficients_of(law, moved(fitted, value.key, side * value.error, known), speeds) - here);
       most = (change.array().abs() > most.array().abs()).select(change, most);
     } catch (const InputError&) {
     }
@@ -99,9 +106,9 @@ Eigen::VectorXd change_by(const FittedValue& value, const Setup& fitted, const s
 
 /// What the law may differ by from the curve between two of its points, one standard deviation: half of what
 /// a step at an unknown place between them makes.
-Eigen::VectorXd between_points(const Setup& fitted, const std::vector<double>& speeds) {
+Eigen::VectorXd between_points(const CurveLaw& law, const Setup& fitted, const std::vector<double>& speeds) {
   const std::vector<double> points_at = speeds_of_curve(fitted);
-  const Eigen::VectorXd heights = restitutions_of(fitted, points_at);
+  const Eigen::VectorXd heights = coefficients_of(law, fitted, points_at);
   Eigen::VectorXd error(2 * std::ssize(speeds));
   for (Eigen::Index i = 0; i < error.size(); ++i) {
     const bool of_walls = i >= std::ssize(speeds);
@@ -115,8 +122,8 @@ Eigen::VectorXd between_points(const Setup& fitted, const std::vector<double>& s
   return error;
 }
 
-std::string words_of(const RestitutionBand& band, const std::vector<double>& speed, const char* of) {
-  const double first = band.restitution.front(), last = band.restitution.back();
+std::string words_of(const ContactBand& band, const std::vector<double>& speed, const char* of) {
+  const double first = band.value.front(), last = band.value.back();
   constexpr double level = 5e-3;  // the last digit that is told
   const auto at = [](double v) { return write_quantity(std::round(v * 1e3) / 1e3, "m/s"); };
   if (std::abs(first - last) < level) return fmt::format("stays at {:.2f} ({})", last, of);
@@ -126,21 +133,49 @@ std::string words_of(const RestitutionBand& band, const std::vector<double>& spe
 
 }  // namespace
 
-const EffectRecord* restitution_formula(Known known) {
+const CurveLaw& restitution_against_speed() {
+  static const CurveLaw law{.coefficient = "restitution",
+                            .speed = "closing speed",
+                            .symbol = "e",
+                            .highest = 1,
+                            .believed = 0.15,
+                            .steepest_rise = -0.4,
+                            .steepest_fall = 0.5,
+                            .of = [](const ContactLaw& contact, ContactClass kind, double speed) {
+                              return contact.restitution_of(kind, speed);
+                            }};
+  return law;
+}
+
+const CurveLaw& friction_against_slip() {
+  static const CurveLaw law{.coefficient = "friction",
+                            .speed = "slip speed",
+                            .symbol = "mu",
+                            .highest = std::numeric_limits<double>::infinity(),
+                            .believed = 0.25,
+                            .steepest_rise = -0.45,
+                            .steepest_fall = 0.75,
+                            .of = [](const ContactLaw& contact, ContactClass kind, double speed) {
+                              return contact.friction_of(kind, Vec3(speed, 0, 0));
+                            }};
+  return law;
+}
+
+const EffectRecord* formula_for(const CurveLaw& law, Known known) {
   for (const EffectRecord* record : known)
-    if (is_restitution_formula(*record)) return record;
+    if (takes_curve(law, *record)) return record;
   return nullptr;
 }
 
-std::vector<std::string_view> contacts_of_a_curve(Known known) {
-  return parameter_of_kind(formula_or_refuse(known), ParameterKind::choice).choices;
+std::vector<std::string_view> contacts_of_a_curve(const CurveLaw& law, Known known) {
+  return parameter_of_kind(formula_or_refuse(law, known), ParameterKind::choice).choices;
 }
 
 std::vector<double> speeds_of_curve(const Setup& setup) {
   const double top = 2 * std::numbers::pi * setup.spring.frequency * std::abs(setup.release.displacement);
   if (!(top > 0) || setup.grains.count == 0)
     throw InputError({{{},
-                       "restitution curve",
+                       "contact curve",
                        "has no range of speeds (nothing is let go, or there are no grains)",
                        "give a setup with grains whose box is let go"}});
   std::vector<double> speeds{slowest * top};
@@ -148,50 +183,52 @@ std::vector<double> speeds_of_curve(const Setup& setup) {
   return speeds;
 }
 
-Setup with_restitution_curve(const Setup& setup, const std::string& contacts, Known known) {
-  const EffectRecord& record = formula_or_refuse(known);
-  const std::vector<std::string_view> possible = contacts_of_a_curve(known);
+Setup with_contact_curve(const CurveLaw& law, const Setup& setup, const std::string& contacts, Known known) {
+  const EffectRecord& record = formula_or_refuse(law, known);
+  const std::string option = "--" + std::string(law.coefficient) + "-curve";
+  const std::vector<std::string_view> possible = contacts_of_a_curve(law, known);
   if (std::find(possible.begin(), possible.end(), contacts) == possible.end())
-    throw InputError({{{"--restitution-curve", 0, 0},
-                       contacts,
-                       "is no kind of contact",
-                       "take one of " + listed(possible)}});
+    throw InputError(
+        {{{option, 0, 0}, contacts, "is no kind of contact", "take one of " + listed(possible)}});
   Setup bare = setup;
   std::erase_if(bare.effects,
                 [&](const EffectChoice& choice) { return choice.record->claims == record.claims; });
+  const std::vector<double> speeds = speeds_of_curve(setup);
+  if (coefficients_of(law, bare, speeds).isZero())
+    throw InputError({{{option, 0, 0},
+                       std::string(law.coefficient),
+                       "is 0 in this setup, so no curve can be made of it",
+                       "give it a value, and free it beside the curve"}});
   std::string falls;
   for (int i = 0; i + 1 < points; ++i) falls += (i > 0 ? ", " : "") + fall(i) + " = 0";
-  const std::string origin = "restitution curve";
+  const std::string origin = std::string(law.coefficient) + " curve";
   const std::vector<Override> overrides{
       {key_of(record, ParameterKind::choice), contacts, origin},
-      {key_of(record, ParameterKind::text), toml_string(formula_through(speeds_of_curve(setup))), origin},
+      {key_of(record, ParameterKind::text), toml_string(formula_through(law, speeds)), origin},
       {key_of(record, ParameterKind::constants), "{" + falls + "}", origin}};
   return with_overrides(std::move(bare), overrides, known);
 }
 
-std::string curve_as_toml(const Setup& setup) {
+std::string curve_as_toml(const CurveLaw& law, const Setup& setup) {
   for (const EffectChoice& choice : setup.effects)
-    if (is_restitution_formula(*choice.record)) return write_effect(choice).substr(1);
+    if (takes_curve(law, *choice.record)) return write_effect(choice).substr(1);
   return "";
 }
 
-std::vector<Knob> knobs_of_curve(const Setup& setup, Known known) {
-  // The bounds keep the regression where it holds: beyond what is believed by three times its error, less one
-  // way so that not every height below the reference begins above 1.
-  constexpr double believed = 0.15, steepest_fall = 0.5, steepest_rise = -0.4;
-  const std::string constants = key_of(formula_or_refuse(known), ParameterKind::constants) + ".";
+std::vector<Knob> knobs_of_curve(const CurveLaw& law, const Setup& setup, Known known) {
+  const std::string constants = constants_of(law, known);
   std::vector<Knob> knobs;
   for (int i = 0; i + 1 < points; ++i) {
     const std::string key = constants + fall(i);
-    knobs.push_back(
-        {key, get_number(setup, key, known), believed, steepest_rise, steepest_fall, true, 0, believed});
+    knobs.push_back({key, get_number(setup, key, known), law.believed, law.steepest_rise, law.steepest_fall,
+                     true, 0, law.believed});
   }
   return knobs;
 }
 
-std::optional<std::vector<Knob>> held_to_one_side(std::vector<Knob> knobs,
+std::optional<std::vector<Knob>> held_to_one_side(const CurveLaw& law, std::vector<Knob> knobs,
                                                   const std::vector<FittedValue>& fitted, Known known) {
-  const std::string constants = key_of(formula_or_refuse(known), ParameterKind::constants) + ".";
+  const std::string constants = constants_of(law, known);
   double falls = 0, rises = 0;
   for (const FittedValue& value : fitted)
     if (value.key.starts_with(constants)) (value.value > 0 ? falls : rises) += std::abs(value.value);
@@ -206,36 +243,41 @@ std::optional<std::vector<Knob>> held_to_one_side(std::vector<Knob> knobs,
   return knobs;
 }
 
-double RestitutionBand::low(std::size_t i) const { return std::max(0.0, restitution[i] - 1.96 * error[i]); }
-double RestitutionBand::high(std::size_t i) const { return std::min(1.0, restitution[i] + 1.96 * error[i]); }
+double ContactCurve::low(const ContactBand& band, std::size_t i) const {
+  return std::max(0.0, band.value[i] - 1.96 * band.error[i]);
+}
+double ContactCurve::high(const ContactBand& band, std::size_t i) const {
+  return std::min(law->highest, band.value[i] + 1.96 * band.error[i]);
+}
 
-RestitutionCurve restitution_curve(const Setup& fitted, const std::vector<FittedValue>& values,
-                                   const Eigen::MatrixXd& covariance, Known known) {
+ContactCurve contact_curve(const CurveLaw& law, const Setup& fitted, const std::vector<FittedValue>& values,
+                           const Eigen::MatrixXd& covariance, Known known) {
   EXPECT(covariance.rows() == std::ssize(values) && covariance.cols() == std::ssize(values));
   constexpr int drawn = 60;  // for the eye
-  RestitutionCurve curve;
+  ContactCurve curve;
+  curve.law = &law;
   const std::vector<double> ends = speeds_of_curve(fitted);
   for (int i = 0; i < drawn; ++i)
     curve.speed.push_back(ends.front() * std::pow(ends.back() / ends.front(), i / (drawn - 1.0)));
-  const Eigen::VectorXd restitution = restitutions_of(fitted, curve.speed);
-  Eigen::MatrixXd slopes(restitution.size(), std::ssize(values));
+  const Eigen::VectorXd coefficient = coefficients_of(law, fitted, curve.speed);
+  Eigen::MatrixXd slopes(coefficient.size(), std::ssize(values));
   for (std::size_t k = 0; k < values.size(); ++k)
     slopes.col(static_cast<Eigen::Index>(k)) =
-        values[k].error > 0 ? change_by(values[k], fitted, curve.speed, known) / values[k].error
-                            : Eigen::VectorXd::Zero(restitution.size()).eval();
+        values[k].error > 0 ? change_by(law, values[k], fitted, curve.speed, known) / values[k].error
+                            : Eigen::VectorXd::Zero(coefficient.size()).eval();
   Eigen::VectorXd variance = (slopes * covariance * slopes.transpose()).diagonal().cwiseMax(0);
-  if (find_choice(fitted, formula_or_refuse(known).name) != nullptr)
-    variance += between_points(fitted, curve.speed).cwiseAbs2();
-  RestitutionBand* const bands[] = {&curve.grains, &curve.walls};
-  for (Eigen::Index i = 0; i < restitution.size(); ++i) {
-    RestitutionBand& band = *bands[i / drawn];
-    band.restitution.push_back(restitution[i]);
+  if (find_choice(fitted, formula_or_refuse(law, known).name) != nullptr)
+    variance += between_points(law, fitted, curve.speed).cwiseAbs2();
+  ContactBand* const bands[] = {&curve.grains, &curve.walls};
+  for (Eigen::Index i = 0; i < coefficient.size(); ++i) {
+    ContactBand& band = *bands[i / drawn];
+    band.value.push_back(coefficient[i]);
     band.error.push_back(std::sqrt(variance[i]));
   }
   return curve;
 }
 
-std::string words_of(const RestitutionCurve& curve) {
+std::string words_of(const ContactCurve& curve) {
   return words_of(curve.grains, curve.speed, "grains") + ", " + words_of(curve.walls, curve.speed, "walls");
 }
 

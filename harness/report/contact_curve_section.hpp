@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "contact_curve.hpp"
 #include "report.hpp"
-#include "restitution_curve.hpp"
 
 namespace shakedown {
 
 /// Restitution against closing speed of no assumed form, a plot of grains and one of walls with their bands.
-ReportSection restitution_section(const RestitutionCurve& curve);
+ReportSection contact_curve_section(const ContactCurve& curve);
 
 }  // namespace shakedown

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "restitution_curve.hpp"
+#include "contact_curve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ constexpr const char* fall_1 = "user_restitution.constants.fall_1";
 constexpr const char* fall_3 = "user_restitution.constants.fall_3";
 
 shakedown::Setup with_curve(const std::string& contacts = "all") {
-  return with_restitution_curve({}, contacts, all_effects());
+  return with_contact_curve(restitution_against_speed(), {}, contacts, all_effects());
 }
 
 double restitution(const shakedown::Setup& setup, double speed,
@@ -35,7 +35,7 @@ FittedValue value(const std::string& key, double at, double error = 0.1) {
 
 }  // namespace
 
-TEST(RestitutionCurve, ReachesOverTheSpeedsOfTheDamper) {
+TEST(ContactCurve, ReachesOverTheSpeedsOfTheDamper) {
   const std::vector<double> speeds = speeds_of_curve({});
   const double top = 2 * std::numbers::pi * 1.23 * 0.1075;
   ASSERT_EQ(speeds.size(), 5u);
@@ -48,7 +48,7 @@ TEST(RestitutionCurve, ReachesOverTheSpeedsOfTheDamper) {
   EXPECT_THROW(speeds_of_curve(held), InputError);
 }
 
-TEST(RestitutionCurve, BeginsLevel) {
+TEST(ContactCurve, BeginsLevel) {
   for (const double speed : {0.0, 0.02, 0.3, 1.0, 5.0}) {
     EXPECT_DOUBLE_EQ(restitution(with_curve(), speed), 0.75);
     EXPECT_DOUBLE_EQ(restitution(with_curve("walls"), speed, ContactClass::end_wall), 0.76);
@@ -56,7 +56,7 @@ TEST(RestitutionCurve, BeginsLevel) {
   EXPECT_THROW(with_curve("floors"), InputError);
 }
 
-TEST(RestitutionCurve, FallsFromOnePointToTheNext) {
+TEST(ContactCurve, FallsFromOnePointToTheNext) {
   shakedown::Setup setup = with_curve();
   const std::vector<double> speeds = speeds_of_curve(setup);
   set_number(setup, fall_1, 0.1, all_effects());
@@ -67,55 +67,83 @@ TEST(RestitutionCurve, FallsFromOnePointToTheNext) {
     WITHIN(restitution(setup, speeds[i]), 0.75 * expected[i], 2e-4, 1.5e-5) << i;
 }
 
-TEST(RestitutionCurve, TakesThePlaceOfAnotherLawOfRestitution) {
+TEST(ContactCurve, TakesThePlaceOfAnotherLawOfRestitution) {
   const auto viscoelastic = parse_setup(
       "[[effect]]\nname = \"velocity_dependent_restitution\"\n[[effect]]\nname = "
       "\"grain_friction\"\ngrain_grain = "
       "0.2\n",
       "s", all_effects());
-  const shakedown::Setup setup = with_restitution_curve(viscoelastic, "grains", all_effects());
+  const shakedown::Setup setup =
+      with_contact_curve(restitution_against_speed(), viscoelastic, "grains", all_effects());
   ASSERT_EQ(setup.effects.size(), 2u);
   EXPECT_EQ(setup.effects[0].record->name, "grain_friction");
   EXPECT_EQ(setup.effects[1].record->name, "user_restitution");
-  EXPECT_TRUE(curve_as_toml(setup).starts_with("[[effect]]\nname = \"user_restitution\"\n"));
-  EXPECT_EQ(curve_as_toml(viscoelastic), "");
+  EXPECT_TRUE(curve_as_toml(restitution_against_speed(), setup)
+                  .starts_with("[[effect]]\nname = \"user_restitution\"\n"));
+  EXPECT_EQ(curve_as_toml(restitution_against_speed(), viscoelastic), "");
 }
 
-TEST(RestitutionCurve, IsHeldToTheSideToWhichItGoesMore) {
-  const std::vector<Knob> knobs = knobs_of_curve(with_curve(), all_effects());
+TEST(ContactCurve, IsHeldToTheSideToWhichItGoesMore) {
+  const std::vector<Knob> knobs = knobs_of_curve(restitution_against_speed(), with_curve(), all_effects());
   ASSERT_EQ(knobs.size(), 4u);
   const std::vector<Knob> falling =
-      held_to_one_side(knobs, {value(fall_1, -0.05), value(fall_3, 0.2)}, all_effects()).value();
+      held_to_one_side(restitution_against_speed(), knobs, {value(fall_1, -0.05), value(fall_3, 0.2)},
+                       all_effects())
+          .value();
   for (const Knob& knob : falling) EXPECT_EQ(knob.low, 0) << knob.key;
   EXPECT_EQ(falling[0].centre, 0);
   EXPECT_EQ(falling[2].centre, 0.2);
-  const std::vector<Knob> rising =
-      held_to_one_side(knobs, {value(fall_1, -0.3), value(fall_3, 0.2)}, all_effects()).value();
+  const std::vector<Knob> rising = held_to_one_side(restitution_against_speed(), knobs,
+                                                    {value(fall_1, -0.3), value(fall_3, 0.2)}, all_effects())
+                                       .value();
   for (const Knob& knob : rising) EXPECT_EQ(knob.high, 0) << knob.key;
-  EXPECT_FALSE(held_to_one_side(knobs, {value(fall_1, 0.3), value(fall_3, 0.2)}, all_effects()));
+  EXPECT_FALSE(held_to_one_side(restitution_against_speed(), knobs, {value(fall_1, 0.3), value(fall_3, 0.2)},
+                                all_effects()));
 }
 
-TEST(RestitutionCurve, BandIsThatOfItsParametersAndOfWhatAStepBetweenPointsWouldMake) {
+TEST(ContactCurve, BandIsThatOfItsParametersAndOfWhatAStepBetweenPointsWouldMake) {
   const shakedown::Setup setup = with_curve();
   Eigen::Matrix2d covariance;
   covariance << 4e-4, -1e-4, -1e-4, 9e-4;
-  const RestitutionCurve level = restitution_curve(
-      setup, {value("restitution.grain_grain", 0.75, 0.02), value("restitution.grain_wall", 0.76, 0.03)},
-      covariance, all_effects());
+  const ContactCurve level = contact_curve(
+      restitution_against_speed(), setup,
+      {value("restitution.grain_grain", 0.75, 0.02), value("restitution.grain_wall", 0.76, 0.03)}, covariance,
+      all_effects());
   for (std::size_t i = 0; i < level.speed.size(); ++i) {
     WITHIN(level.grains.error[i], 0.02, 3e-16, 1.8e-17);
     WITHIN(level.walls.error[i], 0.03, 4e-16, 2.5e-17);
-    EXPECT_DOUBLE_EQ(level.grains.low(i), 0.75 - 1.96 * level.grains.error[i]);
+    EXPECT_DOUBLE_EQ(level.low(level.grains, i), 0.75 - 1.96 * level.grains.error[i]);
   }
   EXPECT_EQ(words_of(level), "stays at 0.75 (grains), stays at 0.76 (walls)");
   shakedown::Setup falling = setup;
   set_number(falling, fall_1, 0.2, all_effects());
-  const RestitutionCurve known =
-      restitution_curve(falling, {value(fall_1, 0.2, 0)}, Eigen::MatrixXd::Zero(1, 1), all_effects());
+  const ContactCurve known = contact_curve(restitution_against_speed(), falling, {value(fall_1, 0.2, 0)},
+                                           Eigen::MatrixXd::Zero(1, 1), all_effects());
   // Known at its points; half-way between the first two by a quarter of the step, which is 0.15.
   EXPECT_EQ(known.grains.error.front(), 0);
   WITHIN(*std::max_element(known.grains.error.begin(), known.grains.error.end()), 0.0375, 4e-4, 5.6e-5);
   EXPECT_EQ(words_of(known),
             "falls from 0.90 at 0.027 m/s to 0.75 at 1.038 m/s (grains), falls from 0.91 at "
             "0.027 m/s to 0.76 at 1.038 m/s (walls)");
+}
+
+TEST(ContactCurve, OfFrictionScalesTheSetupsCoefficient) {
+  const CurveLaw& law = friction_against_slip();
+  EXPECT_THROW(with_contact_curve(law, {}, "all", all_effects()), InputError);  // nothing to scale
+  const auto rubbing = parse_setup(
+      "[[effect]]\nname = \"grain_friction\"\ngrain_grain = 0.2\ngrain_wall = 0.4\n", "s", all_effects());
+  shakedown::Setup setup = with_contact_curve(law, rubbing, "all", all_effects());
+  ASSERT_EQ(setup.effects.size(), 2u);  // the curve stands beside the coefficient
+  const std::vector<Knob> knobs = knobs_of_curve(law, setup, all_effects());
+  ASSERT_EQ(knobs.size(), 4u);
+  EXPECT_EQ(knobs[0].key, "user_friction.constants.fall_1");
+  EXPECT_EQ(knobs[0].believed_error, law.believed);
+  for (const Knob& knob : knobs) set_number(setup, knob.key, 0.5, all_effects());
+  const std::vector<double> speeds = speeds_of_curve(setup);
+  const double expected[] = {2.5, 2, 1.5, 1, 0.5};
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    const ContactLaw contact = physics_of(setup).contact;
+    WITHIN(law.of(contact, ContactClass::grain_grain, speeds[i]), 0.2 * expected[i], 2e-4, 1.2e-5) << i;
+    WITHIN(law.of(contact, ContactClass::side_wall, speeds[i]), 0.4 * expected[i], 4e-4, 2.4e-5) << i;
+  }
 }

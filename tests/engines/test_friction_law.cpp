@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// A coefficient of friction that depends on the slip: each engine takes that of the slip at first touch.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "setups.hpp"
+#include "within.hpp"
+
+using namespace shakedown;
+
+namespace {
+
+constexpr double falling(double slip) { return 0.4 - 0.25 * slip; }
+
+/// Speed along the surface that a grain leaves at the end wall of a heavy box, which it meets at `slip` along
+/// and 50 mm/s across: it slides throughout.
+double taken_at(const Engine& engine, double slip) {
+  shakedown::Setup setup;
+  setup.release.displacement = 0;
+  setup.spring.frequency = 1e-6;
+  setup.box.mass = 1e6;
+  setup.box.length = setup.box.width[0] = setup.box.width[1] = 0.1;
+  setup.soft.steps_per_contact = 100;
+  setup.run.duration = 4e-3;
+  setup.run.sample_rate = 250;
+  add_effect(setup, "user_friction", {{"friction", std::string("0.4-0.25*v")}});
+  const Vec3 velocity(0.05, slip, 0), place(0.05 - 0.005 - 0.001 * 0.05, 0, 0);
+  const Trajectory run = run_with(engine, setup, {{place, velocity}});
+  return slip - run.end_state.velocity[0].y();
+}
+
+}  // namespace
+
+class FrictionLaw : public testing::TestWithParam<EngineUnderTest> {
+ protected:
+  std::unique_ptr<Engine> engine = GetParam().make();
+};
+
+TEST_P(FrictionLaw, TakesTheCoefficientOfTheSlipAtFirstTouch) {
+  if (engine->can_model(*find_effect("user_friction")).fidelity == Fidelity::not_modelled) return;
+  for (const double slip : {0.4, 0.8, 1.4})
+    WITHIN(taken_at(*engine, slip), falling(slip) * 1.76 * 0.05, 2e-5, 1.1e-6) << slip;
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, FrictionLaw, testing::ValuesIn(engines_under_test()),
+                         [](const auto& tested) { return tested.param.name; });
