@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "simulation_journal.hpp"
 
+#include <cerrno>
 #include <cstring>
 #include <iterator>
 
@@ -79,8 +80,12 @@ SimulationJournal::SimulationJournal(fs::path file, const std::string& work, boo
   if (!go_on) expect_writable(file_);
   stream_.open(file_, go_on ? std::ios::binary | std::ios::app : std::ios::binary | std::ios::trunc);
   if (!go_on) stream_ << title << std::flush;
-  if (!stream_)
-    throw FileError(file_.string() + ": cannot be written; check its permissions, or name another folder");
+  if (!stream_) {
+    const std::string why = std::strerror(errno);
+    if (!go_on) fs::remove(file_, problem);  // it holds nothing
+    throw FileError(file_.string() + ": cannot be written (" + why +
+                    "); choose another place or make room there");
+  }
 }
 
 void SimulationJournal::read(const std::string& title) {

@@ -28,7 +28,17 @@ struct Writer {
   std::string name;
   std::vector<std::string> arguments;
   bool one_set = false;  ///< its files are of one run, all or none
+  bool dear = false;     ///< takes about a second
 };
+
+/// A box without grains: what is asked of it takes a second, and writes what others write.
+std::vector<std::string> asked_of_the_film(const std::string& command, const std::vector<std::string>& more) {
+  std::vector<std::string> words{command,    "IN/film/setup.toml", "--data",    "IN/film/experiment.toml",
+                                 "--out",    "OUT/answer",         "--json",    "OUT/answer.json",
+                                 "--report", "OUT/answer.html",    "--threads", "1"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
 
 std::vector<Writer> writers() {
   return {
@@ -51,6 +61,9 @@ std::vector<Writer> writers() {
       {"crosscheck",
        {"crosscheck", "IN/setup.toml", "--engines", "hard,soft", "--runs", "2", "--out", "OUT/c"}},
       {"report", {"report", "IN/k", "--out", "OUT/page.html"}},
+      {"compare", asked_of_the_film("compare", {}), false, true},
+      {"fit", asked_of_the_film("fit", {"--free", "spring.frequency"}), false, true},
+      {"diagnose", asked_of_the_film("diagnose", {}), false, true},
   };
 }
 
@@ -58,7 +71,7 @@ std::vector<Writer> writers() {
 std::vector<Writer> quick_writers() {
   std::vector<Writer> quick = writers();
   std::erase_if(quick, [](const Writer& writer) {
-    return writer.name == "bounce" || writer.name == "hide" || writer.name == "crosscheck";
+    return writer.dear || writer.name == "bounce" || writer.name == "hide" || writer.name == "crosscheck";
   });
   return quick;
 }
@@ -82,6 +95,8 @@ class Faults : public WithFolder {
     // Two drops: their laws are weighed in a fifth of the time of all five.
     const std::string throws = contents(TEST_DATA "/drops/throws.csv");
     file("IN/throws.csv", throws.substr(0, throws.find("\n3,1,") + 1));
+    file("IN/empty.toml", "grains.count = 0\n[run]\nduration = \"4 s\"\n[box]\nlength = \"40 mm\"\n");
+    expect_done({"hide", "IN/empty.toml", "--engine", "hard", "--lengths", "40mm", "--out", "IN/film"});
     expect_done({"run", "IN/setup.toml", "--log", "--out", "IN/k"});
     expect_done({"sweep", "IN/setup.toml", "--vary", "box.length=40mm,50mm", "--out", "IN/r.sqlite"});
     empty_out();
@@ -133,6 +148,7 @@ class Faults : public WithFolder {
   static void expect_whole(const Files& files, const Files& reference) {
     for (const auto& [name, bytes] : files) {
       if (name.find(".partial-") != std::string::npos || name.find(".sqlite") != std::string::npos) continue;
+      if (name.find("simulations.journal") != std::string::npos) continue;  // to go on from
       if (name.ends_with(".being-written") || name.find(".unfinished") != std::string::npos) continue;
       const auto whole = reference.find(name);
       if (whole == reference.end()) {
@@ -203,7 +219,7 @@ class SlowEachWriter : public EachWriter {};
 }  // namespace
 
 TEST_P(EachWriter, LeavesNothingHalf) { try_all(GetParam(), 3); }
-TEST_P(SlowEachWriter, LeavesNothingHalfAtAnyCall) { try_all(GetParam(), 12); }
+TEST_P(SlowEachWriter, LeavesNothingHalfAtAnyCall) { try_all(GetParam(), GetParam().dear ? 4 : 12); }
 
 INSTANTIATE_TEST_SUITE_P(Commands, EachWriter, testing::ValuesIn(quick_writers()),
                          [](const auto& writer) { return writer.param.name; });
