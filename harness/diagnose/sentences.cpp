@@ -138,6 +138,23 @@ std::string of_the_unknown(const Diagnosis& d, std::span<const EffectRecord* con
          "the contacts.";
 }
 
+/// Where the most probable explanation is one that there was no time to fit: what that is.
+std::string of_what_was_not_fitted(const Diagnosis& d, std::span<const EffectRecord* const> known) {
+  constexpr double more_likely_than_not = 0.5;
+  if (d.hypotheses.empty() || d.hypotheses.front().probability < more_likely_than_not) return "";
+  const Hypothesis& most = d.hypotheses.front();
+  const auto was_left = [&](const std::string& effect) {
+    return std::find(d.not_tried.begin(), d.not_tried.end(), effect) != d.not_tried.end();
+  };
+  if (std::none_of(most.effects.begin(), most.effects.end(), was_left)) return "";
+  std::vector<std::string> names;
+  for (const std::string& effect : most.effects) names.push_back(named(effect, d, known));
+  return fmt::format(
+      "Most probably missing is {} ({}), by simulations at a few strengths; there was no time to fit it (ask "
+      "again with more --seconds or --budget), and no model that was fitted explains the measurements.",
+      list_of(names), percent(most.probability));
+}
+
 std::string of_the_restitution(const Diagnosis& d) {
   if (!d.free_restitution) return "";
   const LadderStep &without = d.free_restitution->without, &with = d.free_restitution->with;
@@ -204,7 +221,11 @@ std::string first_words(const Diagnosis& d, std::span<const EffectRecord* const>
       return "Missing in the model: " + list_of(names) + "." + what_it_brings(d) + ties_in_words(d) +
              what_remains(d) + of_the_restitution(d);
     }
-    case Verdict::unknown: return of_the_unknown(d, known) + of_the_restitution(d) + ties_in_words(d);
+    case Verdict::unknown: {
+      const std::string not_fitted = of_what_was_not_fitted(d, known);
+      return (not_fitted.empty() ? of_the_unknown(d, known) : not_fitted) + of_the_restitution(d) +
+             ties_in_words(d);
+    }
   }
   return "";
 }

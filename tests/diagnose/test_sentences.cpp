@@ -52,6 +52,22 @@ TEST(Sentence, OfManyThatAreNotRuledOutTheMostProbableAreNamed) {
       << sentence_of(d, all_effects());
 }
 
+TEST(Sentence, WhatIsMostProbableAndWasNotFittedIsNamed) {
+  Diagnosis d = found({});
+  d.verdict = Verdict::unknown;
+  d.momentum.possible = true;
+  d.hypotheses = {{{"grain_cohesion"}, 0, 0.942}, {{"unknown"}, 0, 0.02}};
+  d.answers = {};
+  EXPECT_TRUE(says(d, "None of the known effects explains")) << sentence_of(d, all_effects());
+  d.not_tried = {"grain_cohesion"};
+  EXPECT_FALSE(says(d, "None of the known effects explains"));
+  EXPECT_TRUE(
+      says(d, "Most probably missing is attraction of the grains (grain_cohesion) (94.2 %), by simulations"))
+      << sentence_of(d, all_effects());
+  d.hypotheses[0].probability = 0.4;
+  EXPECT_TRUE(says(d, "None of the known effects explains"));
+}
+
 TEST(Sentence, AModelThatDoesNotHoldIsToldAsThat) {
   Diagnosis d = found({"blade_quadratic_drag"});
   EXPECT_FALSE(says(d, "does not hold"));
