@@ -104,7 +104,8 @@ int run_setup(const RunArguments& arguments) {
     fmt::print(
         arguments.json.for_people(), "{}",
         arguments.report.write(curves.report(ensemble, setup, arguments.setup.file), arguments.folder));
-  arguments.json.write(summary_json(ensemble, setup));
+  if (arguments.json.wanted)
+    arguments.json.write(summary_json(ensemble, setup));  // long runs have millions of peaks
   return ensemble.interrupted ? exit_interrupted : exit_done;
 }
 
