@@ -98,24 +98,39 @@ Fit fitted_by_ensembles(const Setup& setup, const Measurement& measurement, cons
   Fit fit = fit_parameters(setup, measurement, knobs, engine, options);
   const std::vector<AskedCurve> curves = curves_asked(asked);
   if (curves.empty()) return fit;
-  bool turns = false;
-  for (const AskedCurve& curve : curves)
-    if (std::optional<std::vector<Knob>> held =
-            held_to_one_side(*curve.law, knobs, values_of(fit), all_effects())) {
-      knobs = std::move(*held);
-      turns = true;
-    }
-  if (turns) fit = fit_parameters(setup, measurement, knobs, engine, options);
+  std::int64_t runs = fit.runs;
+  const auto hold_those_that_turn = [&] {
+    bool turns = false;
+    for (const AskedCurve& curve : curves)
+      if (std::optional<std::vector<Knob>> held =
+              held_to_one_side(*curve.law, knobs, values_of(fit), all_effects())) {
+        knobs = std::move(*held);
+        turns = true;
+      }
+    return turns;
+  };
+  for (std::size_t i = 0; i < curves.size() && hold_those_that_turn(); ++i) {
+    fit = fit_parameters(setup, measurement, knobs, engine, options);
+    runs += fit.runs;
+  }
   for (const AskedCurve& curve : curves) fit.curves.push_back(curve_of(*curve.law, fit, all_effects()));
   const Fit level =
       fit_parameters(setup, measurement, free_parameters(asked.free, setup, all_effects()), engine, options);
-  fit.constant = {level.p_value, level.scatter, level.judgement.holds()};
+  fit.constant = {level.p_value, level.scatter, level.judgement.standing, fit.judgement.standing};
+  fit.runs = runs + level.runs;
   return fit;
 }
 
 }  // namespace
 
 void check(const FitQuestion& asked, const Setup& setup) {
+  for (const AskedCurve& curve : curves_asked(asked))
+    if (asked.free.find(curve.law->coefficient) == asked.free.npos)
+      throw InputError({{{"--free", 0, 0},
+                         asked.free,
+                         "leaves the level of the " + std::string(curve.law->coefficient) +
+                             " fixed, so that a curve would stand for it",
+                         "free its coefficients too, joined by &"}});
   (void)knobs_asked(asked, with_curves(asked, setup));
 }
 

@@ -95,12 +95,12 @@ Command add_fit_command(CLI::App& program) {
   command
       .add_option("--restitution-curve", arguments->question.restitution_curve,
                   "fit restitution as a free function of the closing speed too, for all contacts, those of "
-                  "grains, or those of walls")
+                  "grains, or those of walls, and say whether a constant would do as well")
       ->type_name("all|grains|walls");
   command
       .add_option("--friction-curve", arguments->question.friction_curve,
-                  "fit friction as a free function of the slip speed too, and say whether the measurements "
-                  "tell that it depends on it")
+                  "fit friction as a free function of the slip speed too, in a setup with friction whose "
+                  "coefficients are free, and say whether a constant would do as well")
       ->type_name("all|grains|walls");
   command.add_option("--on", arguments->on, "fit these runs only, foretell the others")
       ->type_name("RUN,RUN,...");

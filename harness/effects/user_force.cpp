@@ -85,10 +85,11 @@ extern const EffectRecord user_force{
                    {.name = "table",
                     .kind = ParameterKind::text,
                     .default_value = std::string(),
-                    .sentence = "Path of a CSV table of points instead of the formula, SI: header x,force "
-                                "(or v,force, t,force; x,damping of -v c(x), x,friction of -sign(v) f(x), "
-                                "t,stiffness of -x k(t) ...); a "
-                                "curve goes through them, level beyond.",
+                    .sentence =
+                        "Path of a CSV table of points instead of the formula, SI: header x,force "
+                        "(or v,force, t,force; x,damping of -v c(x), x,friction of -tanh(v/1 mm/s) f(x), "
+                        "t,stiffness of -x k(t) ...); a "
+                        "curve goes through them, level beyond.",
                     .example = "\"force.csv\"",
                     .becomes = "force"},
                    {.name = "constants",

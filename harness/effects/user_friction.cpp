@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Friction as a formula of the slip speed, written in the setup.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -49,7 +48,8 @@ void apply_user_friction(const EffectChoice& choice, int, Physics& physics) {
     if (!std::isfinite(coefficient))
       throw PhysicsError("user_friction: the coefficient is not a finite number at " +
                          slip_of(speed, setups));
-    return std::max(coefficient, 0.0);
+    constexpr double next_to_nothing = 1e-100;  // what divides by it must not overflow
+    return coefficient > next_to_nothing ? coefficient : 0.0;
   };
 }
 
@@ -62,7 +62,8 @@ extern const EffectRecord user_friction{
     .acts_on = ActsOn::contact,
     .sentence = "Coefficient of friction as a formula of the slip speed at first touch.",
     .formula =
-        "mu(v, mu) with named constants; v in m/s, the speed at which the touching points slip past each "
+        "friction(v, mu) with named constants; v in m/s, the speed at which the touching points slip past "
+        "each "
         "other at first touch, mu the setup's coefficient of the contact (0 without grain_friction); "
         "curve(ln(v), ln(v1), y1, ln(v2), y2, ...) goes through points without turning between them",
     .source = "The setup; formulas are read by muParser (https://beltoforion.de/en/muparser)",

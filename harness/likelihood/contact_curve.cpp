@@ -175,13 +175,26 @@ std::vector<double> speeds_of_curve(const Setup& setup) {
   const double top = 2 * std::numbers::pi * setup.spring.frequency * std::abs(setup.release.displacement);
   if (!(top > 0) || setup.grains.count == 0)
     throw InputError({{{},
-                       "contact curve",
+                       "a curve against a speed",
                        "has no range of speeds (nothing is let go, or there are no grains)",
                        "give a setup with grains whose box is let go"}});
   std::vector<double> speeds{slowest * top};
   while (std::ssize(speeds) < points) speeds.push_back(step * speeds.back());
   return speeds;
 }
+
+namespace {
+
+/// Whether none of these contacts has the coefficient.
+bool is_none(const CurveLaw& law, const Setup& setup, const std::string& contacts, double speed) {
+  const ContactLaw contact = physics_of(setup).contact;
+  for (const ContactClass kind : {ContactClass::grain_grain, ContactClass::end_wall, ContactClass::side_wall})
+    if (contacts == "all" || (contacts == "grains") == (kind == ContactClass::grain_grain))
+      if (law.of(contact, kind, speed) > 0) return false;
+  return true;
+}
+
+}  // namespace
 
 Setup with_contact_curve(const CurveLaw& law, const Setup& setup, const std::string& contacts, Known known) {
   const EffectRecord& record = formula_or_refuse(law, known);
@@ -194,7 +207,7 @@ Setup with_contact_curve(const CurveLaw& law, const Setup& setup, const std::str
   std::erase_if(bare.effects,
                 [&](const EffectChoice& choice) { return choice.record->claims == record.claims; });
   const std::vector<double> speeds = speeds_of_curve(setup);
-  if (coefficients_of(law, bare, speeds).isZero())
+  if (is_none(law, bare, contacts, speeds.back()))
     throw InputError({{{option, 0, 0},
                        std::string(law.coefficient),
                        "is 0 in this setup, so no curve can be made of it",

@@ -22,8 +22,8 @@ struct CurveLaw {
   std::string_view symbol;       ///< of the setup's own value in the formula
   double highest = 1;            ///< the coefficient is not above
   double believed = 0;           ///< each fall is 0 +- this, over the height at the reference
-  /// Bounds of a fall. They keep the regression where it holds: not every height below the reference may
-  /// begin above the highest, or below 0.
+  /// Bounds of a fall: three times what is believed, less to the rising side, where the heights below the
+  /// reference would come to nothing.
   double steepest_rise = 0, steepest_fall = 0;
   double (*of)(const ContactLaw&, ContactClass, double speed) = nullptr;
 };
@@ -92,8 +92,8 @@ ContactCurve contact_curve(const CurveLaw& law, const Setup& fitted, const std::
 /// "falls from 0.91 at 0.027 m/s to 0.62 at 1.039 m/s (grains), falls from ... (walls)".
 std::string words_of(const ContactCurve& curve);
 
-/// As JSON: the speed (closing_speed_m_per_s), and of grains and walls the coefficient by its name, low and
-/// high of the 95 % interval at each.
+/// As JSON: the speed (closing_speed_m_per_s or slip_speed_m_per_s), and of grains and walls the coefficient
+/// by its name, low and high of the 95 % interval at each.
 std::string curve_json(const ContactCurve& curve);
 
 }  // namespace shakedown

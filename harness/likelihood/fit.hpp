@@ -33,8 +33,9 @@ struct FittedParameter {
 
 /// What a constant in place of each curve leaves, everything else as free.
 struct ConstantBeside {
-  double p_value = 1, scatter = 1;  ///< as of the fit
-  bool holds = false;               ///< by the runs used
+  double p_value = 1, scatter = 1;       ///< as of the fit
+  Standing standing = Standing::holds;   ///< of the constant, by the runs used
+  Standing of_curves = Standing::holds;  ///< of the curves, by the same
 };
 
 struct Fit {

@@ -55,14 +55,19 @@ std::string words_of_constant(const Fit& fit) {
   }
   const std::string leaves = fmt::format("{:.2f} times the misfit of its own runs, p = {:.3f}",
                                          fit.constant->scatter, fit.constant->p_value);
-  if (fit.constant->holds)
+  const ConstantBeside& beside = *fit.constant;
+  if (beside.standing == Standing::holds)
     return fmt::format("the measurements do not tell whether {} depends on the {}: a constant holds too ({})",
                        what, speeds, leaves);
-  return fit.judgement.holds()
+  if (beside.standing == Standing::undecided || beside.of_curves == Standing::undecided)
+    return fmt::format("whether {} depends on the {} is undecided: a constant {} ({})", what, speeds,
+                       beside.standing == Standing::undecided ? "neither holds nor fails" : "fails", leaves);
+  return beside.of_curves == Standing::holds
              ? fmt::format("the measurements tell that {} depends on the {}: a constant fails ({})", what,
                            speeds, leaves)
              : fmt::format(
-                   "neither {} that depends on the {} nor a constant is what is missing: both fail ({})",
+                   "more is missing than {} that depends on the {}: with it and with a constant the "
+                   "model fails (a constant {})",
                    what, speeds, leaves);
 }
 
@@ -99,7 +104,7 @@ std::string fit_json(const Fit& fit) {
   if (fit.constant)
     document["constant_in_place_of_curve"] = {{"p_value", fit.constant->p_value},
                                               {"scatter", fit.constant->scatter},
-                                              {"holds", fit.constant->holds}};
+                                              {"standing", std::string(name_of(fit.constant->standing))}};
   explain_missing_numbers(document, [](const std::string& path) -> std::string {
     if (path == "/p_value") return "an empty box has no ensembles: its waveform is judged";
     if (path.ends_with("com_mm")) return "the grains' centre was not tracked";

@@ -5,7 +5,8 @@
 
 namespace shakedown {
 
-/// Restitution against closing speed of no assumed form, a plot of grains and one of walls with their bands.
+/// A coefficient of the contacts against its speed, of no assumed form, a plot of grains and one of walls
+/// with their bands.
 ReportSection contact_curve_section(const ContactCurve& curve);
 
 }  // namespace shakedown

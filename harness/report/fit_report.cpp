@@ -103,10 +103,9 @@ Report report_of(const Fit& fit, const Measurement& measurement,
   report.facts = facts_of_fit(fit);
   report.replays = replays_of(curves);
   report.sections = {curves_section(curves, "Measured against model"), fitted_section(fit)};
-  for (const ContactCurve& curve : fit.curves) {
-    report.sections.push_back(contact_curve_section(curve));
+  for (const ContactCurve& curve : fit.curves) report.sections.push_back(contact_curve_section(curve));
+  if (fit.constant)
     report.sections.back().paragraphs.push_back("Without a curve: " + words_of_constant(fit) + ".");
-  }
   report.sections.push_back(errors_section("Runs fitted", fit.used));
   if (!fit.left_out.empty())
     report.sections.push_back(errors_section("Runs left out, foretold", fit.left_out));

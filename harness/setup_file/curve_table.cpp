@@ -55,12 +55,15 @@ class TableReader {
   void begin(std::string_view variable, std::string_view value) {
     if (variable.empty() || !std::isalpha(static_cast<unsigned char>(variable.front())) || !is_known(value))
       refuse(number_, "does not name its columns", "write the variable and " + value_ + ", e.g. x," + value_);
-    formula_ = std::string(factor_of(value)) + "curve(" + std::string(variable);
+    formula_ = std::string(value == value_ ? "" : factor_of(value)) + "curve(" + std::string(variable);
   }
 
   /// What the curve is multiplied by to be a force.
   static std::string_view factor_of(std::string_view value) {
-    return value == "damping" ? "-v*" : value == "stiffness" ? "-x*" : value == "friction" ? "-sign(v)*" : "";
+    return value == "damping"     ? "-v*"
+           : value == "stiffness" ? "-x*"
+           : value == "friction"  ? "-tanh(v/0.001)*"
+                                  : "";
   }
 
   bool is_known(std::string_view value) const {

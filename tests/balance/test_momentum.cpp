@@ -269,7 +269,7 @@ TEST(SlowMomentum, AForceInNoListIsWrittenAsAFormula) {
   audit = audited(what, 5);
   EXPECT_EQ(names(audit), "");
   ASSERT_EQ(audit.formulas.size(), 1u);
-  EXPECT_EQ(audit.formulas[0].formula, "-c*sign(v)*abs(x)");
+  EXPECT_EQ(audit.formulas[0].formula, "-c*tanh(v/0.001)*abs(x)");
   WITHIN(audit.formulas[0].constants[0].value, 0.6, 0.02, 0.005);
 }
 

@@ -73,6 +73,9 @@ TEST(RecordList, EffectsCombineInAnyOrder) {
   }
   const Physics one = physics_of(parse_setup(forward, "forward", all_effects()));
   const Physics other = physics_of(parse_setup(backward, "backward", all_effects()));
+  for (const ContactClass kind : {ContactClass::grain_grain, ContactClass::end_wall, ContactClass::side_wall})
+    EXPECT_EQ(one.contact.friction_of(kind, Vec3(0.1, 0, 0)),
+              other.contact.friction_of(kind, Vec3(0.1, 0, 0)));
   EXPECT_EQ(one.box_mass, 0.444);
   EXPECT_EQ(one.box.constant.sum(), 0.1 * 0.444) << "an acceleration acts on the added mass too";
   for (const ContactClass kind : {ContactClass::grain_grain, ContactClass::end_wall, ContactClass::side_wall})

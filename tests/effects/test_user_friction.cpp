@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "effects.hpp"
 #include "physics.hpp"
+#include "scratch_folder.hpp"
 #include "setup_file.hpp"
 
 using namespace shakedown;
@@ -58,6 +60,21 @@ TEST(UserFriction, IsOfTheContactsThatItIsSaidToBeOf) {
   EXPECT_EQ(coefficient(grains, ContactClass::end_wall, 1), 0.3);
   EXPECT_EQ(coefficient(walls, ContactClass::grain_grain, 1), 0.2);
   EXPECT_EQ(coefficient(walls, ContactClass::side_wall, 1), 0.5);
+}
+
+TEST(UserFriction, TakesATable) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "friction.csv") << "v,friction,error\n0.01,0.4,0.1\n1,0.1,0.1\n";
+  const shakedown::Setup setup =
+      parse_setup("[[effect]]\nname = \"user_friction\"\ntable = \"friction.csv\"\n", "s", all_effects(), {},
+                  folder.path());
+  const ContactLaw law = physics_of(setup).contact;
+  EXPECT_DOUBLE_EQ(coefficient(law, ContactClass::grain_grain, 0.01), 0.4);
+  EXPECT_DOUBLE_EQ(coefficient(law, ContactClass::end_wall, 2), 0.1);
+}
+
+TEST(UserFriction, NextToNothingIsNothing) {
+  EXPECT_EQ(coefficient(friction_law("exp(-v/0.001)"), ContactClass::grain_grain, 0.5), 0);
 }
 
 TEST(UserFriction, SaysWhatIsWrongWithAFormula) {

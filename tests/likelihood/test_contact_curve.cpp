@@ -9,6 +9,7 @@
 
 #include "effects.hpp"
 #include "errors.hpp"
+#include "fit.hpp"
 #include "physics.hpp"
 #include "setup_file.hpp"
 #include "within.hpp"
@@ -146,4 +147,38 @@ TEST(ContactCurve, OfFrictionScalesTheSetupsCoefficient) {
     WITHIN(law.of(contact, ContactClass::grain_grain, speeds[i]), 0.2 * expected[i], 2e-4, 1.2e-5) << i;
     WITHIN(law.of(contact, ContactClass::side_wall, speeds[i]), 0.4 * expected[i], 4e-4, 2.4e-5) << i;
   }
+}
+
+TEST(ContactCurve, IsToldBesideAConstantByTheSameTest) {
+  Fit fit;
+  EXPECT_EQ(words_of_constant(fit), "");
+  fit.curves.emplace_back().law = &friction_against_slip();
+  const auto told = [&](Standing constant, Standing curve) {
+    fit.constant = {0.004, 1.53, constant, curve};
+    return words_of_constant(fit);
+  };
+  EXPECT_EQ(told(Standing::holds, Standing::holds),
+            "the measurements do not tell whether friction depends on the slip speed: a constant holds too "
+            "(1.53 times the misfit of its own runs, p = 0.004)");
+  EXPECT_EQ(told(Standing::holds, Standing::fails), told(Standing::holds, Standing::holds));
+  EXPECT_NE(told(Standing::fails, Standing::holds).find("tell that friction depends on the slip speed: a"),
+            std::string::npos);
+  for (const Standing curve : {Standing::holds, Standing::undecided, Standing::fails})
+    EXPECT_NE(told(Standing::undecided, curve).find("is undecided: a constant neither holds nor fails"),
+              std::string::npos);
+  EXPECT_NE(told(Standing::fails, Standing::undecided).find("is undecided: a constant fails"),
+            std::string::npos);
+  EXPECT_NE(told(Standing::fails, Standing::fails).find("more is missing than friction that depends"),
+            std::string::npos);
+}
+
+TEST(ContactCurve, OfFrictionAsksWhetherItsContactsHaveAny) {
+  const CurveLaw& law = friction_against_slip();
+  const auto grains =
+      parse_setup("[[effect]]\nname = \"grain_friction\"\ngrain_grain = 0.2\n", "s", all_effects());
+  EXPECT_NO_THROW(with_contact_curve(law, grains, "grains", all_effects()));
+  EXPECT_THROW(with_contact_curve(law, grains, "walls", all_effects()), InputError);
+  const auto sides =
+      parse_setup("[[effect]]\nname = \"side_wall_friction\"\ncoefficient = 0.2\n", "s", all_effects());
+  EXPECT_NO_THROW(with_contact_curve(law, sides, "walls", all_effects()));
 }

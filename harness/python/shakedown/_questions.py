@@ -90,7 +90,8 @@ def diagnose(setup: SetupLike, data: MeasurementLike, *, effects: Sequence[str] 
 
 
 def fit(setup: SetupLike, data: MeasurementLike, free: Union[str, Sequence[str]], *, on: Sequence[str] = (),
-        restitution_curve: str = "", friction_curve: str = "", runs: int = 160, threads: int = 0, progress: Progress = None) -> Fit:
+        restitution_curve: str = "", friction_curve: str = "", runs: int = 160, threads: int = 0,
+        progress: Progress = None) -> Fit:
     """Parameters of the model from measurements, and the error on runs left out.
 
     free   keys to fit, starting at the setup's values; keys joined by & move together
@@ -99,7 +100,7 @@ def fit(setup: SetupLike, data: MeasurementLike, free: Union[str, Sequence[str]]
     restitution_curve  "all", "grains" or "walls": restitution of these contacts as a free function of the closing
                        speed, fitted too
     friction_curve     "all", "grains" or "walls": friction of these contacts as a free function of the slip speed,
-                       fitted too
+                       fitted too, in a setup with friction whose coefficients are free; beside both curves a constant
 
     Raises InputError for a key that cannot be fitted, KeyboardInterrupt.
     """
