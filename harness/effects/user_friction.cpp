@@ -1,54 +1,24 @@
 // SPDX-License-Identifier: MIT
 // Friction as a formula of the slip speed, written in the setup.
-#include <array>
-#include <cmath>
-#include <string_view>
-
-#include "formula.hpp"
-#include "formula_check.hpp"
-#include "physics.hpp"
-#include "quantity.hpp"
+#include "contact_formula.hpp"
 
 namespace shakedown::effect {
 
 namespace {
 
-Formula friction_formula_of(const EffectChoice& choice) {
-  return {choice.text("friction"), choice.constants("constants"), {"v", "mu"}};
-}
-
-std::string slip_of(double speed, double coefficient) {
-  return "v = " + write_number(speed) + " m/s, mu = " + write_number(coefficient);
-}
-
-/// Slips at which formulas break: none, and those beyond any damper.
-std::string where_no_friction(const EffectChoice& choice) {
-  constexpr std::array speeds{0.0, 1e-9, 1e-6, 1e-3, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0};
-  constexpr std::array coefficients{0.0, 0.2, 1.0};
-  const Formula formula = friction_formula_of(choice);
-  for (const double speed : speeds)
-    for (const double coefficient : coefficients)
-      if (!std::isfinite(formula(speed, coefficient))) return slip_of(speed, coefficient);
-  return {};
-}
+constexpr ContactFormulaWords friction_words{
+    "user_friction", "friction",     "mu", "the setup's coefficient of the contact",
+    "slip speed",    {0.0, 0.2, 1.0}};
 
 std::vector<ParameterProblem> check_friction(const EffectChoice& choice) {
-  return problems_of_formula(
-      {"friction", "v (m/s), mu (the setup's coefficient of the contact)", "every slip speed, 0 included"},
-      choice, &where_no_friction);
+  return problems_of_contact_formula(friction_words, choice);
 }
 
 void apply_user_friction(const EffectChoice& choice, int, Physics& physics) {
-  const std::string on = choice.text("on");
-  physics.contact.friction_at = [formula = friction_formula_of(choice), on](ContactClass kind, double speed,
-                                                                            double setups) {
-    const bool by_formula = on == "all" || (on == "grains") == (kind == ContactClass::grain_grain);
-    if (!by_formula) return setups;
-    const double coefficient = formula(speed, setups);
-    if (!std::isfinite(coefficient))
-      throw PhysicsError("user_friction: the coefficient is not a finite number at " +
-                         slip_of(speed, setups));
+  physics.contact.friction_at = [formula = ContactFormula(friction_words, choice)](
+                                    ContactClass kind, double slip, double setups) {
     constexpr double next_to_nothing = 1e-100;  // what divides by it must not overflow
+    const double coefficient = formula(kind, slip, setups);
     return coefficient > next_to_nothing ? coefficient : 0.0;
   };
 }

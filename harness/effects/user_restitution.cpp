@@ -1,58 +1,25 @@
 // SPDX-License-Identifier: MIT
 // Restitution as a formula of the closing speed, written in the setup.
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <string_view>
-#include <utility>
 
-#include "formula.hpp"
-#include "formula_check.hpp"
-#include "physics.hpp"
-#include "quantity.hpp"
+#include "contact_formula.hpp"
 
 namespace shakedown::effect {
 
 namespace {
 
-Formula restitution_formula_of(const EffectChoice& choice) {
-  return {choice.text("restitution"), choice.constants("constants"), {"v", "e"}};
-}
-
-std::string impact_of(double speed, double restitution) {
-  return "v = " + write_number(speed) + " m/s, e = " + write_number(restitution);
-}
-
-/// Impacts at which formulas break: first touches without speed, and those beyond any damper.
-std::string where_no_restitution(const EffectChoice& choice) {
-  constexpr std::array speeds{0.0, 1e-9, 1e-6, 1e-3, 0.01, 0.1, 0.3, 1.0, 3.0, 10.0};
-  constexpr std::array restitutions{0.3, 0.75, 1.0};
-  const Formula formula = restitution_formula_of(choice);
-  for (const double speed : speeds)
-    for (const double restitution : restitutions)
-      if (!std::isfinite(formula(speed, restitution))) return impact_of(speed, restitution);
-  return {};
-}
+constexpr ContactFormulaWords restitution_words{
+    "user_restitution", "restitution",   "e", "the setup's restitution of the contact",
+    "closing speed",    {0.3, 0.75, 1.0}};
 
 std::vector<ParameterProblem> check_restitution(const EffectChoice& choice) {
-  return problems_of_formula({"restitution", "v (m/s), e (the setup's restitution of the contact)",
-                              "every closing speed, 0 included"},
-                             choice, &where_no_restitution);
+  return problems_of_contact_formula(restitution_words, choice);
 }
 
 void apply_user_restitution(const EffectChoice& choice, int, Physics& physics) {
-  const std::string on = choice.text("on");
-  physics.contact.restitution_at = [formula = restitution_formula_of(choice),
-                                    constant = physics.contact.restitution,
-                                    on](ContactClass kind, double speed) {
-    const double setups = constant[static_cast<std::size_t>(kind)];
-    const bool by_formula = on == "all" || (on == "grains") == (kind == ContactClass::grain_grain);
-    if (!by_formula) return setups;
-    const double restitution = formula(speed, setups);
-    if (!std::isfinite(restitution))
-      throw PhysicsError("user_restitution: the restitution is not a finite number at " +
-                         impact_of(speed, setups));
-    return std::clamp(restitution, 0.0, 1.0);
+  physics.contact.restitution_at = [formula = ContactFormula(restitution_words, choice),
+                                    constant = physics.contact.restitution](ContactClass kind, double speed) {
+    return std::clamp(formula(kind, speed, constant[static_cast<std::size_t>(kind)]), 0.0, 1.0);
   };
 }
 
