@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "collocation.hpp"
-
 namespace shakedown {
 
 namespace {

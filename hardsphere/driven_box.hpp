@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "box_motion.hpp"
+#include "collocation.hpp"
 #include "physics.hpp"
 
 namespace shakedown {
@@ -62,7 +63,7 @@ class DrivenBox {
   struct Response {  // to one harmonic force: p sin(w t + phase) + q cos(w t + phase)
     double p, q, frequency, phase;
   };
-  static constexpr std::size_t nodes = 8;
+  static constexpr std::size_t nodes = node_count;
   struct Here {  // where the box is at a time; of a closed piece cosine and sine of its phase, what damping
                  // left
     double time = -std::numeric_limits<double>::infinity();

@@ -77,15 +77,11 @@ SimulationJournal::SimulationJournal(fs::path file, const std::string& work, boo
   std::error_code problem;
   if (!go_on && fs::exists(file_)) fs::rename(file_, file_.string() + ".old", problem);
   if (problem) throw FileError(file_.string() + ": cannot be kept under another name: " + problem.message());
-  if (!go_on) expect_writable(file_);
-  stream_.open(file_, go_on ? std::ios::binary | std::ios::app : std::ios::binary | std::ios::trunc);
-  if (!go_on) stream_ << title << std::flush;
-  if (!stream_) {
-    const std::string why = std::strerror(errno);
-    if (!go_on) fs::remove(file_, problem);  // it holds nothing
-    throw FileError(file_.string() + ": cannot be written (" + why +
+  if (!go_on) write_file(file_, title);
+  stream_.open(file_, std::ios::binary | std::ios::app);
+  if (!stream_)
+    throw FileError(file_.string() + ": cannot be written (" + std::strerror(errno) +
                     "); choose another place or make room there");
-  }
 }
 
 void SimulationJournal::read(const std::string& title) {
