@@ -99,6 +99,7 @@ Fit fitted_by_ensembles(const Setup& setup, const Measurement& measurement, cons
   const std::vector<AskedCurve> curves = curves_asked(asked);
   if (curves.empty()) return fit;
   std::int64_t runs = fit.runs;
+  double seconds = fit.seconds;
   const auto hold_those_that_turn = [&] {
     bool turns = false;
     for (const AskedCurve& curve : curves)
@@ -112,26 +113,31 @@ Fit fitted_by_ensembles(const Setup& setup, const Measurement& measurement, cons
   for (std::size_t i = 0; i < curves.size() && hold_those_that_turn(); ++i) {
     fit = fit_parameters(setup, measurement, knobs, engine, options);
     runs += fit.runs;
+    seconds += fit.seconds;
   }
   for (const AskedCurve& curve : curves) fit.curves.push_back(curve_of(*curve.law, fit, all_effects()));
-  const Fit level =
-      fit_parameters(setup, measurement, free_parameters(asked.free, setup, all_effects()), engine, options);
+  // The runs left out are not foretold with it.
+  const Fit level = fit_parameters(setup, part_of(measurement, options.on, false),
+                                   free_parameters(asked.free, setup, all_effects()), engine, options);
   fit.constant = {level.p_value, level.scatter, level.judgement.standing, fit.judgement.standing};
   fit.runs = runs + level.runs;
+  fit.seconds = seconds + level.seconds;
   return fit;
 }
 
 }  // namespace
 
 void check(const FitQuestion& asked, const Setup& setup) {
+  const Setup curved = with_curves(asked, setup);
+  (void)knobs_asked(asked, curved);
+  const std::vector<Knob> free = free_parameters(asked.free, curved, all_effects());
   for (const AskedCurve& curve : curves_asked(asked))
-    if (asked.free.find(curve.law->coefficient) == asked.free.npos)
+    if (!moves_the_level(*curve.law, curved, free, all_effects()))
       throw InputError({{{"--free", 0, 0},
                          asked.free,
                          "leaves the level of the " + std::string(curve.law->coefficient) +
                              " fixed, so that a curve would stand for it",
                          "free its coefficients too, joined by &"}});
-  (void)knobs_asked(asked, with_curves(asked, setup));
 }
 
 Fit fitted_and_judged(const Setup& given, const Measurement& recorded, const FitQuestion& asked,

@@ -239,6 +239,15 @@ std::vector<Knob> knobs_of_curve(const CurveLaw& law, const Setup& setup, Known 
   return knobs;
 }
 
+bool moves_the_level(const CurveLaw& law, const Setup& setup, const std::vector<Knob>& knobs, Known known) {
+  constexpr double within_bounds = 0.01;  // so small a step keeps every key where it may be
+  const std::vector<double> speeds = speeds_of_curve(setup);
+  return std::any_of(knobs.begin(), knobs.end(), [&](const Knob& knob) {
+    const FittedValue value{knob.key, knob.centre, knob.low, knob.high, within_bounds * knob.width, false};
+    return !change_by(law, value, setup, speeds, known).isZero();
+  });
+}
+
 std::optional<std::vector<Knob>> held_to_one_side(const CurveLaw& law, std::vector<Knob> knobs,
                                                   const std::vector<FittedValue>& fitted, Known known) {
   const std::string constants = constants_of(law, known);

@@ -65,6 +65,10 @@ std::string curve_as_toml(const CurveLaw& law, const Setup& setup);
 std::vector<Knob> knobs_of_curve(const CurveLaw& law, const Setup& setup,
                                  std::span<const EffectRecord* const> known);
 
+/// Whether one of these knobs moves the coefficient: where none does a curve would stand for its level too.
+bool moves_the_level(const CurveLaw& law, const Setup& setup, const std::vector<Knob>& knobs,
+                     std::span<const EffectRecord* const> known);
+
 /// Where the curve of a fit falls here and rises there: the knobs held to one side, for a law that only
 /// falls, or only rises, whichever this one does more. Nothing where it does so already.
 std::optional<std::vector<Knob>> held_to_one_side(const CurveLaw& law, std::vector<Knob> knobs,

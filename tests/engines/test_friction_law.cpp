@@ -43,7 +43,7 @@ class FrictionLaw : public testing::TestWithParam<EngineUnderTest> {
 TEST_P(FrictionLaw, TakesTheCoefficientOfTheSlipAtFirstTouch) {
   for (const int axis : {0, 1, 2})
     for (const double slip : {0.4, 0.8, 1.4})
-      WITHIN(taken_at(*engine, axis, slip), falling(slip) * 1.76 * 0.05, 2e-5, 1.1e-6) << axis << " " << slip;
+      WITHIN(taken_at(*engine, axis, slip), falling(slip) * 1.76 * 0.05, 2e-6, 1.1e-7) << axis << " " << slip;
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, FrictionLaw, testing::ValuesIn(engines_that_model("user_friction")),
