@@ -256,6 +256,40 @@ void settle_hypotheses(Diagnosis& d, const Findings& findings) {
   d.hypotheses.resize(count);
 }
 
+namespace {
+
+/// They were fitted in a model without what is missing, and may have imitated it.
+void take_restitutions_back(const Setup& user, Diagnosis& d, std::span<const EffectRecord* const> known) {
+  const auto is_restitution = [](const DiagnosedParameter& parameter) {
+    return parameter.name.starts_with("restitution.");
+  };
+  if (std::none_of(d.parameters.begin(), d.parameters.end(), is_restitution)) return;
+  for (const DiagnosedParameter& parameter : d.parameters)
+    if (is_restitution(parameter))
+      set_number(d.amended, parameter.name, get_number(user, parameter.name, known), known);
+  std::erase_if(d.parameters, is_restitution);
+  d.notes.push_back("the restitutions are as given: they were fitted without " + d.promised->effect);
+}
+
+}  // namespace
+
+void name_promised(const Setup& user, Diagnosis& d, std::span<const EffectRecord* const> known) {
+  constexpr double more_likely_than_not = 0.5;
+  if (d.verdict != Verdict::unknown || d.momentum.unlisted || d.momentum.unexplained || !d.promised ||
+      d.hypotheses.empty() || d.hypotheses.front().probability < more_likely_than_not)
+    return;
+  const std::vector<std::string>& effects = d.hypotheses.front().effects;
+  if (std::find(effects.begin(), effects.end(), d.promised->effect) == effects.end()) return;
+  d.verdict = Verdict::missing;
+  d.missing = effects;
+  take_restitutions_back(user, d, known);
+  for (const auto& [key, value] : d.promised->besides) set_number(d.amended, key, value, known);
+  for (const DiagnosedParameter& strength : d.promised->strengths) {
+    set_number(d.amended, strength.name, strength.value, known);
+    d.parameters.push_back(strength);
+  }
+}
+
 void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisState& final, bool refitted,
               DiagnosisTools& tools, Diagnosis& d) {
   d.missing = final.missing;
@@ -291,12 +325,14 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
     if (!d.momentum.unlisted) d.missing.clear();
     set_formula(d);
   }
-  if (d.judgement.standing == Standing::fails && !d.momentum.unlisted && !d.momentum.unexplained)
-    offer_free_restitution(user, final, tools, d);
   if (refitted) set_parameters(final, tools, d);
-  note_shapes(d, tools.known());
   complete_ranking(d);
   settle_hypotheses(d, findings);
+  name_promised(user, d, tools.known());
+  if (d.judgement.standing == Standing::fails && !d.momentum.unlisted && !d.momentum.unexplained &&
+      !is_promised(d))
+    offer_free_restitution(user, final, tools, d);
+  note_shapes(d, tools.known());
   d.sentence = sentence_of(d, tools.known());
   advise_to_count(user, tools, d);
   advise_by_words(user, final, refitted, d);

@@ -4,6 +4,7 @@
 
 #include "course.hpp"
 #include "from_balance.hpp"
+#include "known_effects.hpp"
 #include "rules.hpp"
 
 namespace shakedown {
@@ -61,6 +62,7 @@ DiagnosisState Course::search(DiagnosisState& refitted) {
     for (const RankedEffect& ranked : round.ranking) keep_ranked(ranked);
     result_.notes.insert(result_.notes.end(), round.notes.begin(), round.notes.end());
     result_.hypotheses = combined(result_.hypotheses, round.table);
+    result_.promised = round.promised;
     if (!round.added) break;
     accepted_.reset();
     if (state.fit.p_value > rules::holds) accepted_ = state;
@@ -134,8 +136,8 @@ DiagnosisState Course::without_added(const DiagnosisState& state, const Diagnosi
 }
 
 void Course::take_back(const std::string& effect) {
-  result_.hypotheses =
-      taken_back(result_.hypotheses, effect, prior_log_odds(1, static_cast<double>(tools_.known().size())));
+  result_.hypotheses = taken_back(result_.hypotheses, effect,
+                                  prior_log_odds(1, static_cast<double>(searched_effects(tools_.known()))));
 }
 
 void Course::leave_out(const std::string& step) {

@@ -66,6 +66,13 @@ struct RunnerUp {
   Setup setup;
 };
 
+/// The most probable effect, where there was no time to fit it: what its signature says of it.
+struct PromisedEffect {
+  std::string effect;
+  std::vector<std::pair<std::string, double>> besides;  ///< setup paths and values (SI) that it needs
+  std::vector<DiagnosedParameter> strengths;
+};
+
 struct LastFit;
 
 struct Diagnosis {
@@ -92,6 +99,7 @@ struct Diagnosis {
       free_restitution;  ///< for what lies inside the contacts, where a curve explains it
   std::vector<std::string> next_experiments;
   RunnerUp runner_up;
+  std::optional<PromisedEffect> promised;  ///< by the last round, which added nothing
   std::vector<std::string> notes;
   Setup amended;  ///< the user's setup with effects and refitted values
   double seconds = 0;
@@ -120,6 +128,9 @@ struct DiagnoseOptions {
   EnsembleCache* ensembles = nullptr;    ///< shared by diagnoses of one setup; may be null
   SimulationJournal* journal = nullptr;  ///< of this diagnosis, begun before or not; may be null
 };
+
+/// What it says is missing was promised by a signature alone: there was no time to fit it.
+bool is_promised(const Diagnosis& diagnosis);
 
 /// Simulations that a diagnosis may make unless told otherwise: 10000 for each different setup among the
 /// runs, for four at least.

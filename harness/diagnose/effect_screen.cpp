@@ -7,6 +7,7 @@
 
 #include "effort.hpp"
 #include "errors.hpp"
+#include "known_effects.hpp"
 #include "rules.hpp"
 #include "screen_simulations.hpp"
 
@@ -39,14 +40,14 @@ void name_look_alikes(const std::vector<Eigen::VectorXd>& changes, std::vector<S
 }
 
 /// A second look may make it more than doubtful, beside the best one and beside nothing.
-bool is_left_open(const ScreenedEffect& effect, double most, double known) {
+bool is_left_open(const ScreenedEffect& effect, double most, double searched) {
   if (!effect.weighed) return false;
   const double doubted = std::log(rules::doubtful);
   // What the noise of a glance has taken off the gain comes back with more simulations.
   const double share = std::max<double>(effect.share_seen, effort::glance_tells),
                could_be = effect.log_evidence + effect.gain / 2 * (1 / share - 1);
   return effect.log_evidence > effort::glance_sees * most + doubted &&
-         could_be + prior_log_odds(effect.seen.odds, known) > doubted;
+         could_be + prior_log_odds(effect.seen.odds, searched) > doubted;
 }
 
 }  // namespace
@@ -57,7 +58,7 @@ EffectScreen::EffectScreen(std::vector<MeasuredFeatures> measured, std::vector<K
     : simulations_(std::make_unique<ScreenSimulations>(std::move(measured), std::move(fitted), workshop,
                                                        effort, first_run, start)),
       effort_(effort),
-      known_(workshop.known.size()) {}
+      searched_(searched_effects(workshop.known)) {}
 
 EffectScreen::~EffectScreen() = default;
 
@@ -96,7 +97,7 @@ void EffectScreen::weigh_again(const Candidate& candidate, Weighed& one) {
 }
 
 bool EffectScreen::may_be_missing(const ScreenedEffect& effect, double best) const {
-  return is_left_open(effect, best, static_cast<double>(known_));
+  return is_left_open(effect, best, static_cast<double>(searched_));
 }
 
 bool EffectScreen::glance(const Candidate& candidate, Weighed& one) {

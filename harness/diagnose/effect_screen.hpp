@@ -100,7 +100,7 @@ class EffectScreen {
   std::unique_ptr<ScreenSimulations> simulations_;
   std::map<std::size_t, Signature> signatures_;  ///< of candidates that were simulated, by index
   ScreenEffort effort_;
-  std::size_t known_;  ///< effects, of which any may be missing
+  std::size_t searched_;  ///< effects, of which any may be missing
 };
 
 }  // namespace shakedown

@@ -217,6 +217,20 @@ double probability_among(const std::vector<Rival>& rivals, const Rival& one) {
   return sum;
 }
 
+PromisedEffect promised_by(const Rival& rival, const DiagnoseOptions& options) {
+  const Candidate& candidate = *rival.candidate;
+  PromisedEffect promised{candidate.effect, candidate.fixed, {}};
+  const double strength = candidate.strength_of(rival.screened.value),
+               relative = options.strength_uncertainty ? options.strength_uncertainty(candidate.effect) : 0,
+               half = 1.96 * std::hypot(rival.screened.seen.error, relative * strength);
+  const auto [low, high] =
+      std::minmax({candidate.value_of(strength - half), candidate.value_of(strength + half)});
+  for (const std::string& key : joined_keys(candidate.fitted_knobs().front().key))
+    promised.strengths.push_back(
+        {key, rival.screened.value, low, high, si_unit_of_key(key, options.known), ""});
+  return promised;
+}
+
 RankedEffect ranked_as(const Rival& rival) {
   RankedEffect ranked{rival.candidate->effect, rival.screened.gain,       std::nan(""), std::nan(""),
                       rival.screened.value,    rival.screened.look_alikes};

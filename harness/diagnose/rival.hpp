@@ -57,7 +57,7 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
 void fit_shortly(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools);
 
 /// Its odds beside nothing by what is known so far: its prior, its signature, its fitted model. `candidates`:
-/// the number of known effects.
+/// the number of effects that are looked for.
 void weigh_rival(Rival& rival, double candidates);
 
 /// Where the data reject the model without them all, the likelihood of each over it is told in the metric of
@@ -80,5 +80,9 @@ Rival* first_to_fit(const std::vector<Rival*>& by_odds);
 double probability_among(const std::vector<Rival>& rivals, const Rival& one);
 
 RankedEffect ranked_as(const Rival& rival);
+
+/// What the signature of one that was not fitted says: strengths with 95 % intervals, which allow for what
+/// hard impulses and soft contacts differ by (DiagnoseOptions::strength_uncertainty).
+PromisedEffect promised_by(const Rival& rival, const DiagnoseOptions& options);
 
 }  // namespace shakedown

@@ -92,7 +92,7 @@ class Round {
         astray_(is_led_astray(state)),
         from_(astray_ ? as_believed(state) : state),
         candidates_(open_candidates(from_, tools, seen_by_balance)),
-        known_(static_cast<double>(tools.known().size())),
+        searched_(static_cast<double>(searched_effects(tools.known()))),
         rejected_(is_rejected(state.fit)),
         far_off_(is_far_off(state.fit)),
         lowest_(state.fit.judged_chi2) {
@@ -105,10 +105,11 @@ class Round {
       rank();
       if (far_off_) fit_each_shortly();
       fit_the_most_probable();
-      if (rejected_) weigh_beside_the_best(rivals_, known_);
+      if (rejected_) weigh_beside_the_best(rivals_, searched_);
     }
     tell();
     if (probability_of_something(round_.table) > rules::adds_effect) add_the_best();
+    if (!round_.added) promise_the_most_probable();
     return std::move(round_);
   }
 
@@ -134,15 +135,15 @@ class Round {
     for (const Screening::LeftOut& left_out : screening.left_out) {
       round_.notes.push_back(left_out.effect + " was not looked for: it cannot be simulated here (" +
                              left_out.reason + ")");
-      round_.table.push_back({{left_out.effect}, prior_log_odds(1, known_), 0});
+      round_.table.push_back({{left_out.effect}, prior_log_odds(1, searched_), 0});
     }
     for (Rival& rival : rivals_) {
-      weigh_rival(rival, known_);
+      weigh_rival(rival, searched_);
       order_.push_back(&rival);
       if (!rival.weighed) round_.not_tried.push_back(rival.candidate->effect);
     }
     if (rejected_ && static_cast<double>(state_.missing.size()) + 2 <= rules::most_effects)
-      pairs_ = pairs_beyond(rivals_, screen_->pairs(candidates_), candidates_, known_);
+      pairs_ = pairs_beyond(rivals_, screen_->pairs(candidates_), candidates_, searched_);
     if (pairs_.size() > effort::most_pairs) pairs_.resize(effort::most_pairs);
   }
 
@@ -228,7 +229,7 @@ class Round {
     const auto fit = [&](Effort effort) {
       fit_rival(rival, from_, tools_, *screen_, lowest_, effort);
       lowest_ = std::min(lowest_, rival.state.fit.judged_chi2);
-      weigh_rival(rival, known_);
+      weigh_rival(rival, searched_);
     };
     try {
       try {
@@ -254,7 +255,7 @@ class Round {
     for (PairRival& pair : pairs_) try {
         const bool dear = pair.first.candidate->dear || pair.second.candidate->dear;
         fit_pair(pair, from_, tools_, *screen_, lowest_, dear ? effort::attempt_when_dear : effort::attempt);
-        weigh_pair(pair, known_);
+        weigh_pair(pair, searched_);
         lowest_ = std::min(lowest_, pair.second.state.fit.judged_chi2);
         if (holds(pair.second)) return;
       } catch (const BudgetSpent&) {
@@ -316,22 +317,31 @@ class Round {
     round_.runner_up_setup = (*second)->state.settled(tools_.known()).setup;
   }
 
+  /// Of an effect whose fit there was no time for the table knows what its signature says.
+  void promise_the_most_probable() {
+    if (order_.empty()) return;
+    const Rival& most = *order_.front();
+    const bool left_out = std::find(round_.not_tried.begin(), round_.not_tried.end(),
+                                    most.candidate->effect) != round_.not_tried.end();
+    if (left_out && most.weighed && !most.fitted) round_.promised = promised_by(most, tools_.options());
+  }
+
   const DiagnosisState& state_;
   DiagnosisTools& tools_;
   const bool astray_;
   const DiagnosisState from_;  ///< about which the round looks
   const std::vector<Candidate> candidates_;
-  const double known_;   ///< number of known effects
-  const bool rejected_;  ///< the state before
-  const bool far_off_;   ///< so far that signatures say little
-  double lowest_;        ///< chi2 of the best fit so far
+  const double searched_;  ///< number of effects that are looked for
+  const bool rejected_;    ///< the state before
+  const bool far_off_;     ///< so far that signatures say little
+  double lowest_;          ///< chi2 of the best fit so far
   double nothing_gained_ = 0;
   std::unique_ptr<EffectScreen> screen_;
   std::vector<Rival> rivals_;
   std::vector<Rival*> order_;  ///< by odds
   std::vector<PairRival> pairs_;
   int tried_ = 0;
-  SearchRound round_{{{{}, 0, 0}}, {}, {}, {}, false, {}, "", {}};
+  SearchRound round_{{{{}, 0, 0}}, {}, {}, {}, false, {}, {}, "", {}};
 };
 
 }  // namespace
@@ -339,7 +349,7 @@ class Round {
 std::vector<Hypothesis> not_looked_at(const DiagnosisState& state, DiagnosisTools& tools,
                                       const std::vector<std::string>& seen_by_balance) {
   std::vector<Hypothesis> table{{{}, 0, 0}};
-  const double all = static_cast<double>(tools.known().size());
+  const double all = static_cast<double>(searched_effects(tools.known()));
   for (const Candidate& candidate : open_candidates(state, tools, seen_by_balance))
     table.push_back({{candidate.effect}, prior_log_odds(candidate.prior.odds, all), 0});
   weigh(table);

@@ -138,21 +138,14 @@ std::string of_the_unknown(const Diagnosis& d, std::span<const EffectRecord* con
          "the contacts.";
 }
 
-/// Where the most probable explanation is one that there was no time to fit: what that is.
+/// What is most probable, where there was no time to fit it.
 std::string of_what_was_not_fitted(const Diagnosis& d, std::span<const EffectRecord* const> known) {
-  constexpr double more_likely_than_not = 0.5;
-  if (d.hypotheses.empty() || d.hypotheses.front().probability < more_likely_than_not) return "";
-  const Hypothesis& most = d.hypotheses.front();
-  const auto was_left = [&](const std::string& effect) {
-    return std::find(d.not_tried.begin(), d.not_tried.end(), effect) != d.not_tried.end();
-  };
-  if (std::none_of(most.effects.begin(), most.effects.end(), was_left)) return "";
   std::vector<std::string> names;
-  for (const std::string& effect : most.effects) names.push_back(named(effect, d, known));
+  for (const std::string& effect : d.missing) names.push_back(named(effect, d, known));
   return fmt::format(
-      "Most probably missing is {} ({}), by simulations at a few strengths; there was no time to fit it (ask "
-      "again with more --seconds or --budget), and no model that was fitted explains the measurements.",
-      list_of(names), percent(most.probability));
+      "Most probably missing in the model: {} ({}), by simulations at a few strengths; there was no time to "
+      "fit {}, so that the model with it was not checked (ask again with more --seconds or --budget).",
+      list_of(names), percent(d.hypotheses.front().probability), d.promised->effect);
 }
 
 std::string of_the_restitution(const Diagnosis& d) {
@@ -216,16 +209,13 @@ std::string first_words(const Diagnosis& d, std::span<const EffectRecord* const>
              what_it_brings(d) + ties_in_words(d);
     case Verdict::measurement: return of_the_measurement(d, known);
     case Verdict::missing: {
+      if (is_promised(d)) return of_what_was_not_fitted(d, known) + ties_in_words(d);
       std::vector<std::string> names;
       for (const std::string& effect : d.missing) names.push_back(named(effect, d, known));
       return "Missing in the model: " + list_of(names) + "." + what_it_brings(d) + ties_in_words(d) +
              what_remains(d) + of_the_restitution(d);
     }
-    case Verdict::unknown: {
-      const std::string not_fitted = of_what_was_not_fitted(d, known);
-      return (not_fitted.empty() ? of_the_unknown(d, known) : not_fitted) + of_the_restitution(d) +
-             ties_in_words(d);
-    }
+    case Verdict::unknown: return of_the_unknown(d, known) + of_the_restitution(d) + ties_in_words(d);
   }
   return "";
 }

@@ -104,6 +104,7 @@ struct SearchRound {
   std::vector<std::string> not_tried;  ///< for want of simulations or time
   bool added = false;
   DiagnosisState next;
+  std::optional<PromisedEffect> promised{};  ///< where nothing was added for want of time
   std::string runner_up;  ///< the effect that explains nearly as well as the one added; empty: none
   Setup runner_up_setup;  ///< as it was fitted
 };

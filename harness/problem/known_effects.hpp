@@ -2,6 +2,7 @@
 // Effects by name: records among those that a caller knows (libraries below the catalogue of effects are
 // handed them), and what a setup has chosen of them.
 #pragma once
+#include <algorithm>
 #include <span>
 #include <string_view>
 
@@ -15,6 +16,13 @@ inline const EffectRecord* find_record(std::span<const EffectRecord* const> know
   for (const EffectRecord* record : known)
     if (record->name == name) return record;
   return nullptr;
+}
+
+/// How many of them a diagnosis of a box with grains looks for: among so many the prior of one is shared out.
+inline std::size_t searched_effects(std::span<const EffectRecord* const> known) {
+  return static_cast<std::size_t>(std::count_if(known.begin(), known.end(), [](const EffectRecord* record) {
+    return !record->nuisance && record->search.not_searched.empty();
+  }));
 }
 
 /// The setup's choice of this effect; null: it has none. It lives as long as the setup's list is not changed.

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "effects.hpp"
 #include "pair_rivals.hpp"
 #include "rival.hpp"
 #include "rules.hpp"
@@ -197,4 +198,27 @@ TEST(PairRival, IsWeighedBesideNothingWhereItWasFitted) {
       pairs_beyond(screened.rivals, {{0, 1, 0.5, 2, 300}}, screened.candidates, known);
   ASSERT_EQ(pairs.size(), 1u);
   WITHIN(pairs[0].log_odds, 300 - 500 + 2 * prior_log_odds(1, known), 1e-12, 5e-14);
+}
+
+TEST(Rival, PromisesWhatItsSignatureSaysAndAllowsForTheEngines) {
+  Candidate candidate = named("grain_cohesion");
+  candidate.knobs.front() = Knob{"grain_cohesion.force", 0, 0.024, 0, 0.5, true};
+  candidate.knobs.front().absent = 0;
+  candidate.fixed = {{"grain_cohesion.range", 0.2e-3}};
+  Rival rival{&candidate, {}};
+  rival.screened.value = 0.1;
+  rival.screened.seen.error = 0.003;
+  DiagnoseOptions options;
+  options.known = all_effects();
+  PromisedEffect promised = promised_by(rival, options);
+  EXPECT_EQ(promised.besides, candidate.fixed);
+  ASSERT_EQ(promised.strengths.size(), 1u);
+  EXPECT_EQ(promised.strengths[0].unit, "N");
+  EXPECT_EQ(promised.strengths[0].value, 0.1);
+  EXPECT_DOUBLE_EQ(promised.strengths[0].low, 0.1 - 1.96 * 0.003);
+  EXPECT_DOUBLE_EQ(promised.strengths[0].high, 0.1 + 1.96 * 0.003);
+  options.strength_uncertainty = [](std::string_view) { return 0.04; };
+  promised = promised_by(rival, options);
+  EXPECT_DOUBLE_EQ(promised.strengths[0].low, 0.1 - 1.96 * 0.005);
+  EXPECT_DOUBLE_EQ(promised.strengths[0].high, 0.1 + 1.96 * 0.005);
 }
