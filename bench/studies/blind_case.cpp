@@ -33,7 +33,7 @@ std::vector<PlannedRun> lasting(std::vector<PlannedRun> runs, const std::vector<
 class Draw {
  public:
   Draw(const Setup& believed, const BlindDesign& design, const SignalLaws& laws, std::uint64_t seed,
-       std::span<const EffectRecord* const> known)
+       KnownEffects known)
       : believed_(believed), design_(design), laws_(laws), seed_(seed), known_(known) {}
 
   BlindCase one(BlindKind kind, int index) const;
@@ -59,7 +59,7 @@ class Draw {
   const BlindDesign& design_;
   const SignalLaws& laws_;
   std::uint64_t seed_;
-  std::span<const EffectRecord* const> known_;
+  KnownEffects known_;
 };
 
 /// How a strength of this unit grows from the believed damper to another one, so that it does as much there.
@@ -365,8 +365,7 @@ BlindDesign varied(BlindDesign design, std::string_view variant, const std::stri
 }
 
 std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design,
-                                  const SignalLaws& laws, std::uint64_t seed,
-                                  std::span<const EffectRecord* const> known) {
+                                  const SignalLaws& laws, std::uint64_t seed, KnownEffects known) {
   const Draw draw(believed, design, laws, seed, known);
   std::vector<BlindCase> cases;
   for (std::size_t kind = 0; kind < counts.size(); ++kind)

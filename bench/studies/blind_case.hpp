@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 
+#include "known_effects.hpp"
 #include "signal_law.hpp"
 
 namespace shakedown {
@@ -80,8 +81,7 @@ std::string strength_name(std::string_view id, BlindKind kind);
 /// `parameters` the believed ones), in contact time, packing (three in five are as believed), camera noise
 /// and seed. Same arguments, same cases.
 std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design,
-                                  const SignalLaws& laws, std::uint64_t seed,
-                                  std::span<const EffectRecord* const> known);
+                                  const SignalLaws& laws, std::uint64_t seed, KnownEffects known);
 
 /// Those that this laboratory can make: an engine that does not model an effect does not hide it. Their names
 /// stay.

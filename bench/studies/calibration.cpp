@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "distributions.hpp"
 #include "effects.hpp"
 #include "key_unit.hpp"
 
@@ -76,10 +77,9 @@ void reliability(const std::vector<OpenedCase>& cases, ScoreTable& table) {
 }
 
 double deviations_from_middle(const FoundInterval& interval, double truth) {
-  constexpr double quantile = 1.96;  // of the normal distribution, two-sided 95 %
   const double half = 0.5 * (interval.high - interval.low);
   if (!(half > 0)) return truth == interval.low ? 0 : std::numeric_limits<double>::infinity();
-  return std::abs(truth - (interval.low + half)) / half * quantile;
+  return std::abs(truth - (interval.low + half)) / half * normal_95;
 }
 
 double truth_beside(const std::string& key, double truth, const FoundInterval& interval) {
@@ -90,7 +90,7 @@ double truth_beside(const std::string& key, double truth, const FoundInterval& i
 
 void coverage_by_quantile(const std::vector<OpenedCase>& cases, ScoreTable& table) {
   constexpr std::array<std::pair<double, double>, 4> quantiles{
-      {{0.5, 0.674}, {0.8, 1.282}, {0.95, 1.96}, {0.99, 2.576}}};
+      {{0.5, 0.674}, {0.8, 1.282}, {0.95, normal_95}, {0.99, 2.576}}};
   for (const auto& [expected, deviations] : quantiles) {
     Count within;
     for (const OpenedCase& one : cases) {

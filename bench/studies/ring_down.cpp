@@ -112,7 +112,7 @@ RingDownNoise draw_noise(Random& random, double release, RecordingSettings& reco
 
 /// A second swing's other numbers: not so near the box's own that they beat, which the effect says it is not
 /// for, nor near a multiple of it.
-void draw_second_swing(Random& random, std::span<const EffectRecord* const> known, Setup& truth) {
+void draw_second_swing(Random& random, KnownEffects known, Setup& truth) {
   constexpr double apart_from_own = 0.25, apart_from_multiples = 0.15;
   const auto is_apart = [](double ratio) {
     return std::abs(ratio - 1) > apart_from_own &&
@@ -126,7 +126,7 @@ void draw_second_swing(Random& random, std::span<const EffectRecord* const> know
   set_number(truth, "second_mode.phase", between(random, -3, 3), known);
 }
 
-void hide_law(const Law& law, Random& random, std::span<const EffectRecord* const> known, RingDown& drawn,
+void hide_law(const Law& law, Random& random, KnownEffects known, RingDown& drawn,
               std::vector<std::string>& keys) {
   Setup& truth = drawn.trial.hidden.truth;
   const Scale scale{truth.box.mass, 2 * std::numbers::pi * truth.spring.frequency,
@@ -153,8 +153,7 @@ void draw_edges(Random& random, const Setup& truth, RecordingSettings& recording
 }
 
 /// One attempt; its signals may be too small.
-RingDown drawn_once(Random& random, unsigned which, const Engine& engine,
-                    std::span<const EffectRecord* const> known) {
+RingDown drawn_once(Random& random, unsigned which, const Engine& engine, KnownEffects known) {
   RingDown drawn;
   Setup& truth = drawn.trial.hidden.truth;
   truth.grains.count = 0;
@@ -192,16 +191,15 @@ RingDown drawn_once(Random& random, unsigned which, const Engine& engine,
 }
 
 /// Whether only the waveform's finest marks tell the two apart (a pendulum's sine and a cubic spring).
-bool look_alike(const std::string& one, const std::string& other,
-                std::span<const EffectRecord* const> known) {
-  const EffectRecord *a = find_record(known, one), *b = find_record(known, other);
+bool look_alike(const std::string& one, const std::string& other, KnownEffects known) {
+  const EffectRecord *a = known.find(one), *b = known.find(other);
   return a != nullptr && b != nullptr && !a->family.empty() && a->family == b->family &&
          (search_of(*a).in_waveform || search_of(*b).in_waveform);
 }
 
 /// What is named, a look-alike of something hidden that is not named by the name of that.
 std::vector<std::string> as_hidden(std::vector<std::string> named, const std::vector<std::string>& hidden,
-                                   std::span<const EffectRecord* const> known) {
+                                   KnownEffects known) {
   const auto among = [](const std::string& effect, const std::vector<std::string>& list) {
     return std::find(list.begin(), list.end(), effect) != list.end();
   };
@@ -234,8 +232,7 @@ double RingDown::weakest() const {
                          : *std::min_element(signals.begin(), signals.end());
 }
 
-RingDown draw_ring_down(std::uint64_t seed, int number, const Engine& engine,
-                        std::span<const EffectRecord* const> known) {
+RingDown draw_ring_down(std::uint64_t seed, int number, const Engine& engine, KnownEffects known) {
   constexpr int most_attempts = 200;
   Random random(seed, static_cast<std::uint64_t>(number), Stream::hidden);
   const unsigned which = laws_in_turn[static_cast<std::size_t>(number) % laws_in_turn.size()];
@@ -298,7 +295,7 @@ RingDownAnswer read_answer(const std::filesystem::path& file, const std::string&
   return answer;
 }
 
-RingDownResult judged(RingDown drawn, RingDownAnswer answer, std::span<const EffectRecord* const> known) {
+RingDownResult judged(RingDown drawn, RingDownAnswer answer, KnownEffects known) {
   RingDownResult result;
   const auto ordered = [&](const std::vector<std::string>& effects) {
     std::vector<std::string> physics = physics_among(effects, known);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "known_effects.hpp"
 #include "trial.hpp"
 
 namespace shakedown {
@@ -35,8 +36,7 @@ struct RingDown {
 /// spring), in half the cases with one thing that rigs have beside them (a second swing, a spring stiffer to
 /// one side, a tilted camera, a pendulum's sine), each with a signal of 4 and more; one in seven by the edges
 /// of an encoder. `engine` computes the signals. A case depends on seed and number alone.
-RingDown draw_ring_down(std::uint64_t seed, int number, const Engine& engine,
-                        std::span<const EffectRecord* const> known);
+RingDown draw_ring_down(std::uint64_t seed, int number, const Engine& engine, KnownEffects known);
 
 struct RingDownAnswer {
   std::string verdict;               ///< empty: no answer
@@ -63,7 +63,7 @@ struct RingDownResult {
   bool right = false;
   bool invented = false;  ///< physics is named that is not hidden, or a force of no list
 };
-RingDownResult judged(RingDown drawn, RingDownAnswer answer, std::span<const EffectRecord* const> known);
+RingDownResult judged(RingDown drawn, RingDownAnswer answer, KnownEffects known);
 
 /// Counts by what was hidden, by signal, by noise and by frames a period.
 std::string ring_down_table(const std::vector<RingDownResult>& results);

@@ -60,8 +60,7 @@ class Whitener {
 
 /// Change of what is seen per relative change of one key.
 Eigen::VectorXd relative_slope(const Setup& truth, const std::string& key, double step,
-                               const RecordingSettings& recording, const Engine& engine,
-                               std::span<const EffectRecord* const> known) {
+                               const RecordingSettings& recording, const Engine& engine, KnownEffects known) {
   const double value = get_number(truth, key, known);
   const auto with = [&](double factor) {
     Setup changed = truth;
@@ -74,8 +73,7 @@ Eigen::VectorXd relative_slope(const Setup& truth, const std::string& key, doubl
 }  // namespace
 
 std::vector<double> signals_of(const Setup& truth, const std::vector<std::string>& keys,
-                               const RecordingSettings& recording, const Engine& engine,
-                               std::span<const EffectRecord* const> known) {
+                               const RecordingSettings& recording, const Engine& engine, KnownEffects known) {
   constexpr double a_little = 0.02, of_frequency = 1e-4;  // the latter adds up over all periods
   const double moment = 1e-3 / truth.spring.frequency;
   const Eigen::VectorXd late = seen(truth, recording, recording.start + moment, engine),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine.hpp"
+#include "known_effects.hpp"
 #include "measurements.hpp"
 
 namespace shakedown {
@@ -14,7 +15,6 @@ namespace shakedown {
 /// Noise: white, rounding as white noise of step / sqrt(12), jitter that the table does not have times the
 /// speed, wander with its memory (whitened by Kalman's filter).
 std::vector<double> signals_of(const Setup& truth, const std::vector<std::string>& keys,
-                               const RecordingSettings& recording, const Engine& engine,
-                               std::span<const EffectRecord* const> known);
+                               const RecordingSettings& recording, const Engine& engine, KnownEffects known);
 
 }  // namespace shakedown

@@ -27,16 +27,16 @@ std::pair<std::string, std::string> key_and_run(const std::string& name) {
 namespace {
 
 /// A linear estimate may ask for more than there can be; the setup's keys have bounds.
-double within_bounds(double value, const std::string& key, std::span<const EffectRecord* const> known) {
-  const Parameter* parameter = find_parameter(known, key);
+double within_bounds(double value, const std::string& key, KnownEffects known) {
+  const Parameter* parameter = known.find_parameter(key);
   return parameter == nullptr ? value : std::clamp(value, parameter->low, parameter->high);
 }
 
 }  // namespace
 
-bool scales_all_lengths(const std::string& key) {
-  const CameraParameter* parameter = find_camera_parameter(key);
-  if (parameter == nullptr || parameter->inverse_square) return false;
+bool scales_all_lengths(KnownEffects known, const std::string& key) {
+  const std::optional<CameraParameter> parameter = find_camera_parameter(known, key);
+  if (!parameter || parameter->inverse_square) return false;
   const Recording sample{{0, 1, 2, 3, 4, 5}, {1, -3, 2, -1, 4, -2}, {2, -2, 3, 1, -1, -3}};
   const Recording change = derivative(sample, *parameter);
   const double share = change.x_box[0] / sample.x_box[0];
@@ -48,8 +48,7 @@ bool scales_all_lengths(const std::string& key) {
   return share != 0;
 }
 
-Measurement read_with(const Measurement& measurement, const NuisanceValues& values,
-                      std::span<const EffectRecord* const> known) {
+Measurement read_with(const Measurement& measurement, const NuisanceValues& values, KnownEffects known) {
   Measurement read = measurement;
   for (const auto& [name, value] : values) {
     const auto [key, of_run] = key_and_run(name);
@@ -61,8 +60,8 @@ Measurement read_with(const Measurement& measurement, const NuisanceValues& valu
   return read;
 }
 
-BalanceProblem::BalanceProblem(const Measurement& measurement, std::span<const EffectRecord* const> known,
-                               NuisanceValues already, const std::vector<std::string>& only)
+BalanceProblem::BalanceProblem(const Measurement& measurement, KnownEffects known, NuisanceValues already,
+                               const std::vector<std::string>& only)
     : measurement_(measurement), known_(known), already_(std::move(already)) {
   for (const Measurement::Run& run : measurement.runs) {
     motion_.push_back(before_the_camera(run));
@@ -78,13 +77,11 @@ BalanceProblem::BalanceProblem(const Measurement& measurement, std::span<const E
            (only.empty() || std::find(only.begin(), only.end(), effect) != only.end());
   };
   for (const MomentumTerm& term : seen_)
-    if (term.kind == TermKind::refit || (possible(term.effect) && !scales_all_lengths(term.key())))
+    if (term.kind == TermKind::refit || (possible(term.effect) && !scales_all_lengths(known, term.key())))
       terms_.push_back(term);
-  for (const EffectRecord* record : known)
-    if (const Search search = search_of(*record); search.harmonic && search.not_searched.empty() &&
-                                                  possible(std::string(record->name)) &&
-                                                  !find_choice(first, record->name))
-      typical_sine_ = search.strengths.front().typical;
+  if (const EffectRecord* record = known.oscillating();
+      record != nullptr && possible(std::string(record->name)) && !find_choice(first, record->name))
+    typical_sine_ = search_of(*record).strengths.front().typical;
 }
 
 double BalanceProblem::noise() const {
@@ -120,7 +117,7 @@ std::vector<ForceSamples> BalanceProblem::samples_of(const MomentumTerm& term, d
 void BalanceProblem::add_camera(std::vector<BalanceNuisance>& list) const {
   for (const CameraNuisance& camera : camera_nuisances(measurement_, known_)) {
     // A scale of all lengths scales the whole balance, and would take up whatever is there.
-    if (scales_all_lengths(camera.key)) continue;
+    if (scales_all_lengths(known_, camera.key)) continue;
     const auto term = std::find_if(seen_.begin(), seen_.end(),
                                    [&](const MomentumTerm& t) { return t.key() == camera.key; });
     if (term == seen_.end()) continue;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "balance_evidence.hpp"
+#include "known_effects.hpp"
 #include "measurement.hpp"
 
 namespace shakedown {
@@ -17,20 +18,19 @@ namespace shakedown {
 using NuisanceValues = std::map<std::string, double, std::less<>>;
 
 /// The measurement read with these values of camera and weights: what is linear about them is exact there.
-Measurement read_with(const Measurement& measurement, const NuisanceValues& values,
-                      std::span<const EffectRecord* const> known);
+Measurement read_with(const Measurement& measurement, const NuisanceValues& values, KnownEffects known);
 
 /// Whether this parameter of a camera multiplies every position by the same: a balance cannot tell it, for it
 /// multiplies all of that too.
-bool scales_all_lengths(const std::string& key);
+bool scales_all_lengths(KnownEffects known, const std::string& key);
 
 /// Owns what the regression refers to.
 class BalanceProblem {
  public:
   /// `already`: values of nuisances that `measurement` was read with; what is known of them holds for the
   /// whole. `only`: of these effects alone is a strength in question; empty: of all.
-  BalanceProblem(const Measurement& measurement, std::span<const EffectRecord* const> known,
-                 NuisanceValues already = {}, const std::vector<std::string>& only = {});
+  BalanceProblem(const Measurement& measurement, KnownEffects known, NuisanceValues already = {},
+                 const std::vector<std::string>& only = {});
   BalanceProblem(const BalanceProblem&) = delete;
   BalanceProblem& operator=(const BalanceProblem&) = delete;
 
@@ -51,7 +51,7 @@ class BalanceProblem {
   void add_weights(std::vector<BalanceNuisance>& list) const;
 
   const Measurement& measurement_;
-  std::span<const EffectRecord* const> known_;
+  KnownEffects known_;
   NuisanceValues already_;
   std::vector<Recording> motion_;  ///< of each run, before the camera
   std::vector<MomentumRun> runs_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "distributions.hpp"
 #include "term_prices.hpp"
 
 namespace shakedown {
@@ -174,7 +175,7 @@ ForceFormula described(const SelectionProblem& p, const Selection& selection, st
   const PreparedTerm& term = p.terms[static_cast<std::size_t>(selection.chosen[which].term)];
   const Eigen::MatrixXd columns = tangent_columns(p, selection, which);
   const Regression tangent = regress(p.problem.impulse(), columns);
-  const double wide = 1.96 * std::sqrt(std::max(1.0, selection.fit.chi2 / selection.fit.degrees));
+  const double wide = normal_95 * std::sqrt(std::max(1.0, selection.fit.chi2 / selection.fit.degrees));
   ForceFormula formula{term.shape->formula, term.shape->sentence, {}, 0, {}};
   const Eigen::Index own = column_of(selection, which);
   const double strength = selection.fit.strength[own], error = tangent.error[own];

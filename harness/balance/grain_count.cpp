@@ -27,8 +27,8 @@ bool may_be_fewer(const Measurement& measurement) {
 
 }  // namespace
 
-std::vector<GrainCount> grain_counts(const Measurement& measurement,
-                                     std::span<const EffectRecord* const> known, const MomentumAudit& audit) {
+std::vector<GrainCount> grain_counts(const Measurement& measurement, KnownEffects known,
+                                     const MomentumAudit& audit) {
   if (!audit.possible || !may_be_fewer(measurement)) return {};
   MomentumOptions nothing_missing;
   nothing_missing.formulas = false;

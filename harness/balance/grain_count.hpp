@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "known_effects.hpp"
 #include "momentum.hpp"
 
 namespace shakedown {
@@ -17,8 +18,8 @@ struct GrainCount {
 
 /// One grain fewer and one more, most likely first: spring's frequency and nuisances free in each, the noise
 /// as `audit` has found it. Empty where there is no balance, or a run with grains has one grain alone.
-std::vector<GrainCount> grain_counts(const Measurement& measurement,
-                                     std::span<const EffectRecord* const> known, const MomentumAudit& audit);
+std::vector<GrainCount> grain_counts(const Measurement& measurement, KnownEffects known,
+                                     const MomentumAudit& audit);
 
 /// Miscounts by one that an experiment makes beforehand, each of the two: an assumption, one experiment in
 /// fifty is miscounted.

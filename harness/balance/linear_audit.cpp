@@ -6,6 +6,7 @@
 
 #include "balance_problem.hpp"
 #include "balance_rules.hpp"
+#include "distributions.hpp"
 #include "effect_strength.hpp"
 #include "force_formula.hpp"
 #include "foretold.hpp"
@@ -23,8 +24,6 @@ constexpr double price_of_the_unlisted = 10;
 /// ... and ln odds of nine to one, with which known effects are added too (rules::adds_effect of a
 /// diagnosis).
 const double adds_the_unlisted = std::log(9.0);
-
-constexpr double of_95_percent = 1.96;
 
 /// The error of the noise's variance widens chi2 like so many degrees fewer.
 BalanceFit balance_of(double chi2, double degrees) {
@@ -77,22 +76,21 @@ std::vector<std::string> look_alikes(const SelectionProblem& p, const std::vecto
   return names;
 }
 
-std::string name_of_sine(std::span<const EffectRecord* const> known) {
-  for (const EffectRecord* record : known)
-    if (const Search search = search_of(*record); search.harmonic && search.not_searched.empty())
-      return std::string(record->name);
-  return "";
+std::string name_of_sine(KnownEffects known) {
+  const EffectRecord* record = known.oscillating();
+  return record == nullptr ? "" : std::string(record->name);
 }
 
-FoundTerm sine_found(std::span<const EffectRecord* const> known, double frequency, double sine, double cosine,
-                     double error) {
+FoundTerm sine_found(KnownEffects known, double frequency, double sine, double cosine, double error) {
   FoundTerm found;
-  found.effect = name_of_sine(known);
-  found.parameter = "amplitude";
-  found.unit = "m/s^2";
+  if (const EffectRecord* record = known.oscillating()) {
+    const std::string_view amplitude = record->search.harmonic->amplitude;  // of a vector a component
+    const Parameter& parameter = *record->find(amplitude.substr(0, amplitude.find('.')));
+    found.effect = record->name, found.parameter = parameter.name, found.unit = parameter.unit;
+  }
   found.value = std::hypot(sine, cosine);
-  found.low = std::max(0.0, found.value - of_95_percent * error);
-  found.high = found.value + of_95_percent * error;
+  found.low = std::max(0.0, found.value - normal_95 * error);
+  found.high = found.value + normal_95 * error;
   found.frequency = frequency;
   found.phase = std::atan2(cosine, sine);
   found.gain = found.value * found.value / (error * error);
@@ -108,7 +106,7 @@ FoundTerm term_found(const SelectionProblem& p, const Selection& selection, std:
   FoundTerm found{term.effect, term.parameter, term.unit, term.kind};
   found.besides = term.besides;
   const double strength = selection.fit.strength[column],
-               wide = of_95_percent * selection.fit.error[column] * widened(selection.fit);
+               wide = normal_95 * selection.fit.error[column] * widened(selection.fit);
   found.value = term.parameter_at(strength);
   std::tie(found.low, found.high) =
       std::minmax({term.parameter_at(strength - wide), term.parameter_at(strength + wide)});
@@ -134,7 +132,7 @@ std::vector<SingleTerm> ranking_of(const SelectionProblem& p, const Selection& r
 }
 
 std::vector<WeighedSet> sets_in_words(const SelectionProblem& p, const std::vector<BalanceHypothesis>& list,
-                                      std::span<const EffectRecord* const> known) {
+                                      KnownEffects known) {
   constexpr double shown = 0.99;
   std::vector<WeighedSet> sets;
   double sum = 0;
@@ -175,7 +173,7 @@ void describe_nuisances(const SelectionProblem& p, const Selection& selection, M
 template <typename Described>
 void describe_frequency(const Selection& selection, double frequency, Described& audit) {
   const double spring = selection.fit.strength[0],
-               wide = of_95_percent * selection.fit.error[0] * widened(selection.fit);
+               wide = normal_95 * selection.fit.error[0] * widened(selection.fit);
   const auto at = [&](double stiffness) { return frequency * std::sqrt(std::max(0.0, 1 + stiffness)); };
   audit.frequency = at(spring);
   audit.frequency_low = at(spring - wide);
@@ -203,7 +201,7 @@ double displacement_left(const SelectionProblem& p, const Selection* selection) 
 }
 
 std::vector<FoundTerm> terms_found(const SelectionProblem& p, const Selection& selection,
-                                   std::span<const EffectRecord* const> known) {
+                                   KnownEffects known) {
   std::vector<FoundTerm> found;
   Eigen::Index column = 1;
   for (std::size_t which = 1; which < selection.chosen.size(); ++which) {
@@ -223,7 +221,7 @@ std::vector<FoundTerm> terms_found(const SelectionProblem& p, const Selection& s
 /// what may stand in its place.
 std::vector<BalanceAlternative> alternatives_of(const SelectionProblem& p,
                                                 const std::vector<BalanceHypothesis>& sets, double frequency,
-                                                std::span<const EffectRecord* const> known) {
+                                                KnownEffects known) {
   constexpr double hopeless = -14, in_question = 0.02;
   constexpr std::size_t most = 3;
   std::vector<BalanceAlternative> list;
@@ -243,8 +241,7 @@ std::vector<BalanceAlternative> alternatives_of(const SelectionProblem& p,
 }
 
 void describe(const SelectionProblem& p, const Selection& selection,
-              const std::vector<BalanceHypothesis>& sets, std::span<const EffectRecord* const> known,
-              MomentumAudit& audit) {
+              const std::vector<BalanceHypothesis>& sets, KnownEffects known, MomentumAudit& audit) {
   audit.final_fit = balance_of(selection.fit);
   audit.terms = terms_found(p, selection, known);
   Eigen::Index column = 1;
@@ -324,8 +321,8 @@ void by_what_they_explain(std::vector<FoundTerm>& terms) {
   });
 }
 
-MomentumAudit linear_audit(const Measurement& measurement, std::span<const EffectRecord* const> known,
-                           const MomentumOptions& options, const NuisanceValues& already) {
+MomentumAudit linear_audit(const Measurement& measurement, KnownEffects known, const MomentumOptions& options,
+                           const NuisanceValues& already) {
   MomentumAudit audit;
   const BalanceProblem balance(measurement, known, already, options.effects);
   std::optional<SetsWeighed> weighed = weigh_sets(balance, options);

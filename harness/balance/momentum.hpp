@@ -14,6 +14,7 @@
 #include "balance_rules.hpp"
 #include "force_shapes.hpp"
 #include "judgement.hpp"
+#include "known_effects.hpp"
 #include "measurement.hpp"
 #include "momentum_terms.hpp"
 
@@ -143,7 +144,7 @@ struct MomentumOptions {
 };
 
 /// `known`: the effects that may be missing.
-MomentumAudit audit_momentum(const Measurement& measurement, std::span<const EffectRecord* const> known,
+MomentumAudit audit_momentum(const Measurement& measurement, KnownEffects known,
                              const MomentumOptions& options = {});
 
 }  // namespace shakedown

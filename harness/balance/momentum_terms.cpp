@@ -30,8 +30,8 @@ double as_strength(double parameter, bool inverse) {
 /// A length whose default stands for the release displacement (of a cubic spring's coefficient) would be
 /// another one in every run that has its own: it is fixed to the first run's. Known by doing nothing when it
 /// is set to that.
-void fix_scale_of_release(const EffectRecord& record, const Setup& setup,
-                          std::span<const EffectRecord* const> known, MomentumTerm& term) {
+void fix_scale_of_release(const EffectRecord& record, const Setup& setup, KnownEffects known,
+                          MomentumTerm& term) {
   const double release = std::abs(setup.release.displacement);
   if (release == 0) return;
   const double there = physics_of(with_strength(setup, term, term.typical, known)).spring_cubic;
@@ -47,7 +47,7 @@ void fix_scale_of_release(const EffectRecord& record, const Setup& setup,
 }
 
 MomentumTerm term_of(const EffectRecord& record, const Search& search, const SearchedStrength& searched,
-                     const Setup& setup, std::span<const EffectRecord* const> known) {
+                     const Setup& setup, KnownEffects known) {
   MomentumTerm term;
   term.effect = record.name;
   term.parameter = searched.parameters;
@@ -103,15 +103,13 @@ bool MomentumTerm::possible(double strength) const {
   return whole >= least && whole <= most;
 }
 
-Setup with_strength(Setup setup, const MomentumTerm& term, double strength,
-                    std::span<const EffectRecord* const> known) {
+Setup with_strength(Setup setup, const MomentumTerm& term, double strength, KnownEffects known) {
   for (const auto& [key, value] : term.besides) set_number(setup, key, value, known);
   set_number(setup, term.key(), term.parameter_at(strength), known);
   return setup;
 }
 
-std::vector<MomentumTerm> momentum_terms(const Setup& setup, std::span<const EffectRecord* const> known,
-                                         bool of_waveform) {
+std::vector<MomentumTerm> momentum_terms(const Setup& setup, KnownEffects known, bool of_waveform) {
   std::vector<MomentumTerm> terms(1);
   terms[0].effect = terms[0].parameter = "spring.frequency";
   terms[0].kind = TermKind::refit;

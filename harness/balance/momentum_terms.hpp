@@ -46,13 +46,11 @@ struct MomentumTerm {
 };
 
 /// The setup with the term's strength beyond its own.
-Setup with_strength(Setup setup, const MomentumTerm& term, double strength,
-                    std::span<const EffectRecord* const> known);
+Setup with_strength(Setup setup, const MomentumTerm& term, double strength, KnownEffects known);
 
 /// The spring's frequency first, then every strength of `known` that a diagnosis may look for; with
 /// `of_waveform` those too that the waveform of an empty box alone tells.
-std::vector<MomentumTerm> momentum_terms(const Setup& setup, std::span<const EffectRecord* const> known,
-                                         bool of_waveform = false);
+std::vector<MomentumTerm> momentum_terms(const Setup& setup, KnownEffects known, bool of_waveform = false);
 
 /// The column of a change of the setup: (as it is - changed) / by, for one run.
 ForceSamples samples_of_change(const MomentumRun& as_it_is, const MomentumRun& changed, double by);

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "distributions.hpp"
 #include "nuisance.hpp"
 
 namespace shakedown {
 
 namespace {
-
-constexpr double deviations_of_95_percent = 1.96;
 
 /// Something that multiplies the balance, with its standard deviation, SI.
 struct CommonFactor {
@@ -18,12 +17,11 @@ struct CommonFactor {
   double deviation = 0, step = 0;  ///< step: by which it is moved to see what that does
 };
 
-std::vector<CommonFactor> factors_of(const Measurement& measurement,
-                                     std::span<const EffectRecord* const> known) {
+std::vector<CommonFactor> factors_of(const Measurement& measurement, KnownEffects known) {
   constexpr double small = 0.01;  // relative
   std::vector<CommonFactor> list;
   for (const CameraNuisance& camera : camera_nuisances(measurement, known))
-    if (scales_all_lengths(camera.key)) list.push_back({camera.key, camera.deviation(), small});
+    if (scales_all_lengths(known, camera.key)) list.push_back({camera.key, camera.deviation(), small});
   const bool empty = std::all_of(measurement.runs.begin(), measurement.runs.end(),
                                  [](const Measurement::Run& run) { return run.setup.grains.count == 0; });
   if (const ValueWithError mass = known_mass(measurement, "box.mass"); empty && mass.error > 0)
@@ -34,9 +32,9 @@ std::vector<CommonFactor> factors_of(const Measurement& measurement,
 bool is_same(const MomentumTerm& term, const FoundTerm& found) { return term.key() == found.key(); }
 
 /// The values of the terms found, fitted once more to this measurement.
-std::vector<double> nuisance_values(const Measurement& measurement,
-                                    std::span<const EffectRecord* const> known, const NuisanceValues& already,
-                                    const MomentumOptions& options, const MomentumAudit& audit) {
+std::vector<double> nuisance_values(const Measurement& measurement, KnownEffects known,
+                                    const NuisanceValues& already, const MomentumOptions& options,
+                                    const MomentumAudit& audit) {
   std::vector<std::string> only;
   for (const FoundTerm& found : audit.terms) only.push_back(found.effect);
   const BalanceProblem balance(measurement, known, already, only);
@@ -67,8 +65,8 @@ std::vector<double> nuisance_values(const Measurement& measurement,
 
 }  // namespace
 
-void allow_for_scales(const Measurement& measurement, std::span<const EffectRecord* const> known,
-                      const NuisanceValues& already, const MomentumOptions& options, MomentumAudit& audit) {
+void allow_for_scales(const Measurement& measurement, KnownEffects known, const NuisanceValues& already,
+                      const MomentumOptions& options, MomentumAudit& audit) {
   if (audit.terms.empty() || audit.unlisted) return;
   const std::vector<CommonFactor> factors = factors_of(measurement, known);
   if (factors.empty()) return;
@@ -81,7 +79,7 @@ void allow_for_scales(const Measurement& measurement, std::span<const EffectReco
       // In parts of the value: the fit here may differ a little from the one that was told.
       FoundTerm& term = audit.terms[i];
       const double change = here[i] != 0 ? term.value * (moved[i] - here[i]) / here[i] : 0;
-      const double wide = deviations_of_95_percent * std::abs(change) * factor.deviation / factor.step;
+      const double wide = normal_95 * std::abs(change) * factor.deviation / factor.step;
       term.low = term.value - std::hypot(term.value - term.low, wide);
       term.high = term.value + std::hypot(term.high - term.value, wide);
     }

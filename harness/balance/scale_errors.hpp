@@ -3,6 +3,7 @@
 // without grains. Its error widens the intervals of the forces that it multiplies.
 #pragma once
 #include "balance_problem.hpp"
+#include "known_effects.hpp"
 #include "momentum.hpp"
 
 namespace shakedown {
@@ -10,7 +11,7 @@ namespace shakedown {
 /// Widens the intervals of audit.terms. `measurement` is read with `already`. A linear damping does not
 /// depend on the scale; dry friction grows with it, quadratic drag falls; all forces grow with an empty
 /// box's mass.
-void allow_for_scales(const Measurement& measurement, std::span<const EffectRecord* const> known,
-                      const NuisanceValues& already, const MomentumOptions& options, MomentumAudit& audit);
+void allow_for_scales(const Measurement& measurement, KnownEffects known, const NuisanceValues& already,
+                      const MomentumOptions& options, MomentumAudit& audit);
 
 }  // namespace shakedown

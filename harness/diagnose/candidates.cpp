@@ -6,7 +6,6 @@
 #include <map>
 #include <numeric>
 
-#include "camera.hpp"
 #include "effect_strength.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
@@ -33,7 +32,7 @@ Knob knob_of(const EffectRecord& record, const SearchedStrength& strength, const
   knob.absent_key = strength.absent_key;
   constexpr std::size_t for_a_cubic = 4;
   knob.cubic = strength.levels.size() >= for_a_cubic;
-  knob.exact = !strength.inverse && find_camera_parameter(knob.key) != nullptr;
+  knob.exact = !strength.inverse && record.camera.field != nullptr;
   if (knob.exact) knob.curved = knob.cubic = false;
   return knob;
 }
@@ -115,7 +114,7 @@ std::vector<Search> shapes_of(const EffectRecord& record, const Search& search) 
 }
 
 /// False where this setup cannot have it: a cubic spring without a displacement.
-bool possible_in(Setup setup, const Candidate& candidate, std::span<const EffectRecord* const> known) {
+bool possible_in(Setup setup, const Candidate& candidate, KnownEffects known) {
   try {
     Knob knob = candidate.fitted_knobs().front();
     knob.centre = knob.at(1);
@@ -143,7 +142,7 @@ bool is_needy(const Setup& setup, const EffectRecord& record) {
 
 /// The setup has this strength already, another component of the same effect left aside.
 bool is_present(const Setup& setup, const EffectRecord& record, const SearchedStrength& strength,
-                std::span<const EffectRecord* const> known) {
+                KnownEffects known) {
   if (find_choice(setup, record.name) == nullptr) return false;
   const std::vector<std::string> keys = joined_keys(keys_of(record, strength));
   const double absent = absent_value(record, strength, setup);
@@ -151,8 +150,7 @@ bool is_present(const Setup& setup, const EffectRecord& record, const SearchedSt
                      [&](const std::string& key) { return get_number(setup, key, known) != absent; });
 }
 
-std::vector<Candidate> all_candidates(const Setup& setup, std::span<const EffectRecord* const> known,
-                                      const Engine& engine) {
+std::vector<Candidate> all_candidates(const Setup& setup, KnownEffects known, const Engine& engine) {
   std::vector<Candidate> list;
   for (const EffectRecord* record : known) {
     const Search search = search_of(*record);
@@ -207,7 +205,7 @@ bool is_modelled(const Engine& engine, const EffectRecord& record) {
 }
 
 std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std::string>& only,
-                                      std::span<const EffectRecord* const> known, const Engine& engine) {
+                                      KnownEffects known, const Engine& engine) {
   std::vector<Candidate> list = all_candidates(setup, known, engine);
   std::erase_if(list, [&](const Candidate& candidate) {
     return !only.empty() && std::find(only.begin(), only.end(), candidate.effect) == only.end();
@@ -229,7 +227,7 @@ ScatterGroups scatter_groups(const std::vector<Candidate>& candidates) {
   return groups;
 }
 
-Setup prepared(const Setup& setup, const Candidate& candidate, std::span<const EffectRecord* const> known) {
+Setup prepared(const Setup& setup, const Candidate& candidate, KnownEffects known) {
   Setup changed = setup;
   for (const auto& [key, value] : candidate.fixed) set_number(changed, key, value, known);
   return changed;

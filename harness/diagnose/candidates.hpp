@@ -6,6 +6,7 @@
 
 #include "emulator.hpp"
 #include "evidence.hpp"
+#include "known_effects.hpp"
 #include "signature.hpp"
 
 namespace shakedown {
@@ -41,7 +42,7 @@ struct Candidate {
 /// are strengths that the setup has already, and effects that claim a part of the model that another of the
 /// setup's effects has replaced. `only`: these alone (empty: all).
 std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std::string>& only,
-                                      std::span<const EffectRecord* const> known, const Engine& engine);
+                                      KnownEffects known, const Engine& engine);
 
 /// Ensembles try each value of its shape, as candidates of their own.
 bool has_shapes(const EffectRecord& record);
@@ -62,6 +63,6 @@ struct ScatterGroups {
 ScatterGroups scatter_groups(const std::vector<Candidate>& candidates);
 
 /// The setup with the candidate at no strength.
-Setup prepared(const Setup& setup, const Candidate& candidate, std::span<const EffectRecord* const> known);
+Setup prepared(const Setup& setup, const Candidate& candidate, KnownEffects known);
 
 }  // namespace shakedown

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "candidates.hpp"
+#include "distributions.hpp"
 #include "errors.hpp"
 #include "free_restitution.hpp"
 #include "grain_count.hpp"
@@ -34,7 +35,7 @@ void allow_for_engines(FittedValue& value, const Knob& knob, const Refit& fit, c
   for (std::size_t k = 0; k < fit.values.size(); ++k)
     if (effect_of(fit.values[k].key) == effect)
       strongest = std::max(strongest, std::abs(fit.values[k].value - fit.knobs[k].absent));
-  const double more = 1.96 * relative * strongest;
+  const double more = normal_95 * relative * strongest;
   value.low = std::max(knob.low, value.value - std::hypot(value.value - value.low, more));
   value.high = std::min(knob.high, value.value + std::hypot(value.high - value.value, more));
   const std::string note =
@@ -76,7 +77,7 @@ void set_parameters(const DiagnosisState& final, const DiagnosisTools& tools, Di
 }
 
 void note_shape(const std::string& effect, const EffectRecord& record, const SearchedShape& shape,
-                Diagnosis& d, std::span<const EffectRecord* const> known) {
+                Diagnosis& d, KnownEffects known) {
   const std::string unit(record.find(shape.parameter)->unit);
   const double fitted = get_number(d.amended, effect + "." + std::string(shape.parameter), known);
   std::string others;
@@ -87,16 +88,16 @@ void note_shape(const std::string& effect, const EffectRecord& record, const Sea
 }
 
 /// Which of the shapes that were tried an effect was fitted with: no strength tells it.
-void note_shapes(Diagnosis& d, std::span<const EffectRecord* const> known) {
+void note_shapes(Diagnosis& d, KnownEffects known) {
   for (const std::string& effect : d.missing) {
-    const EffectRecord* record = find_record(known, effect);
+    const EffectRecord* record = known.find(effect);
     if (record == nullptr || !has_shapes(*record)) continue;
     for (const SearchedShape& shape : record->search.shapes) note_shape(effect, *record, shape, d, known);
   }
 }
 
 /// What ensembles and balance say of the camera; of what both see the one that knows it better.
-void set_camera(const Refit& fit, Diagnosis& d, std::span<const EffectRecord* const> known) {
+void set_camera(const Refit& fit, Diagnosis& d, KnownEffects known) {
   d.camera = d.momentum.nuisances;
   for (std::size_t k = 0; k < fit.values.size(); ++k) {
     const Knob& knob = fit.knobs[k];
@@ -259,7 +260,7 @@ void settle_hypotheses(Diagnosis& d, const Findings& findings) {
 namespace {
 
 /// They were fitted in a model without what is missing, and may have imitated it.
-void take_restitutions_back(const Setup& user, Diagnosis& d, std::span<const EffectRecord* const> known) {
+void take_restitutions_back(const Setup& user, Diagnosis& d, KnownEffects known) {
   const auto is_restitution = [](const DiagnosedParameter& parameter) {
     return parameter.name.starts_with("restitution.");
   };
@@ -273,7 +274,7 @@ void take_restitutions_back(const Setup& user, Diagnosis& d, std::span<const Eff
 
 }  // namespace
 
-void name_promised(const Setup& user, Diagnosis& d, std::span<const EffectRecord* const> known) {
+void name_promised(const Setup& user, Diagnosis& d, KnownEffects known) {
   constexpr double more_likely_than_not = 0.5;
   if (d.verdict != Verdict::unknown || d.momentum.unlisted || d.momentum.unexplained || !d.promised ||
       d.hypotheses.empty() || d.hypotheses.front().probability < more_likely_than_not)

@@ -2,6 +2,7 @@
 // What a diagnosis says in the end: verdict, sentence, parameters, the formula of an unknown force, and the
 // experiment to do next.
 #pragma once
+#include "known_effects.hpp"
 #include "state.hpp"
 #include "verdict.hpp"
 
@@ -26,7 +27,7 @@ void settle_hypotheses(Diagnosis& diagnosis, const Findings& findings);
 /// Where nothing that was fitted explains the measurements, the balance is in order, and the most probable
 /// hypothesis of the settled table has an effect that there was no time to fit: names that hypothesis, as the
 /// verdict `missing`, the effect at the strength that its signature asks for and the restitutions as given.
-void name_promised(const Setup& user, Diagnosis& diagnosis, std::span<const EffectRecord* const> known);
+void name_promised(const Setup& user, Diagnosis& diagnosis, KnownEffects known);
 
 /// Where the model of this fit fails.
 void note_failures(const Refit& fit, Diagnosis& diagnosis);

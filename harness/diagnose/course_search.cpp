@@ -137,7 +137,7 @@ DiagnosisState Course::without_added(const DiagnosisState& state, const Diagnosi
 
 void Course::take_back(const std::string& effect) {
   result_.hypotheses = taken_back(result_.hypotheses, effect,
-                                  prior_log_odds(1, static_cast<double>(searched_effects(tools_.known()))));
+                                  prior_log_odds(1, static_cast<double>(tools_.known().searched())));
 }
 
 void Course::leave_out(const std::string& step) {

@@ -58,7 +58,7 @@ EffectScreen::EffectScreen(std::vector<MeasuredFeatures> measured, std::vector<K
     : simulations_(std::make_unique<ScreenSimulations>(std::move(measured), std::move(fitted), workshop,
                                                        effort, first_run, start)),
       effort_(effort),
-      searched_(searched_effects(workshop.known)) {}
+      searched_(workshop.known.searched()) {}
 
 EffectScreen::~EffectScreen() = default;
 

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "candidates.hpp"
+#include "screen_effort.hpp"
+#include "screen_start.hpp"
 
 namespace shakedown {
 
@@ -38,29 +40,6 @@ struct ScreenedPair {
   std::size_t first = 0, second = 0;               ///< indices among the candidates
   double first_strength = 0, second_strength = 0;  ///< from absence, most likely ones
   double log_evidence = 0;                         ///< as of one
-};
-
-/// Simulations of each different setup of a candidate at each level, by what a run costs.
-struct LevelEffort {
-  int plain, slow, dear;
-};
-
-/// Simulations of each different setup.
-struct ScreenEffort {
-  int slopes = 64;               ///< for what the fitted parameters do, beside those that fits have made
-  int nothing = 96;              ///< of the model without candidates
-  LevelEffort glance{12, 8, 8};  ///< of every candidate
-  LevelEffort look{24, 16, 12};  ///< more, of those that a glance leaves open
-};
-
-/// What the fit of the model without candidates has found already. Empty: the screen simulates.
-struct ScreenStart {
-  /// Covariances of each measured run's features, m^2: by which changes of the means are looked for, and by
-  /// which a run is likely.
-  std::vector<Eigen::MatrixXd> for_means{}, likeliest{};
-  /// Straight emulators about the fitted values, by these knobs' widths.
-  std::vector<Emulator> emulators{};
-  std::vector<Knob> knobs{};
 };
 
 class ScreenSimulations;

@@ -4,8 +4,8 @@
 #pragma once
 #include <span>
 
-#include "effect_screen.hpp"
 #include "rules.hpp"
+#include "screen_effort.hpp"
 
 namespace shakedown {
 

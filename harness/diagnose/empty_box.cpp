@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "conclusion.hpp"
+#include "distributions.hpp"
 #include "errors.hpp"
 #include "experiment_file.hpp"
 #include "key_unit.hpp"
@@ -42,7 +43,7 @@ LadderStep step_of(const std::string& name, const SwingError& swing, double floo
 }
 
 /// What the balance found goes into the user's setup.
-void amend(const Setup& user, std::span<const EffectRecord* const> known, Diagnosis& d) {
+void amend(const Setup& user, KnownEffects known, Diagnosis& d) {
   d.amended = user;
   if (d.momentum.unlisted) d.amended = with_force(user, sum_of(d.momentum.formulas), known);
   for (const FoundTerm& term : d.momentum.terms) {
@@ -64,9 +65,7 @@ void amend(const Setup& user, std::span<const EffectRecord* const> known, Diagno
 
 /// What the ends of the parameters' intervals do to the motion of one run, rms, as a standard uncertainty, m.
 double input_uncertainty(const SwingFrames& frames, const FirstTurn& turn, const Setup& setup,
-                         const Engine& engine, std::span<const EffectRecord* const> known,
-                         const Diagnosis& d) {
-  constexpr double of_95_percent = 1.96;
+                         const Engine& engine, KnownEffects known, const Diagnosis& d) {
   const Eigen::VectorXd here = residual_of(frames, turn, setup, engine);
   double squares = 0;
   for (const DiagnosedParameter& p : d.parameters) {
@@ -83,13 +82,12 @@ double input_uncertainty(const SwingFrames& frames, const FirstTurn& turn, const
       return std::nan("");  // the box runs away there
     }
   }
-  return std::sqrt(squares) / of_95_percent;
+  return std::sqrt(squares) / normal_95;
 }
 
 /// Each run against the final model, its turn fitted.
 std::vector<Validation> validation_by_compare(const Measurement& final, const Engine& engine,
-                                              std::span<const EffectRecord* const> known,
-                                              const Diagnosis& d) {
+                                              KnownEffects known, const Diagnosis& d) {
   std::vector<Validation> rows;
   for (const Measurement::Run& run : final.runs) {
     const SwingFrames frames = frames_of(run);
@@ -149,7 +147,7 @@ double share_explained(const SwingError& given, const SwingError& final) {
 }
 
 /// The verdict of an empty box, by the same rule as all others.
-void judge(const Measurement& final_model, const Engine& engine, std::span<const EffectRecord* const> known,
+void judge(const Measurement& final_model, const Engine& engine, KnownEffects known,
            const SwingError& given_in_phase, const SwingError& final, Diagnosis& d) {
   const MomentumAudit& balance = d.momentum;
   Findings findings;
@@ -176,9 +174,8 @@ void judge(const Measurement& final_model, const Engine& engine, std::span<const
 }
 
 /// The values of the laws found, with 95 % intervals, and the effects that the setup lacks.
-void name_laws(const Setup& user, const WaveformAnswer& answer, std::span<const EffectRecord* const> known,
-               bool held_frequency, Diagnosis& d) {
-  constexpr double of_95_percent = 1.96;
+void name_laws(const Setup& user, const WaveformAnswer& answer, KnownEffects known, bool held_frequency,
+               Diagnosis& d) {
   const WaveformFit& fit = answer.sets.front().fit;
   std::vector<std::size_t> order(fit.laws.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -186,10 +183,10 @@ void name_laws(const Setup& user, const WaveformAnswer& answer, std::span<const 
     return fit.laws[a].is_mode != fit.laws[b].is_mode ? fit.laws[b].is_mode : answer.gain[a] > answer.gain[b];
   });
   const auto add = [&](const std::string& key, double value, double error) {
-    const Parameter* parameter = find_parameter(known, key);
+    const Parameter* parameter = known.find_parameter(key);
     const double low = parameter ? parameter->low : value - 1, high = parameter ? parameter->high : value + 1;
-    d.parameters.push_back({key, value, std::max(low, value - of_95_percent * error),
-                            std::min(high, value + of_95_percent * error), si_unit_of_key(key, known), ""});
+    d.parameters.push_back({key, value, std::max(low, value - normal_95 * error),
+                            std::min(high, value + normal_95 * error), si_unit_of_key(key, known), ""});
   };
   for (const std::size_t i : order) {
     const WaveformLaw& law = fit.laws[i];
@@ -241,7 +238,7 @@ LadderStep step_of(const std::string& name, double error, double floor) {
 
 bool conclude_by_waveform(const Setup& user, const Measurement& measurement, const Engine& engine,
                           const EffectsInQuestion& asked, Diagnosis& d) {
-  const std::span<const EffectRecord* const> known = asked.known;
+  const KnownEffects known = asked.known;
   const MomentumAudit& balance = d.momentum;
   const double start = balance.possible && balance.frequency > 0
                            ? balance.frequency
@@ -290,8 +287,7 @@ bool conclude_by_waveform(const Setup& user, const Measurement& measurement, con
 }
 
 void conclude_empty_box(const Setup& user, const Measurement& measurement, const Engine& engine,
-                        std::span<const EffectRecord* const> known, const Diagnosis& by_waveform,
-                        Diagnosis& d) {
+                        KnownEffects known, const Diagnosis& by_waveform, Diagnosis& d) {
   const MomentumAudit& balance = d.momentum;
   d.amended = user;
   if (by_waveform.ladder.size() == 2 && !balance.unlisted) {

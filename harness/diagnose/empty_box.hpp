@@ -3,6 +3,7 @@
 // momentum balance is all there is to find.
 #pragma once
 #include "diagnosis.hpp"
+#include "known_effects.hpp"
 #include "waveform_search.hpp"
 
 namespace shakedown {
@@ -30,7 +31,6 @@ bool conclude_by_waveform(const Setup& user, const Measurement& measurement, con
 /// Fills in all of the diagnosis where no law of the list explains the waveform: what the waveform says,
 /// unless the balance knows a formula, or there is no waveform.
 void conclude_empty_box(const Setup& user, const Measurement& measurement, const Engine& engine,
-                        std::span<const EffectRecord* const> known, const Diagnosis& by_waveform,
-                        Diagnosis& diagnosis);
+                        KnownEffects known, const Diagnosis& by_waveform, Diagnosis& diagnosis);
 
 }  // namespace shakedown

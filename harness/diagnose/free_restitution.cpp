@@ -19,7 +19,7 @@ namespace {
 constexpr const char* stage = "restitution as a function of speed";
 
 /// The model with a level curve in place of its own law, and its strength gone from the knobs.
-DiagnosisState with_curve(const DiagnosisState& failing, std::span<const EffectRecord* const> known) {
+DiagnosisState with_curve(const DiagnosisState& failing, KnownEffects known) {
   DiagnosisState state = is_led_astray(failing) ? as_believed(failing) : failing;
   state.setup = with_contact_curve(restitution_against_speed(), state.setup, "all", known);
   std::erase_if(state.found, [&](const Knob& knob) {
@@ -30,7 +30,7 @@ DiagnosisState with_curve(const DiagnosisState& failing, std::span<const EffectR
 }
 
 /// Four digits: people read them, and no interval is narrower.
-Setup setup_at(Setup setup, const Refit& fit, std::span<const EffectRecord* const> known) {
+Setup setup_at(Setup setup, const Refit& fit, KnownEffects known) {
   for (std::size_t k = 0; k < fit.values.size(); ++k)
     if (!fit.knobs[k].exact)
       for (const std::string& key : joined_keys(fit.values[k].key))
@@ -53,7 +53,7 @@ std::string mm(double metres) { return fmt::format("{:.2f} mm", 1e3 * metres); }
 }  // namespace
 
 FreeRestitution free_restitution_beside(const DiagnosisState& failing, DiagnosisTools& tools) {
-  const std::span<const EffectRecord* const> known = tools.known();
+  const KnownEffects known = tools.known();
   const DiagnosisState state = with_curve(failing, known);
   const std::vector<Knob> curve = knobs_of_curve(restitution_against_speed(), state.setup, known);
   const auto fitted = [&](const std::vector<Knob>& of_curve) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "distributions.hpp"
 #include "effect_strength.hpp"
 #include "known_effects.hpp"
 #include "setup_file.hpp"
@@ -15,16 +16,16 @@ namespace {
 
 /// A sine is known to its error in all three: over a run of length T a relative error of the amplitude goes
 /// with sqrt(6) / (pi T) as much in the frequency, and twice as much in the phase at the release (rad).
-void add_sine(const FoundTerm& term, const SearchedHarmonic& harmonic, double longest,
-              std::span<const EffectRecord* const> known, DiagnosisState& state) {
+void add_sine(const FoundTerm& term, const SearchedHarmonic& harmonic, double longest, KnownEffects known,
+              DiagnosisState& state) {
   constexpr double root_six_over_pi = 0.78;
-  const double error = std::max((term.high - term.low) / 3.92, 0.01 * std::abs(term.value)),
+  const double error = std::max((term.high - term.low) / (2 * normal_95), 0.01 * std::abs(term.value)),
                relative = std::min(1.0, error / std::abs(term.value));
   const auto knob = [&](std::string_view parameter, double value, double error_of_it, double most_width) {
     const std::string key = term.effect + "." + std::string(parameter);
     set_number(state.setup, key, value, known);
     const double width = std::min(4 * error_of_it, most_width);
-    const Parameter& bounds = *find_parameter(known, key);
+    const Parameter& bounds = *known.find_parameter(key);
     state.found.push_back({key, value, width, std::max(bounds.low, value - 10 * width),
                            std::min(bounds.high, value + 10 * width), false, value, error_of_it});
   };
@@ -56,7 +57,7 @@ DiagnosisState with_balance(DiagnosisState state, const std::vector<FoundTerm>& 
       longest = std::max(longest, run.recorded.time.back() - run.recorded.time.front());
   for (const FoundTerm& term : terms) {
     if (!allowed(options, term.effect)) continue;
-    const EffectRecord* record = find_record(options.known, term.effect);
+    const EffectRecord* record = options.known.find(term.effect);
     if (record == nullptr) continue;
     if (!is_modelled(engine, *record)) {
       add_once(notes, "the momentum balance finds " + term.effect + ", which the " +
@@ -76,8 +77,8 @@ DiagnosisState with_balance(DiagnosisState state, const std::vector<FoundTerm>& 
     }
     for (const auto& [key, value] : term.besides) set_number(state.setup, key, value, options.known);
     set_number(state.setup, term.key(), term.value, options.known);
-    const double error = (term.high - term.low) / 3.92;
-    const Parameter* parameter = find_parameter(options.known, term.key());
+    const double error = (term.high - term.low) / (2 * normal_95);
+    const Parameter* parameter = options.known.find_parameter(term.key());
     state.found.push_back({term.key(), term.value, std::max(4 * error, 0.05 * std::abs(term.value)),
                            parameter->low, parameter->high, true, term.value, error});
     std::erase_if(state.camera, [&](const Knob& knob) { return knob.key == term.key(); });

@@ -62,7 +62,7 @@ std::vector<FittedCurve> curves_of(const SwingFound& found, std::size_t most) {
 }
 
 /// A number of the camera that the fit took beyond what a setup may say stays as the setup has it.
-void put(Setup& setup, const std::string& key, double value, std::span<const EffectRecord* const> known) {
+void put(Setup& setup, const std::string& key, double value, KnownEffects known) {
   try {
     set_number(setup, key, value, known);
   } catch (const InputError&) {
@@ -78,8 +78,7 @@ std::vector<FittedCurve> curves_of(const LastFit& fit, std::size_t most) {
   return fit.swing ? curves_of(*fit.swing, most) : std::vector<FittedCurve>{};
 }
 
-std::vector<Setup> setups_of(const LastFit& fit, const Setup& amended,
-                             std::span<const EffectRecord* const> known) {
+std::vector<Setup> setups_of(const LastFit& fit, const Setup& amended, KnownEffects known) {
   std::vector<Setup> setups;
   for (const Measurement::Run& run : fit.measurement.runs)
     setups.push_back(setup_of_run(amended, run.recorded, known));

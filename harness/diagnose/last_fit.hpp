@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "known_effects.hpp"
 #include "refit.hpp"
 #include "waveform.hpp"
 
@@ -50,8 +51,7 @@ nlohmann::ordered_json curves_json(const LastFit& fit);
 
 /// Each run of LastFit::measurement as the last fit has it: parameters, effects, camera, masses, and where
 /// the box begins. `amended`: the setup of the answer.
-std::vector<Setup> setups_of(const LastFit& fit, const Setup& amended,
-                             std::span<const EffectRecord* const> known);
+std::vector<Setup> setups_of(const LastFit& fit, const Setup& amended, KnownEffects known);
 
 /// Every n-th of so many, so that at most `most` are left.
 std::size_t thinned_by(std::size_t count, std::size_t most);

@@ -27,7 +27,7 @@ LinearModel linear_model(const std::vector<MeasuredFeatures>& measured,
 
 BesideFitted beside_fitted(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
                            const std::vector<Candidate>& candidates, const std::vector<std::size_t>& members,
-                           std::span<const EffectRecord* const> known) {
+                           KnownEffects known) {
   BesideFitted beside{straight(fitted, 0.5), {}, measured};
   for (const std::size_t c : members) {
     for (const Knob& knob : straight(candidates[c].knobs, 1)) {

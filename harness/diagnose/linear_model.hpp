@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "candidates.hpp"
+#include "known_effects.hpp"
 
 namespace shakedown {
 
@@ -30,7 +31,7 @@ struct BesideFitted {
 };
 BesideFitted beside_fitted(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& fitted,
                            const std::vector<Candidate>& candidates, const std::vector<std::size_t>& members,
-                           std::span<const EffectRecord* const> known);
+                           KnownEffects known);
 
 /// With a kick every 40 ms, rarer than a fit needs. Drag on grains comes in kicks that cost most: at 60 ms
 /// the slope of the decay differs by less than its error over 128 runs, 0.004 mm/s of 8.4, of which drag of

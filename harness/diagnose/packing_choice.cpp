@@ -106,8 +106,7 @@ Misfit misfit_up_to_scale(const std::vector<ReleasedCentre>& measured,
 
 }  // namespace
 
-PackingChoice packing_before_release(const Setup& given, const Measurement& measurement,
-                                     std::span<const EffectRecord* const> known) {
+PackingChoice packing_before_release(const Setup& given, const Measurement& measurement, KnownEffects known) {
   PackingChoice best{given.release.packing};
   if (!given.release.initial_grains.empty() || given.grains.count == 0) return best;
   const std::vector<ReleasedCentre> measured = released_centres(measurement);

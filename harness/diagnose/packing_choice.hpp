@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "known_effects.hpp"
 #include "measurement.hpp"
 #include "setup.hpp"
 
@@ -14,7 +15,6 @@ struct PackingChoice {
 /// The grains' centre in the box before anything has moved tells the packing: the arrangements differ by
 /// millimetres. A camera's bias or scale shortens all distances by the same share, which box lengths tell
 /// from a packing. The setup's own where no other is clearly nearer, or where nothing was measured.
-PackingChoice packing_before_release(const Setup& setup, const Measurement& measurement,
-                                     std::span<const EffectRecord* const> known);
+PackingChoice packing_before_release(const Setup& setup, const Measurement& measurement, KnownEffects known);
 
 }  // namespace shakedown

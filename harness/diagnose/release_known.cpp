@@ -19,12 +19,11 @@ constexpr double usual_error = 5e-4;  // m; a stop or a thread holds a box to ha
 constexpr std::string_view key = "release.displacement";
 
 /// m, by which scale, lens and tilt of the camera may have moved the first position.
-double error_of_camera(const Measurement& measurement, std::span<const EffectRecord* const> known,
-                       double displacement) {
+double error_of_camera(const Measurement& measurement, KnownEffects known, double displacement) {
   double square = 0;
   for (const CameraNuisance& nuisance : camera_nuisances(measurement, known)) {
-    const CameraParameter* parameter = find_camera_parameter(nuisance.key);
-    if (parameter == nullptr || nuisance.each_run || parameter->inverse_square) continue;
+    const std::optional<CameraParameter> parameter = find_camera_parameter(known, nuisance.key);
+    if (!parameter || nuisance.each_run || parameter->inverse_square) continue;
     // At rest, as the box is when it is let go.
     const Recording still{{-1, 0, 1}, {displacement, displacement, displacement}, {0, 0, 0}};
     square += std::pow(nuisance.deviation() * derivative(still, *parameter).x_box[1], 2);
@@ -34,7 +33,7 @@ double error_of_camera(const Measurement& measurement, std::span<const EffectRec
 
 }  // namespace
 
-Measurement with_measured_release(Measurement measurement, std::span<const EffectRecord* const> known) {
+Measurement with_measured_release(Measurement measurement, KnownEffects known) {
   for (Measurement::Run& run : measurement.runs) {
     if (run.setup.grains.count == 0) continue;
     const ReleaseFound& seen = run.audit.release;

@@ -11,6 +11,6 @@ namespace shakedown {
 /// release allows: a hand does not let go twice at the same place. Weighs what is known of the release
 /// (`[known]`, else half a millimetre) against the first frames and the camera's scale. Grains whose places
 /// were measured keep their places in the box.
-Measurement with_measured_release(Measurement measurement, std::span<const EffectRecord* const> known);
+Measurement with_measured_release(Measurement measurement, KnownEffects known);
 
 }  // namespace shakedown

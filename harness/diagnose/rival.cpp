@@ -7,6 +7,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "distributions.hpp"
 #include "key_unit.hpp"
 #include "nuisance.hpp"
 #include "rules.hpp"
@@ -112,12 +113,20 @@ DiagnosisState with_rival(const DiagnosisState& before, const Rival& rival, Diag
 }
 
 void fit_shortly(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools) {
-  const DiagnosisState state = with_rival(before, rival, tools);
+  DiagnosisState state = with_rival(before, rival, tools);
   rival.chi2_without = before.fit.judged_chi2;
-  rival.short_chi2 = tools
-                         .fit(state, "looking at " + rival.candidate->effect, knobs_of_fit(before, state),
-                              effort::least, &before.fit)
-                         .judged_chi2;
+  state.fit = tools.fit(state, "looking at " + rival.candidate->effect, knobs_of_fit(before, state),
+                        effort::least, &before.fit);
+  rival.short_chi2 = state.fit.judged_chi2;
+  rival.shortly = std::move(state);
+}
+
+bool take_short_fit(Rival& rival) {
+  if (!rival.shortly) return false;
+  rival.state = *rival.shortly;
+  rival.fitted = true;
+  rival.held_out_gain = std::nan("");
+  return true;
 }
 
 void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
@@ -145,9 +154,12 @@ void weigh_rival(Rival& rival, double candidates) {
   const StrengthSeen& seen = rival.screened.seen;
   rival.log_odds = prior_log_odds(seen.odds, candidates);
   if (rival.screened.weighed) rival.log_odds += rival.screened.log_evidence - rival.nothing_gained;
-  if (!std::isfinite(rival.log_ratio)) return;
+  // A short fit is made where the model without is so far off that signatures say little.
+  const bool shortly = rival.fitted && rival.shortly && !std::isfinite(rival.log_ratio);
+  if (!shortly && !std::isfinite(rival.log_ratio)) return;
   StrengthSeen fitted = strength_fitted(rival);
-  fitted.gain = 2 * (rival.log_ratio - rival.nothing_gained);
+  fitted.gain = shortly ? rival.chi2_without - rival.state.fit.judged_chi2
+                        : 2 * (rival.log_ratio - rival.nothing_gained);
   rival.log_odds = log_odds_of(fitted, candidates);
 }
 
@@ -166,7 +178,7 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
                signature = best->screened.log_evidence;
   for (Rival& rival : rivals) {
     if (&rival == best) continue;
-    if (counts(rival))
+    if (counts(rival) || (rival.fitted && !std::isfinite(rival.log_ratio)))
       rival.log_odds =
           from + prior(rival) + of_fits * (of_best - chi2_left(rival.state.fit, covariances)) / 2;
     else if (!rival.fitted && rival.screened.weighed && best->screened.weighed)
@@ -222,7 +234,7 @@ PromisedEffect promised_by(const Rival& rival, const DiagnoseOptions& options) {
   PromisedEffect promised{candidate.effect, candidate.fixed, {}};
   const double strength = candidate.strength_of(rival.screened.value),
                relative = options.strength_uncertainty ? options.strength_uncertainty(candidate.effect) : 0,
-               half = 1.96 * std::hypot(rival.screened.seen.error, relative * strength);
+               half = normal_95 * std::hypot(rival.screened.seen.error, relative * strength);
   const auto [low, high] =
       std::minmax({candidate.value_of(strength - half), candidate.value_of(strength + half)});
   for (const std::string& key : joined_keys(candidate.fitted_knobs().front().key))

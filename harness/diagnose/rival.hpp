@@ -2,6 +2,7 @@
 // A candidate on its way through a round of the search: screened, fitted, weighed.
 #pragma once
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct Rival {
   /// What its short fit left and what the model without leaves, in the metric of that one; NaN: none was
   /// made.
   double short_chi2 = std::nan(""), chi2_without = std::nan("");
+  std::optional<DiagnosisState> shortly{};  ///< where its short fit put it
   /// ln likelihood of the model without it where it was fitted, over that where the screen is.
   double nothing_gained = 0;
 };
@@ -52,17 +54,22 @@ DiagnosisState with_rival(const DiagnosisState& before, const Rival& rival, Diag
 void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
                double lowest, Effort effort);
 
-/// A fit of little effort, which says whether a fit that weighs it is worth its cost; nothing but what it
-/// leaves is kept. BudgetSpent, PhysicsError and InputError pass.
+/// A fit of little effort, which says whether a fit that weighs it is worth its cost. BudgetSpent,
+/// PhysicsError and InputError pass.
 void fit_shortly(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools);
 
-/// Its odds beside nothing by what is known so far: its prior, its signature, its fitted model. `candidates`:
+/// Where there was no time for a fit that weighs it, its short fit stands. False: none was made.
+bool take_short_fit(Rival& rival);
+
+/// Its odds beside nothing by what is known so far: its prior, its signature, its fitted model; of one that
+/// only a short fit has put where it is, what that leaves. `candidates`:
 /// the number of effects that are looked for.
 void weigh_rival(Rival& rival, double candidates);
 
 /// Where the data reject the model without them all, the likelihood of each over it is told in the metric of
-/// a model that is wrong: 2 % of thousands. Fitted rivals which the data accept are weighed beside the best
-/// of them by what each leaves, in the metric of that one; what was not fitted, by the signatures of both.
+/// a model that is wrong: 2 % of thousands. Fitted rivals which the data accept, and those that nothing but a
+/// fit weighs, are weighed beside the best by what each leaves, in the metric of that one; what was not
+/// fitted, by the signatures of both.
 void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates);
 
 /// Those whose fit has not had its turn and whose short fits left as little as any as far as short fits tell,

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "candidates.hpp"
-#include "effect_screen.hpp"
 #include "feature_coordinates.hpp"
 #include "model_ratio.hpp"
 #include "outside.hpp"
+#include "screen_effort.hpp"
+#include "screen_start.hpp"
 #include "signature.hpp"
 
 namespace shakedown {

@@ -75,7 +75,7 @@ constexpr double as_much = 1;
 
 void camera_first(std::vector<Rival*>& order, DiagnosisTools& tools) {
   const auto of_camera = [&](const Rival* rival) {
-    const EffectRecord* record = find_record(tools.known(), rival->candidate->effect);
+    const EffectRecord* record = tools.known().find(rival->candidate->effect);
     return record != nullptr && record->acts_on == ActsOn::camera;
   };
   if (order.size() > 1 && order[1]->log_odds > order[0]->log_odds - as_much && of_camera(order[1]) &&
@@ -92,7 +92,7 @@ class Round {
         astray_(is_led_astray(state)),
         from_(astray_ ? as_believed(state) : state),
         candidates_(open_candidates(from_, tools, seen_by_balance)),
-        searched_(static_cast<double>(searched_effects(tools.known()))),
+        searched_(static_cast<double>(tools.known().searched())),
         rejected_(is_rejected(state.fit)),
         far_off_(is_far_off(state.fit)),
         lowest_(state.fit.judged_chi2) {
@@ -242,7 +242,9 @@ class Round {
         fit(effort::least);
       }
     } catch (const BudgetSpent&) {
-      round_.not_tried.push_back(rival.candidate->effect);
+      if (!take_short_fit(rival)) return round_.not_tried.push_back(rival.candidate->effect);
+      round_.notes.push_back("there was no time for more than a short fit of " + rival.candidate->effect);
+      weigh_rival(rival, searched_);
     } catch (const PhysicsError& error) {
       note_failure(rival.candidate->effect, error);
     } catch (const InputError& error) {
@@ -349,7 +351,7 @@ class Round {
 std::vector<Hypothesis> not_looked_at(const DiagnosisState& state, DiagnosisTools& tools,
                                       const std::vector<std::string>& seen_by_balance) {
   std::vector<Hypothesis> table{{{}, 0, 0}};
-  const double all = static_cast<double>(searched_effects(tools.known()));
+  const double all = static_cast<double>(tools.known().searched());
   for (const Candidate& candidate : open_candidates(state, tools, seen_by_balance))
     table.push_back({{candidate.effect}, prior_log_odds(candidate.prior.odds, all), 0});
   weigh(table);

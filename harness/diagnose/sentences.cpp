@@ -26,8 +26,8 @@ std::string rounded(double value, const std::string& unit) {
 }
 
 /// "linear damping of the box (blade_viscous_damping), 0.05 N s/m".
-std::string named(const std::string& effect, const Diagnosis& d, std::span<const EffectRecord* const> known) {
-  const EffectRecord* record = find_record(known, effect);
+std::string named(const std::string& effect, const Diagnosis& d, KnownEffects known) {
+  const EffectRecord* record = known.find(effect);
   std::string words =
       record && !record->label.empty() ? std::string(record->label) + " (" + effect + ")" : effect;
   for (const DiagnosedParameter& parameter : d.parameters)
@@ -107,13 +107,13 @@ std::string ties_in_words(const Diagnosis& d) {
 bool is_empty(const Diagnosis& d) { return d.amended.grains.count == 0; }
 
 /// Known effects that were found beside a force of no list.
-std::string beside_the_unknown(const Diagnosis& d, std::span<const EffectRecord* const> known) {
+std::string beside_the_unknown(const Diagnosis& d, KnownEffects known) {
   std::vector<std::string> names;
   for (const std::string& effect : d.missing) names.push_back(named(effect, d, known));
   return names.empty() ? "" : ", beside " + list_of(names);
 }
 
-std::string of_the_unknown(const Diagnosis& d, std::span<const EffectRecord* const> known) {
+std::string of_the_unknown(const Diagnosis& d, KnownEffects known) {
   const MomentumAudit& balance = d.momentum;
   if (balance.unlisted)
     return "Something that is not in the library acts on the " +
@@ -139,7 +139,7 @@ std::string of_the_unknown(const Diagnosis& d, std::span<const EffectRecord* con
 }
 
 /// What is most probable, where there was no time to fit it.
-std::string of_what_was_not_fitted(const Diagnosis& d, std::span<const EffectRecord* const> known) {
+std::string of_what_was_not_fitted(const Diagnosis& d, KnownEffects known) {
   std::vector<std::string> names;
   for (const std::string& effect : d.missing) names.push_back(named(effect, d, known));
   return fmt::format(
@@ -162,7 +162,7 @@ std::string of_the_restitution(const Diagnosis& d) {
       words_of(d.free_restitution->curve));
 }
 
-std::string of_the_measurement(const Diagnosis& d, std::span<const EffectRecord* const> known) {
+std::string of_the_measurement(const Diagnosis& d, KnownEffects known) {
   std::vector<std::string> names;
   for (const NuisanceFound& nuisance : standing_out(d.camera)) names.push_back(words_of(nuisance, known));
   return "No effect is missing: errors of camera, clock or balance within what such things have explain the "
@@ -179,25 +179,25 @@ std::string of_the_wander(const MomentumAudit& balance) {
       balance.wander.deviation * 1e3, balance.wander.time, balance.wander.deviation / balance.white_noise);
 }
 
-std::string first_words(const Diagnosis& d, std::span<const EffectRecord* const> known);
+std::string first_words(const Diagnosis& d, KnownEffects known);
 
 }  // namespace
 
-std::string words_of(const NuisanceFound& nuisance, std::span<const EffectRecord* const> known) {
+std::string words_of(const NuisanceFound& nuisance, KnownEffects known) {
   const std::string key = nuisance.name.substr(0, nuisance.name.find(' '));
-  const EffectRecord* record = find_record(known, effect_of(key));
+  const EffectRecord* record = known.find(effect_of(key));
   const std::string label = record && !record->label.empty() ? std::string(record->label) : nuisance.name;
   return label + " " + rounded(nuisance.value, nuisance.unit) + " +- " +
          rounded(nuisance.error, nuisance.unit);
 }
 
-std::string sentence_of(const Diagnosis& d, std::span<const EffectRecord* const> known) {
+std::string sentence_of(const Diagnosis& d, KnownEffects known) {
   return first_words(d, known) + of_the_wander(d.momentum);
 }
 
 namespace {
 
-std::string first_words(const Diagnosis& d, std::span<const EffectRecord* const> known) {
+std::string first_words(const Diagnosis& d, KnownEffects known) {
   switch (d.verdict) {
     case Verdict::adequate:
       return fmt::format(

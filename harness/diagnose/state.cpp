@@ -69,7 +69,7 @@ std::vector<std::string> hardly_told(const DiagnosisState& state,
 
 std::vector<Knob> DiagnosisState::knobs() const { return together(together(theta, found), camera); }
 
-DiagnosisState DiagnosisState::settled(std::span<const EffectRecord* const> known) const {
+DiagnosisState DiagnosisState::settled(KnownEffects known) const {
   DiagnosisState at = *this;
   for (std::vector<Knob>* list : {&at.theta, &at.found})
     for (Knob& knob : *list)

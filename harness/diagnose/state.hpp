@@ -10,6 +10,7 @@
 #include "diagnosis.hpp"
 #include "effort.hpp"
 #include "evidence.hpp"
+#include "known_effects.hpp"
 #include "slow_wander.hpp"
 
 namespace shakedown {
@@ -27,7 +28,7 @@ struct DiagnosisState {
 
   std::vector<Knob> knobs() const;
   /// The same, its knobs at the values of its fit.
-  DiagnosisState settled(std::span<const EffectRecord* const> known) const;
+  DiagnosisState settled(KnownEffects known) const;
 };
 
 /// Step of the course that may be left out.
@@ -42,7 +43,7 @@ class DiagnosisTools {
 
   const Measurement& measurement() const { return measurement_; }
   const DiagnoseOptions& options() const { return options_; }
-  std::span<const EffectRecord* const> known() const { return options_.known; }
+  KnownEffects known() const { return options_.known; }
   Workshop& workshop() { return workshop_; }
   std::int64_t runs() const { return runs_; }
   /// Of the simulations or of the time, whichever is more.

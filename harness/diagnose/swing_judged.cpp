@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "distributions.hpp"
 #include "key_unit.hpp"
 #include "setup_file.hpp"
 #include "swing.hpp"
@@ -12,7 +13,6 @@ namespace shakedown {
 
 namespace {
 
-constexpr double of_95_percent = 1.96;
 constexpr std::string_view of_frequency = "spring.frequency";
 
 double rms_of(const Eigen::VectorXd& left) {
@@ -48,7 +48,7 @@ WaveformLaw law_of(const Knob& knob) {
 class SwingFitter {
  public:
   SwingFitter(const Measurement& measurement, const std::vector<Knob>& knobs, const MomentumAudit& balance,
-              std::span<const EffectRecord* const> known)
+              KnownEffects known)
       : runs_(waveform_runs(measurement)), balance_(balance) {
     options_.known = known;
     options_.free_frequency = false;
@@ -114,8 +114,8 @@ class SwingFitter {
         value.value = held_.at(knob.key);
         value.at_bound = true;
       }
-      value.low = std::max(knob.low, value.value - of_95_percent * value.error);
-      value.high = std::min(knob.high, value.value + of_95_percent * value.error);
+      value.low = std::max(knob.low, value.value - normal_95 * value.error);
+      value.high = std::min(knob.high, value.value + normal_95 * value.error);
       refit.values.push_back(std::move(value));
     }
   }
@@ -203,8 +203,7 @@ std::vector<RunComparison> comparisons_of(const SwingRemains& remains) {
   return runs;
 }
 
-void set_values(Setup& setup, const std::vector<FittedValue>& values,
-                std::span<const EffectRecord* const> known) {
+void set_values(Setup& setup, const std::vector<FittedValue>& values, KnownEffects known) {
   for (const FittedValue& value : values)
     for (const std::string& key : joined_keys(value.key)) set_number(setup, key, value.value, known);
 }
@@ -224,7 +223,7 @@ std::vector<Difference> SwingRemains::differences(double as_given) const {
 }
 
 SwingRemains remains_of(const Measurement& measurement, const WaveformFit& fit, const MomentumAudit& balance,
-                        std::span<const EffectRecord* const> known) {
+                        KnownEffects known) {
   SwingRemains all;
   all.frames = waveform_runs(measurement, true);
   WaveformOptions options;
@@ -252,7 +251,7 @@ ModelTest waveform_instead_of_balance() { return {std::nan(""), std::nan(""), "i
 
 std::optional<JudgedSwing> judged_swing(const Setup& setup, const Measurement& measurement,
                                         const std::vector<Knob>& knobs, const MomentumAudit& balance,
-                                        std::span<const EffectRecord* const> known) {
+                                        KnownEffects known) {
   SwingFitter fitter(measurement, knobs, balance, known);
   if (!fitter.possible()) return {};
   JudgedSwing judged{setup, {}, fitter.as_given(), {}, {}};
@@ -275,8 +274,7 @@ std::optional<JudgedSwing> judged_swing(const Setup& setup, const Measurement& m
 }
 
 std::vector<RunComparison> foretold_swings(const JudgedSwing& judged, const Measurement& others,
-                                           const MomentumAudit& balance,
-                                           std::span<const EffectRecord* const> known) {
+                                           const MomentumAudit& balance, KnownEffects known) {
   const std::optional<JudgedSwing> beside =
       judged_swing(judged.fitted, with_setup(others, judged.fitted, known), {}, balance, known);
   return beside ? beside->refit.runs : std::vector<RunComparison>{};

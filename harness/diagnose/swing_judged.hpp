@@ -4,6 +4,7 @@
 #pragma once
 #include <optional>
 
+#include "known_effects.hpp"
 #include "last_fit.hpp"
 #include "momentum.hpp"
 
@@ -28,7 +29,7 @@ struct SwingRemains {
 
 /// `balance` knows how the track wanders.
 SwingRemains remains_of(const Measurement& measurement, const WaveformFit& fit, const MomentumAudit& balance,
-                        std::span<const EffectRecord* const> known);
+                        KnownEffects known);
 
 /// What stands for the p-values that an empty box has not.
 ModelTest no_ensembles(), waveform_instead_of_balance();
@@ -48,11 +49,10 @@ struct JudgedSwing {
 /// nothing is believed of it, its frequency is a second start.
 std::optional<JudgedSwing> judged_swing(const Setup& setup, const Measurement& measurement,
                                         const std::vector<Knob>& knobs, const MomentumAudit& balance,
-                                        std::span<const EffectRecord* const> known);
+                                        KnownEffects known);
 
 /// Other runs as a fit foretells them: only place, speed and origin of each are fitted.
 std::vector<RunComparison> foretold_swings(const JudgedSwing& judged, const Measurement& others,
-                                           const MomentumAudit& balance,
-                                           std::span<const EffectRecord* const> known);
+                                           const MomentumAudit& balance, KnownEffects known);
 
 }  // namespace shakedown

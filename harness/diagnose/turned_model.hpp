@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "known_effects.hpp"
 #include "last_fit.hpp"
 
 namespace shakedown {
@@ -49,7 +50,7 @@ struct TurnedModel {
 };
 
 struct TurnedOptions {
-  std::span<const EffectRecord* const> known;
+  KnownEffects known;
   std::vector<std::string> missing;   ///< effects found
   std::vector<std::string> suspects;  ///< effects that are offered besides, most wanted first
   int count = 24;                     ///< simulations of each different setup at each place
@@ -68,7 +69,6 @@ TurnedModel turned_model(const EnsembleFit& fit, const Setup& user, const Engine
 /// its motion follows by integrating the equation. Empty where something acts that a page cannot integrate (a
 /// formula).
 std::vector<TurnedNumber> turned_numbers(const SwingFound& found, const Setup& user,
-                                         const std::vector<std::string>& missing,
-                                         std::span<const EffectRecord* const> known);
+                                         const std::vector<std::string>& missing, KnownEffects known);
 
 }  // namespace shakedown

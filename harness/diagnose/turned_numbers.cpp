@@ -46,31 +46,8 @@ Eigen::VectorXd TurnedModel::shares(const Eigen::VectorXd& place) const {
 
 namespace {
 
-/// Effects whose force on a box alone a page can integrate.
-constexpr std::array integrated{"blade_viscous_damping",
-                                "blade_quadratic_drag",
-                                "clamp_dry_friction",
-                                "clamp_dahl_friction",
-                                "spring_cubic",
-                                "spring_quadratic",
-                                "pendulum",
-                                "second_mode",
-                                "blade_mass",
-                                "constant_acceleration",
-                                "oscillating_acceleration"};
-/// Numbers of the camera by which a page moves positions, and how far it offers to.
-struct OfCamera {
-  const char* key;
-  double reach;
-};
-constexpr std::array pictured{OfCamera{"camera_scale.scale", 0.03}, OfCamera{"camera_tilt.tilt", 0.03},
-                              OfCamera{"camera_lens.distortion", 0.02}, OfCamera{"camera_drift.drift", 1e-3},
-                              OfCamera{"camera_origin.origin", 5e-3}};
-
-bool is_integrated(std::string_view effect) {
-  return std::find(integrated.begin(), integrated.end(), effect) != integrated.end() ||
-         std::any_of(pictured.begin(), pictured.end(),
-                     [&](const OfCamera& one) { return effect_of(one.key) == effect; });
+bool is_turned(const EffectRecord* record) {
+  return record != nullptr && (record->on_page.integrated || record->on_page.reach > 0);
 }
 
 TurnedNumber offered(const std::string& key, NumberRole role, double given, double best, double reach) {
@@ -83,7 +60,7 @@ TurnedNumber offered(const std::string& key, NumberRole role, double given, doub
 class NumbersOfSwing {
  public:
   NumbersOfSwing(const SwingFound& found, const Setup& user, const std::vector<std::string>& missing,
-                 std::span<const EffectRecord* const> known)
+                 KnownEffects known)
       : found_(found),
         user_(user),
         missing_(missing),
@@ -92,16 +69,12 @@ class NumbersOfSwing {
 
   std::vector<TurnedNumber> run() {
     for (const EffectChoice& choice : best_.effects)
-      if (!is_integrated(choice.record->name)) return {};
+      if (!is_turned(choice.record)) return {};
     add_spring();
     for (const WaveformLaw& law : found_.fit.laws) add_law(law);
     for (const WaveformLaw& law : waveform_laws(found_.runs.front().setup, known_))
-      if (!law.is_mode && !has(law.term.key()) && is_integrated(law.term.effect)) add_suspect(law);
-    for (const OfCamera& one : pictured)
-      if (!has(one.key) && find_record(known_, effect_of(one.key)) != nullptr) {
-        const double at = get_number(best_, one.key, known_);
-        numbers_.push_back(offered(one.key, NumberRole::camera, at, at, one.reach));
-      }
+      if (!law.is_mode && !has(law.term.key()) && is_turned(known_.find(law.term.effect))) add_suspect(law);
+    add_camera();
     // The equation is integrated, so that there is no place where the answer is not known.
     for (TurnedNumber& number : numbers_) number.from = number.low, number.to = number.high;
     return std::move(numbers_);
@@ -110,6 +83,15 @@ class NumbersOfSwing {
  private:
   bool has(const std::string& key) const {
     return std::any_of(numbers_.begin(), numbers_.end(), [&](const TurnedNumber& n) { return n.key == key; });
+  }
+
+  void add_camera() {
+    for (const EffectRecord* record : known_) {
+      const std::optional<CameraParameter> parameter = camera_parameter_of(*record);
+      if (!parameter || !is_turned(record) || has(parameter->path)) continue;
+      const double at = get_number(best_, parameter->path, known_);
+      numbers_.push_back(offered(parameter->path, NumberRole::camera, at, at, record->on_page.reach));
+    }
   }
 
   void add_spring() {
@@ -153,7 +135,7 @@ class NumbersOfSwing {
   const SwingFound& found_;
   const Setup& user_;
   const std::vector<std::string>& missing_;
-  std::span<const EffectRecord* const> known_;
+  KnownEffects known_;
   Setup best_;
   std::vector<TurnedNumber> numbers_;
 };
@@ -161,8 +143,7 @@ class NumbersOfSwing {
 }  // namespace
 
 std::vector<TurnedNumber> turned_numbers(const SwingFound& found, const Setup& user,
-                                         const std::vector<std::string>& missing,
-                                         std::span<const EffectRecord* const> known) {
+                                         const std::vector<std::string>& missing, KnownEffects known) {
   if (found.runs.empty()) return {};
   return NumbersOfSwing(found, user, missing, known).run();
 }

@@ -112,7 +112,7 @@ std::string as_table(const UnlistedForce& force) {
          "\"\nconstants = {" + constants + "}\n";
 }
 
-Setup with_force(const Setup& setup, const UnlistedForce& force, std::span<const EffectRecord* const> known) {
+Setup with_force(const Setup& setup, const UnlistedForce& force, KnownEffects known) {
   const std::string origin = "force found by the momentum balance";
   std::vector<Override> overrides{{"user_force.on", force.on, origin},
                                   {"user_force.force", "\"" + force.formula + "\"", origin}};

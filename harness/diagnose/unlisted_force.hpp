@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "force_formula.hpp"
+#include "known_effects.hpp"
 #include "momentum.hpp"
 #include "setup.hpp"
 
@@ -43,6 +44,6 @@ std::string points_of_force(const std::vector<ForceCurve>& curves);
 std::string as_table(const UnlistedForce& force);
 
 /// The setup with this force in place of a user_force that it may have.
-Setup with_force(const Setup& setup, const UnlistedForce& force, std::span<const EffectRecord* const> known);
+Setup with_force(const Setup& setup, const UnlistedForce& force, KnownEffects known);
 
 }  // namespace shakedown

@@ -37,10 +37,10 @@ bool says_it_twice(const WaveformFit& fit, std::size_t which) {
                      [&](const WaveformLaw& other) { return say_the_same(fit.laws[which], other); });
 }
 
-std::vector<WaveformLaw> waveform_laws(const Setup& setup, std::span<const EffectRecord* const> known) {
+std::vector<WaveformLaw> waveform_laws(const Setup& setup, KnownEffects known) {
   std::vector<WaveformLaw> laws;
   for (const MomentumTerm& term : momentum_terms(setup, known, true)) {
-    const EffectRecord* record = find_record(known, term.effect);
+    const EffectRecord* record = known.find(term.effect);
     if (record == nullptr) continue;
     const Search search = search_of(*record);
     const bool on_box = record->acts_on == ActsOn::box || search.in_waveform;

@@ -4,6 +4,7 @@
 // effects.
 #pragma once
 #include "evidence.hpp"
+#include "known_effects.hpp"
 #include "waveform.hpp"
 
 namespace shakedown {
@@ -23,7 +24,7 @@ struct WaveformAnswer {
 };
 
 /// The laws that the waveform of an empty box can tell, from the records.
-std::vector<WaveformLaw> waveform_laws(const Setup& setup, std::span<const EffectRecord* const> known);
+std::vector<WaveformLaw> waveform_laws(const Setup& setup, KnownEffects known);
 
 /// Of one family and told by a waveform alone: a sine beside a cubic, a tilt beside a spring stiffer to one
 /// side say the same twice.
@@ -49,7 +50,7 @@ bool knows_frequency_exactly(const Measurement& measurement);
 
 /// Which effects may act.
 struct EffectsInQuestion {
-  std::span<const EffectRecord* const> known;
+  KnownEffects known;
   std::vector<std::string> only{};  ///< of these names; empty: all
   int threads = 1;                  ///< to ask them with; the answer does not depend on it
 };

@@ -34,6 +34,7 @@ extern const EffectRecord blade_mass{
                     .sentence = "Mass added to the box.",
                     .unit_shown = "g"}},
     .engines = {{every_engine, {Fidelity::exact}}},
+    .on_page = {.integrated = true},
     .apply = &apply_blade_mass};
 
 }  // namespace shakedown::effect

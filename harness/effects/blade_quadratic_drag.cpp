@@ -43,6 +43,7 @@ extern const EffectRecord blade_quadratic_drag{
                   "a variable of the velocity half a time step earlier: 6e-5 of the force at the default "
                   "step, out of phase with it"}}},
     .search = {.strengths = {{.parameters = "drag", .strongest = 0.6}}},
+    .on_page = {.integrated = true},
     .apply = &apply_blade_quadratic_drag};
 
 }  // namespace shakedown::effect

@@ -38,6 +38,7 @@ extern const EffectRecord blade_viscous_damping{
                  {Fidelity::to_stated_error,
                   "a variable of the velocity half a time step earlier: 6e-5 of the force at the default "
                   "step, out of phase with it"}}},
+    .on_page = {.integrated = true},
     .apply = &apply_blade_viscous_damping};
 
 }  // namespace shakedown::effect

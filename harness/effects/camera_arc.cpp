@@ -40,6 +40,7 @@ extern const EffectRecord camera_arc{
                               .high = 3,
                               .inverse = true,
                               .strongest = 0.12}}},
+    .camera = {&Camera::arc_length, true},
     .apply = &apply_camera_arc};
 
 }  // namespace shakedown::effect

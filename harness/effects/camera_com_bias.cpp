@@ -29,6 +29,7 @@ extern const EffectRecord camera_com_bias{
                     .typical = 0.05,
                     .sentence = "Share of the distance to the middle that is lost."}},
     .engines = {{every_engine, {Fidelity::exact}}},
+    .camera = {&Camera::centre_bias, true},
     .apply = &apply_camera_com_bias};
 
 }  // namespace shakedown::effect

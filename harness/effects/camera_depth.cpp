@@ -32,6 +32,7 @@ extern const EffectRecord camera_depth{
           .sentence =
               "Relative enlargement of the grains against the marker; positive: the grains are nearer."}},
     .engines = {{every_engine, {Fidelity::exact}}},
+    .camera = {&Camera::depth, true},
     .camera_error = {.known_as = "camera.depth", .usual = 0.005},  // 5 mm behind the marker at 1 m
     .apply = &apply_camera_depth};
 

@@ -29,6 +29,8 @@ extern const EffectRecord camera_drift{
                     .unit_shown = "mm/s"}},
     .engines = {{every_engine, {Fidelity::exact}}},
     .search = {.strengths = {{.parameters = "drift", .strongest = 5e-3}}},
+    .camera = {&Camera::drift},
+    .on_page = {.reach = 1e-3},
     .apply = &apply_camera_drift};
 
 }  // namespace shakedown::effect

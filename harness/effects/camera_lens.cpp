@@ -31,7 +31,9 @@ extern const EffectRecord camera_lens{
                     .sentence =
                         "Relative error of a position 0.2 m from the optical axis; negative: barrel."}},
     .engines = {{every_engine, {Fidelity::exact}}},
+    .camera = {&Camera::lens, true},
     .camera_error = {.known_as = "camera.lens", .usual = 0.005},  // half a per cent: a phone, corrected
+    .on_page = {.reach = 0.02},
     .apply = &apply_camera_lens};
 
 }  // namespace shakedown::effect

@@ -29,10 +29,12 @@ extern const EffectRecord camera_origin{
                     .typical = 0.0005,
                     .sentence = "Recorded position of the place where the spring is relaxed."}},
     .engines = {{every_engine, {Fidelity::exact}}},
+    .camera = {&Camera::origin},
     .camera_error = {.known_as = "camera.origin",
                      .usual = 0.0003,
                      .each_run = true,
                      .unknown = 0.1},  // m; a pixel or two
+    .on_page = {.reach = 5e-3},
     .apply = &apply_camera_origin};
 
 }  // namespace shakedown::effect

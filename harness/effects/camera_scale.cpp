@@ -29,7 +29,9 @@ extern const EffectRecord camera_scale{
                     .sentence = "Relative error of recorded lengths."}},
     .engines = {{every_engine, {Fidelity::exact}}},
     .search = {.strengths = {{.parameters = "scale", .strongest = 0.2}}},
+    .camera = {&Camera::scale},
     .camera_error = {.known_as = "camera.scale", .usual = 0.005},  // a ruler filmed by eye
+    .on_page = {.reach = 0.03},
     .apply = &apply_camera_scale};
 
 }  // namespace shakedown::effect

@@ -31,6 +31,7 @@ extern const EffectRecord camera_shutter{
                     .typical = 0.001,
                     .sentence = "Time to read 0.4 m of the track; negative: read against +x."}},
     .engines = {{every_engine, {Fidelity::exact}}},
+    .camera = {&Camera::shutter, true},
     .camera_error = {.known_as = "camera.shutter",
                      .usual = 0.003},  // s; a frame of 10 to 30 ms seen to a part
     .apply = &apply_camera_shutter};

@@ -34,6 +34,8 @@ extern const EffectRecord camera_tilt{
     .search = {.odds = 0.1,
                .not_searched = "Only the waveform of an empty box tells it.",
                .in_waveform = true},
+    .camera = {&Camera::tilt, true},
+    .on_page = {.reach = 0.03},
     .apply = &apply_camera_tilt};
 
 }  // namespace shakedown::effect

@@ -30,6 +30,7 @@ extern const EffectRecord camera_time_offset{
                     .unit_shown = "ms"}},
     .engines = {{every_engine, {Fidelity::exact}}},
     .search = {.strengths = {{.parameters = "offset", .strongest = 0.04}}},
+    .camera = {&Camera::time_offset},
     .camera_error = {.known_as = "camera.trigger", .usual = 0.001, .each_run = true},  // s; half a frame
     .apply = &apply_camera_time_offset};
 

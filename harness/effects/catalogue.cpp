@@ -105,7 +105,7 @@ std::string_view name_of(Fidelity fidelity) {
   return names[static_cast<std::size_t>(fidelity)];
 }
 
-std::vector<std::string_view> engines_of(std::span<const EffectRecord* const> effects) {
+std::vector<std::string_view> engines_of(KnownEffects effects) {
   std::vector<std::string_view> engines;
   for (const EffectRecord* effect : effects)
     for (const EngineCapability& one : effect->engines)
@@ -115,7 +115,7 @@ std::vector<std::string_view> engines_of(std::span<const EffectRecord* const> ef
   return engines;
 }
 
-std::string list_effects(std::span<const EffectRecord* const> effects) {
+std::string list_effects(KnownEffects effects) {
   const auto mark = [](const Capability& capability) { return padded(name_of(capability.fidelity), 19); };
   std::string text = padded("effect", 32) + padded("acts on", 9);
   for (const std::string_view engine : engines_of(effects)) text += padded(engine, 19);

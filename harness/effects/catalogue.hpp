@@ -5,6 +5,7 @@
 #include <string>
 
 #include "effect.hpp"
+#include "known_effects.hpp"
 
 namespace shakedown {
 
@@ -12,10 +13,10 @@ std::string_view name_of(ActsOn acts_on);
 std::string_view name_of(Fidelity fidelity);
 
 /// The engines that the records name, in the order in which they do.
-std::vector<std::string_view> engines_of(std::span<const EffectRecord* const> effects);
+std::vector<std::string_view> engines_of(KnownEffects effects);
 
 /// A table of all effects: name, what it acts on, what each engine makes of it, sentence.
-std::string list_effects(std::span<const EffectRecord* const> effects);
+std::string list_effects(KnownEffects effects);
 
 /// Everything about one effect, with an example for the setup.
 std::string describe_effect(const EffectRecord& effect);
@@ -24,10 +25,10 @@ std::string describe_effect(const EffectRecord& effect);
 std::string example_of(const EffectRecord& effect);
 
 /// All records as JSON text (an array of objects).
-std::string effects_json(std::span<const EffectRecord* const> effects);
+std::string effects_json(KnownEffects effects);
 
 /// JSON Schema (draft 2020-12) of a setup file.
-std::string setup_schema(std::span<const EffectRecord* const> effects);
+std::string setup_schema(KnownEffects effects);
 
 /// The setup's keys as a table in Markdown: key, unit, default, bounds, meaning.
 std::string setup_keys_markdown();

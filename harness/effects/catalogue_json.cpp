@@ -192,13 +192,13 @@ Json schema_of(const EffectRecord& effect) {
 
 }  // namespace
 
-std::string effects_json(std::span<const EffectRecord* const> effects) {
+std::string effects_json(KnownEffects effects) {
   Json json = Json::array();
   for (const EffectRecord* effect : effects) json.push_back(json_of(*effect));
   return json.dump(2) + "\n";
 }
 
-std::string setup_schema(std::span<const EffectRecord* const> effects) {
+std::string setup_schema(KnownEffects effects) {
   Json properties = Json::object(), variants = Json::array();
   for (const SetupKey& key : setup_keys()) {
     Json& section = properties[std::string(key.section())];

@@ -61,6 +61,7 @@ extern const EffectRecord clamp_dahl_friction{
     .search = {.besides = {{"travel", 0.005}},
                .shapes = {{"travel", {0.00098, 0.00128, 0.00174, 0.00247, 0.00375, 0.0063, 0.0135, 0.056}}},
                .odds = 0.1},
+    .on_page = {.integrated = true},
     .apply = &apply_clamp_dahl_friction};
 
 }  // namespace shakedown::effect

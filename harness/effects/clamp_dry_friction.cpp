@@ -37,6 +37,7 @@ extern const EffectRecord clamp_dry_friction{
                 {"lammps",
                  {Fidelity::to_stated_error,
                   "smooth below 10 um/s or 10 F h/M (h the step): the box creeps instead of sticking"}}},
+    .on_page = {.integrated = true},
     .apply = &apply_clamp_dry_friction};
 
 }  // namespace shakedown::effect

@@ -46,6 +46,7 @@ extern const EffectRecord constant_acceleration{
                              {.parameters = "acceleration.y", .typical = 0.15, .even = true, .strongest = 2},
                              {.parameters = "acceleration.z", .typical = 0.15, .even = true, .strongest = 2}},
                .cost = Search::Cost::slow},
+    .on_page = {.integrated = true},
     .apply = &apply_constant_acceleration,
     .applied_last = true};
 

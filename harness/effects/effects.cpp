@@ -54,13 +54,13 @@ SHAKEDOWN_EFFECTS(SHAKEDOWN_DECLARE)
 #undef SHAKEDOWN_DECLARE
 }  // namespace effect
 
-std::span<const EffectRecord* const> all_effects() {
+KnownEffects all_effects() {
 #define SHAKEDOWN_ADDRESS(name) &effect::name,
   static constexpr std::array effects{SHAKEDOWN_EFFECTS(SHAKEDOWN_ADDRESS)};
 #undef SHAKEDOWN_ADDRESS
   return effects;
 }
 
-const EffectRecord* find_effect(std::string_view name) { return find_record(all_effects(), name); }
+const EffectRecord* find_effect(std::string_view name) { return all_effects().find(name); }
 
 }  // namespace shakedown

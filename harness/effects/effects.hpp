@@ -3,12 +3,13 @@
 #include <span>
 
 #include "effect.hpp"
+#include "known_effects.hpp"
 
 namespace shakedown {
 
 /// Every effect that a setup may name, in the order of the documentation. A new effect is one file and one
 /// line in effects.cpp.
-std::span<const EffectRecord* const> all_effects();
+KnownEffects all_effects();
 
 /// The effect of this name, or nullptr.
 const EffectRecord* find_effect(std::string_view name);

@@ -54,6 +54,7 @@ extern const EffectRecord oscillating_acceleration{
                   "fix addforce with variables of time, second order in the step"}}},
     .search = {.strengths = {{.parameters = "amplitude.x", .typical = 0.1}},
                .harmonic = SearchedHarmonic{"amplitude.x", "frequency", "phase"}},
+    .on_page = {.integrated = true},
     .apply = &apply_oscillating_acceleration,
     .applied_last = true};
 

@@ -41,6 +41,7 @@ extern const EffectRecord pendulum{
     .search = {.strengths = {{.parameters = "length", .typical = 0.5, .inverse = true}},
                .not_searched = "Only the waveform of an empty box tells it from a softening spring.",
                .in_waveform = true},
+    .on_page = {.integrated = true},
     .apply = &apply_pendulum};
 
 }  // namespace shakedown::effect

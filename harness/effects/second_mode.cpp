@@ -64,6 +64,7 @@ extern const EffectRecord second_mode{
     .search = {.harmonic = SearchedHarmonic{"amplitude", "frequency", "phase", "rate"},
                .not_searched = "Only the waveform of an empty box tells it.",
                .in_waveform = true},
+    .on_page = {.integrated = true},
     .apply = &apply_second_mode,
     .applied_last = true};
 

@@ -50,6 +50,7 @@ extern const EffectRecord spring_cubic{
                 {"lammps",
                  {Fidelity::to_stated_error, "a variable of the place; Verlet's error, 1e-8 of the energy"}}},
     .search = {.strengths = {{.parameters = "coefficient", .strongest = 0.8}}},
+    .on_page = {.integrated = true},
     .apply = &apply_spring_cubic};
 
 }  // namespace shakedown::effect

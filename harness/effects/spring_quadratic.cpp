@@ -45,6 +45,7 @@ extern const EffectRecord spring_quadratic{
                 {"lammps",
                  {Fidelity::to_stated_error, "a variable of the place; Verlet's error, 1e-8 of the energy"}}},
     .search = {.not_searched = "Only the waveform of an empty box tells it.", .in_waveform = true},
+    .on_page = {.integrated = true},
     .apply = &apply_spring_quadratic};
 
 }  // namespace shakedown::effect

@@ -120,8 +120,7 @@ State read_state(Reader& from) {
 }
 
 /// The grains come from the log itself, so no packing need hold as many of them.
-Setup setup_of_log(const std::string& text, const std::filesystem::path& file,
-                   std::span<const EffectRecord* const> known) {
+Setup setup_of_log(const std::string& text, const std::filesystem::path& file, KnownEffects known) {
   const std::string key = "release.initial_grains";
   const Override own_state{key, toml_string(file.string()), file.string()};
   Setup setup = parse_setup(text, file.string(), known, {&own_state, 1});
@@ -150,7 +149,7 @@ std::string collision_log_bytes(const StoredRun& stored) {
   return to.bytes;
 }
 
-StoredRun read_collision_log(std::filesystem::path file, std::span<const EffectRecord* const> known) {
+StoredRun read_collision_log(std::filesystem::path file, KnownEffects known) {
   if (std::filesystem::is_directory(file)) file /= collision_log_name;
   keep_unchanged(file);
   std::ifstream stream(file, std::ios::binary);

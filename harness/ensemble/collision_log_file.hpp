@@ -13,6 +13,7 @@
 #include <string>
 
 #include "collision_log.hpp"
+#include "known_effects.hpp"
 #include "setup.hpp"
 
 namespace shakedown {
@@ -31,6 +32,6 @@ struct StoredRun {
 std::string collision_log_bytes(const StoredRun& stored);
 
 /// Reads a log, or collision_log_name in a folder. Throws FileError, naming what is wrong with the file.
-StoredRun read_collision_log(std::filesystem::path file, std::span<const EffectRecord* const> known);
+StoredRun read_collision_log(std::filesystem::path file, KnownEffects known);
 
 }  // namespace shakedown

@@ -137,8 +137,7 @@ std::vector<Override> at_strength(const Hideable& hideable, double strength, con
   return overrides;
 }
 
-Setup changed(const Setup& setup, const std::vector<Override>& overrides,
-              std::span<const EffectRecord* const> known) {
+Setup changed(const Setup& setup, const std::vector<Override>& overrides, KnownEffects known) {
   return parse_setup(write_setup(setup), "setup", known, overrides);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "effect_strength.hpp"
+#include "known_effects.hpp"
 #include "trial.hpp"
 
 namespace shakedown {
@@ -47,7 +48,6 @@ std::vector<Override> at_strength(const Hideable& hideable, double strength, con
                                   const DrawnTone& tone = {});
 
 /// The setup with overrides on top.
-Setup changed(const Setup& setup, const std::vector<Override>& overrides,
-              std::span<const EffectRecord* const> known);
+Setup changed(const Setup& setup, const std::vector<Override>& overrides, KnownEffects known);
 
 }  // namespace shakedown

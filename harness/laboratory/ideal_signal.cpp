@@ -65,7 +65,7 @@ class Simulations {
     return runs;
   }
 
-  std::span<const EffectRecord* const> known() const { return tools_.known; }
+  KnownEffects known() const { return tools_.known; }
 
   Setup planned(const Setup& setup, const PlannedRun& run) const {
     Setup planned = changed(setup, run.overrides, tools_.known);

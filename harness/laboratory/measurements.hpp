@@ -12,6 +12,7 @@
 
 #include "engine.hpp"
 #include "experiment.hpp"
+#include "known_effects.hpp"
 
 namespace shakedown {
 
@@ -64,7 +65,7 @@ std::vector<PlannedRun> runs_of_lengths(const std::vector<double>& lengths);
 
 struct Laboratory {
   const Engine* engine = nullptr;
-  std::span<const EffectRecord* const> known;
+  KnownEffects known;
   std::uint64_t seed = 1;  ///< of initial states and of the camera's noise
   int threads = 0;         ///< 0: one a core; the measurements do not depend on it
   const std::atomic<bool>* stop = nullptr;

@@ -11,6 +11,7 @@
 
 #include "candidates.hpp"
 #include "emulator.hpp"
+#include "known_effects.hpp"
 #include "measurement.hpp"
 
 namespace shakedown {
@@ -50,7 +51,7 @@ struct StrengthMap {
 };
 
 struct MapOptions {
-  std::span<const EffectRecord* const> known;
+  KnownEffects known;
   std::vector<std::string> effects;  ///< these only; empty: all that a diagnosis may add
   int count = 48;                    ///< simulations of each different setup at each strength
   int threads = 0;

@@ -68,11 +68,10 @@ TrialJudgement judge(const std::vector<std::string>& hidden, bool other_paramete
   return judgement;
 }
 
-std::vector<std::string> physics_among(const std::vector<std::string>& effects,
-                                       std::span<const EffectRecord* const> known) {
+std::vector<std::string> physics_among(const std::vector<std::string>& effects, KnownEffects known) {
   std::vector<std::string> physics;
   for (const std::string& effect : effects) {
-    const EffectRecord* record = find_record(known, effect);
+    const EffectRecord* record = known.find(effect);
     if (record == nullptr || (record->acts_on != ActsOn::camera && !record->nuisance))
       physics.push_back(effect);
   }

@@ -6,6 +6,7 @@
 
 #include "diagnosis.hpp"
 #include "hidden_case.hpp"
+#include "known_effects.hpp"
 #include "shares.hpp"
 
 namespace shakedown {
@@ -22,7 +23,7 @@ struct Trial {
 struct TrialTools {
   const Engine* laboratory = nullptr;  ///< measures
   const Engine* model = nullptr;       ///< the diagnosis' engine
-  std::span<const EffectRecord* const> known;
+  KnownEffects known;
   std::int64_t budget = 0;  ///< simulations of one diagnosis at most; 0: usual_budget()
   int threads = 0;
   const std::atomic<bool>* stop = nullptr;
@@ -56,8 +57,7 @@ std::vector<std::string> effects_standing_out(const std::vector<NuisanceFound>& 
 
 /// Those that act on box and grains: without errors of camera, clock and origin and without nuisances. What
 /// is no effect of the list counts as physics. Sorted.
-std::vector<std::string> physics_among(const std::vector<std::string>& effects,
-                                       std::span<const EffectRecord* const> known);
+std::vector<std::string> physics_among(const std::vector<std::string>& effects, KnownEffects known);
 
 /// What repeated trials of one hidden case come to.
 struct Power {

@@ -13,20 +13,19 @@
 
 namespace shakedown {
 
-std::vector<MeasuredFeatures> features_with_camera(const Measurement& measurement,
-                                                   std::span<const EffectRecord* const> known) {
+std::vector<MeasuredFeatures> features_with_camera(const Measurement& measurement, KnownEffects known) {
   std::vector<MeasuredFeatures> list = features_of(measurement);
   const std::vector<CameraNuisance> nuisances = camera_nuisances(measurement, known);
   for (std::size_t r = 0; r < list.size(); ++r) {
     const Measurement::Run& run = measurement.runs[r];
     const Recording recording{run.recorded.time, run.audit.x_box, run.audit.x_com};
-    for (const CameraParameter& parameter : camera_parameters()) {
+    for (const CameraParameter& parameter : camera_parameters(known)) {
       if (parameter.inverse_square) continue;
       Recording change = derivative(recording, parameter);
       for (std::vector<double>* x : {&change.x_box, &change.x_com})
         for (double& at : *x)
           if (!std::isfinite(at)) at = 0;  // beside a gap, where no bin looks
-      list[r].by_camera[std::string(parameter.path)] =
+      list[r].by_camera[parameter.path] =
           features_on_frames(list[r].plan, recording.time, change.x_box, change.x_com);
     }
     for (const CameraNuisance& nuisance : nuisances) {
@@ -45,8 +44,7 @@ constexpr std::string_view clock = "camera_time_offset.offset";
 /// How late all runs are seen together, s: a frame's time is that of one of its rows, where a camera says so
 /// the first (Android Camera2, SENSOR_TIMESTAMP), so that the middle of a picture of 0.4 m is read by half of
 /// the shutter's time later. 0: the clock or the shutter is known exactly.
-double late_by_rows(const Setup& setup, const std::vector<CameraNuisance>& nuisances,
-                    std::span<const EffectRecord* const> known,
+double late_by_rows(const Setup& setup, const std::vector<CameraNuisance>& nuisances, KnownEffects known,
                     const std::optional<ValueWithError>& shutter) {
   const auto find = [&](std::string_view key) {
     return std::find_if(nuisances.begin(), nuisances.end(),
@@ -62,13 +60,12 @@ double late_by_rows(const Setup& setup, const std::vector<CameraNuisance>& nuisa
 
 }  // namespace
 
-std::vector<Knob> camera_knobs(const Setup& setup, const Measurement& measurement,
-                               std::span<const EffectRecord* const> known,
+std::vector<Knob> camera_knobs(const Setup& setup, const Measurement& measurement, KnownEffects known,
                                const std::optional<ValueWithError>& shutter) {
   std::vector<Knob> knobs;
   const std::vector<CameraNuisance> nuisances = camera_nuisances(measurement, known);
   for (const CameraNuisance& nuisance : nuisances) {
-    if (nuisance.each_run || find_camera_parameter(nuisance.key) == nullptr) continue;
+    if (nuisance.each_run || !find_camera_parameter(known, nuisance.key)) continue;
     knobs.push_back(exact_knob(nuisance.key, get_number(setup, nuisance.key, known), nuisance.deviation()));
   }
   if (const double late = late_by_rows(setup, nuisances, known, shutter); late > 0) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "distributions.hpp"
 #include "errors.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
@@ -21,7 +22,7 @@ namespace shakedown {
 
 namespace {
 
-using Known = std::span<const EffectRecord* const>;
+using Known = KnownEffects;
 
 constexpr int points = 5;
 constexpr double slowest = 0.032, step = 2.5;  // of the box's greatest speed
@@ -266,10 +267,10 @@ std::optional<std::vector<Knob>> held_to_one_side(const CurveLaw& law, std::vect
 }
 
 double ContactCurve::low(const ContactBand& band, std::size_t i) const {
-  return std::max(0.0, band.value[i] - 1.96 * band.error[i]);
+  return std::max(0.0, band.value[i] - normal_95 * band.error[i]);
 }
 double ContactCurve::high(const ContactBand& band, std::size_t i) const {
-  return std::min(law->highest, band.value[i] + 1.96 * band.error[i]);
+  return std::min(law->highest, band.value[i] + normal_95 * band.error[i]);
 }
 
 ContactCurve contact_curve(const CurveLaw& law, const Setup& fitted, const std::vector<FittedValue>& values,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "emulator.hpp"
+#include "known_effects.hpp"
 #include "physics.hpp"
 #include "refit.hpp"
 
@@ -39,11 +40,10 @@ const CurveLaw& restitution_against_speed();
 const CurveLaw& friction_against_slip();
 
 /// The effect of the list that takes a formula for this coefficient; null: there is none.
-const EffectRecord* formula_for(const CurveLaw& law, std::span<const EffectRecord* const> known);
+const EffectRecord* formula_for(const CurveLaw& law, KnownEffects known);
 
 /// What the curve may be of ("all", "grains", "walls"), as that effect names it.
-std::vector<std::string_view> contacts_of_a_curve(const CurveLaw& law,
-                                                  std::span<const EffectRecord* const> known);
+std::vector<std::string_view> contacts_of_a_curve(const CurveLaw& law, KnownEffects known);
 
 /// Speeds of the curve's points, m/s, ascending: 0.032 to 1.25 of the box's greatest speed, each 2.5
 /// times the one before. Of what impacts dissipate in twelve seconds of the paper's damper 98 % lies between
@@ -56,24 +56,22 @@ std::vector<double> speeds_of_curve(const Setup& setup);
 /// effect that claims the same part of the model goes. Throws InputError for contacts that there are not, and
 /// where the setup's coefficient is 0.
 Setup with_contact_curve(const CurveLaw& law, const Setup& setup, const std::string& contacts,
-                         std::span<const EffectRecord* const> known);
+                         KnownEffects known);
 
 /// The effect with the curve, as lines of a setup; empty where there is none.
 std::string curve_as_toml(const CurveLaw& law, const Setup& setup);
 
 /// The falls, level to begin with, as believed beforehand.
-std::vector<Knob> knobs_of_curve(const CurveLaw& law, const Setup& setup,
-                                 std::span<const EffectRecord* const> known);
+std::vector<Knob> knobs_of_curve(const CurveLaw& law, const Setup& setup, KnownEffects known);
 
 /// Whether one of these knobs moves the coefficient: where none does a curve would stand for its level too.
 bool moves_the_level(const CurveLaw& law, const Setup& setup, const std::vector<Knob>& knobs,
-                     std::span<const EffectRecord* const> known);
+                     KnownEffects known);
 
 /// Where the curve of a fit falls here and rises there: the knobs held to one side, for a law that only
 /// falls, or only rises, whichever this one does more. Nothing where it does so already.
 std::optional<std::vector<Knob>> held_to_one_side(const CurveLaw& law, std::vector<Knob> knobs,
-                                                  const std::vector<FittedValue>& fitted,
-                                                  std::span<const EffectRecord* const> known);
+                                                  const std::vector<FittedValue>& fitted, KnownEffects known);
 
 /// The coefficient of one kind of contact with its standard error, at each speed.
 struct ContactBand {
@@ -91,7 +89,7 @@ struct ContactCurve {
 /// make it: from the fitted setup, the values of its parameters and their covariance (in the values' units).
 /// Between the points of a curve the error has half of what a step at an unknown place there would make.
 ContactCurve contact_curve(const CurveLaw& law, const Setup& fitted, const std::vector<FittedValue>& values,
-                           const Eigen::MatrixXd& covariance, std::span<const EffectRecord* const> known);
+                           const Eigen::MatrixXd& covariance, KnownEffects known);
 
 /// "falls from 0.91 at 0.027 m/s to 0.62 at 1.039 m/s (grains), falls from ... (walls)".
 std::string words_of(const ContactCurve& curve);

@@ -61,7 +61,7 @@ std::vector<double> shifts_of(const Measurement& measurement, const std::vector<
 }
 
 void take_shared_values(const std::vector<DamperError>& errors, std::vector<MeasuredFeatures>& measured,
-                        std::span<const EffectRecord* const> known) {
+                        KnownEffects known) {
   for (const DamperError& error : errors)
     for (std::size_t r = 0; r < error.shift.size(); ++r) {
       Setup& setup = measured[r].setup;
@@ -129,7 +129,7 @@ std::vector<FeatureColumns> columns_of(const std::vector<DamperError>& errors,
 }
 
 void add_columns(const std::vector<DamperError>& errors, const std::vector<FeatureColumns>& columns,
-                 std::span<const EffectRecord* const> known, std::vector<MeasuredFeatures>& measured) {
+                 KnownEffects known, std::vector<MeasuredFeatures>& measured) {
   take_shared_values(errors, measured, known);
   for (std::size_t e = 0; e < columns.size(); ++e)
     for (std::size_t r = 0; r < measured.size(); ++r) {

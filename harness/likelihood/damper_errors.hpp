@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulator.hpp"
+#include "known_effects.hpp"
 #include "measurement.hpp"
 
 namespace shakedown {
@@ -37,7 +38,7 @@ std::vector<FeatureColumns> columns_of(const std::vector<DamperError>& errors,
 /// Puts them into the features: among what each run has of its own, or as columns of knobs. A run with a
 /// shift is from now on one of the value that its repeats share.
 void add_columns(const std::vector<DamperError>& errors, const std::vector<FeatureColumns>& columns,
-                 std::span<const EffectRecord* const> known, std::vector<MeasuredFeatures>& measured);
+                 KnownEffects known, std::vector<MeasuredFeatures>& measured);
 
 /// Knobs of what all runs share; exact, for the columns are known.
 std::vector<Knob> knobs_of(const std::vector<DamperError>& errors, const Setup& setup);

@@ -55,12 +55,12 @@ Eigen::VectorXd regression_terms(const std::vector<Knob>& knobs, const Eigen::Ve
   return Eigen::Map<Eigen::VectorXd>(terms.data(), static_cast<Eigen::Index>(terms.size()));
 }
 
-void set_knob(Setup& setup, const Knob& knob, std::span<const EffectRecord* const> known) {
+void set_knob(Setup& setup, const Knob& knob, KnownEffects known) {
   for (const std::string& key : joined_keys(knob.key)) set_number(setup, key, knob.at(0), known);
 }
 
 Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::VectorXd& z,
-               std::span<const EffectRecord* const> known) {
+               KnownEffects known) {
   Setup changed = setup;
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     Knob moved = knobs[k];

@@ -15,6 +15,7 @@
 #include "engine.hpp"
 #include "ensemble_cache.hpp"
 #include "features.hpp"
+#include "known_effects.hpp"
 #include "simulation_journal.hpp"
 #include "simulation_pool.hpp"
 
@@ -65,7 +66,7 @@ Eigen::MatrixXd with_own(Eigen::MatrixXd covariance, const MeasuredFeatures& mea
 
 struct Workshop {
   const Engine* engine = nullptr;
-  std::span<const EffectRecord* const> known;
+  KnownEffects known;
   int threads = 0;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(int runs)> done;  ///< told of finished simulations; may be empty
@@ -97,11 +98,11 @@ struct Emulator {
 Eigen::VectorXd regression_terms(const std::vector<Knob>& knobs, const Eigen::VectorXd& z);
 
 /// Sets every key of the knob to its centre.
-void set_knob(Setup& setup, const Knob& knob, std::span<const EffectRecord* const> known);
+void set_knob(Setup& setup, const Knob& knob, KnownEffects known);
 
 /// The setup with the knobs at z.
 Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::VectorXd& z,
-               std::span<const EffectRecord* const> known);
+               KnownEffects known);
 
 /// One emulator for each measured run from `count` simulations (of each different setup) scattered over the
 /// knobs' box, and those in the workshop's pool that lie in it; knobs of no width: all at the centre, the

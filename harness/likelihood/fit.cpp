@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "distributions.hpp"
 #include "free_parameters.hpp"
 #include "key_unit.hpp"
 #include "setup_file.hpp"
@@ -59,23 +60,23 @@ void add_remark(FittedParameter& parameter, const std::string& remark) {
 
 /// `knob`: where the fit ended; `start`: where it began.
 FittedParameter told_parameter(const Knob& knob, const Knob& start, double value, double error, bool at_bound,
-                               std::span<const EffectRecord* const> known) {
+                               KnownEffects known) {
   FittedParameter found{knob.key,
                         unit_of_key(knob.key, known),
                         start.centre,
                         value,
-                        std::max(knob.low, value - 1.96 * error),
-                        std::min(knob.high, value + 1.96 * error),
+                        std::max(knob.low, value - normal_95 * error),
+                        std::min(knob.high, value + normal_95 * error),
                         error,
                         true,
                         ""};
-  const bool covers_most = 2 * 1.96 * error > 2.0 / 3 * (knob.high - knob.low) || !std::isfinite(error);
+  const bool covers_most = 2 * normal_95 * error > 2.0 / 3 * (knob.high - knob.low) || !std::isfinite(error);
   found.told = !covers_most;
   if (covers_most)
     found.remark = "the data do not tell it: its interval covers most of what is possible";
   else if (at_bound)
     found.remark = "at the bound of what is possible";
-  else if (start.low == 0 && value - 1.96 * error <= 0)
+  else if (start.low == 0 && value - normal_95 * error <= 0)
     found.remark = "not different from zero";
   return found;
 }
@@ -210,7 +211,7 @@ void refuse_unknown_runs(const Measurement& measurement, const std::vector<std::
 }
 
 std::vector<FittedParameter> parameters_of(const Refit& fit, const std::vector<Knob>& start,
-                                           std::span<const EffectRecord* const> known) {
+                                           KnownEffects known) {
   EXPECT(fit.values.size() == start.size());
   const Eigen::MatrixXd correlation = correlation_of(fit.covariance);
   std::vector<FittedParameter> list;
@@ -252,7 +253,7 @@ std::vector<FittedValue> values_of(const Fit& fit) {
   return values;
 }
 
-ContactCurve curve_of(const CurveLaw& law, const Fit& fit, std::span<const EffectRecord* const> known) {
+ContactCurve curve_of(const CurveLaw& law, const Fit& fit, KnownEffects known) {
   return contact_curve(law, fit.fitted, values_of(fit), covariance_of(fit), known);
 }
 

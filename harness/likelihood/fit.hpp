@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact_curve.hpp"
+#include "known_effects.hpp"
 #include "refit.hpp"
 
 namespace shakedown {
@@ -17,7 +18,7 @@ struct FitOptions {
   int count = 160;              ///< simulations of each different setup in a round
   int threads = 0;
   int first_run = 500000;  ///< addresses the random numbers of the simulations
-  std::span<const EffectRecord* const> known;
+  KnownEffects known;
   const std::atomic<bool>* stop = nullptr;
   /// Told of the stage in words and the number of simulations so far; may be empty.
   std::function<void(const std::string& stage, std::int64_t runs)> progress{};
@@ -69,7 +70,7 @@ void refuse_unknown_runs(const Measurement& measurement, const std::vector<std::
 
 /// The values of a fit made otherwise, with what is to be said of each; `start`: its knobs, in their order.
 std::vector<FittedParameter> parameters_of(const Refit& fit, const std::vector<Knob>& start,
-                                           std::span<const EffectRecord* const> known);
+                                           KnownEffects known);
 
 Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance);
 
@@ -77,7 +78,7 @@ Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance);
 std::vector<FittedValue> values_of(const Fit& fit);
 
 /// The coefficient against its speed with its band, by the parameters of the fit.
-ContactCurve curve_of(const CurveLaw& law, const Fit& fit, std::span<const EffectRecord* const> known);
+ContactCurve curve_of(const CurveLaw& law, const Fit& fit, KnownEffects known);
 
 /// Whether the measurements tell that what has a curve depends on the speed: where a constant holds they do
 /// not. Empty without a curve.

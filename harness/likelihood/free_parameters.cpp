@@ -40,7 +40,7 @@ bool moves_nothing(const SetupKey& key) {
          key.section() == "hard" || key.path == "release.grain_speed";
 }
 
-Knob knob_of(const std::string& keys, const Setup& setup, std::span<const EffectRecord* const> known) {
+Knob knob_of(const std::string& keys, const Setup& setup, KnownEffects known) {
   const std::string first = joined_keys(keys).front();
   const double start = get_number(setup, first, known);
   if (const SetupKey* key = find_setup_key(first)) {
@@ -60,7 +60,7 @@ Knob knob_of(const std::string& keys, const Setup& setup, std::span<const Effect
     knob.key = keys;
     return knob;
   }
-  const Parameter& parameter = *find_parameter(known, first);
+  const Parameter& parameter = *known.find_parameter(first);
   const double width = parameter.typical > 0 ? parameter.typical : std::max(0.1 * std::abs(start), 1e-6);
   return {keys,
           start,
@@ -82,8 +82,7 @@ std::vector<std::string> split(std::string_view text) {
 
 }  // namespace
 
-std::vector<Knob> free_parameters(std::string_view text, const Setup& setup,
-                                  std::span<const EffectRecord* const> known) {
+std::vector<Knob> free_parameters(std::string_view text, const Setup& setup, KnownEffects known) {
   std::vector<Knob> knobs;
   std::vector<Violation> found;
   for (const std::string& keys : split(text)) {

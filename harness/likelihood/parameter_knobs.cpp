@@ -19,8 +19,8 @@ constexpr double reach_as_given = 2.5;  // standard deviations
 constexpr double reach_of_a_fit = 1.5;  // of what is believed, as that of the restitutions
 
 /// One knob for each number of an effect that is known to an error, so many errors wide.
-std::vector<Knob> of_effects(const std::vector<KnownValue>& known,
-                             std::span<const EffectRecord* const> effects, double errors, bool curved) {
+std::vector<Knob> of_effects(const std::vector<KnownValue>& known, KnownEffects effects, double errors,
+                             bool curved) {
   std::vector<Knob> knobs;
   for (const KnownValue& said : known) {
     const Parameter* parameter = find_component_number(effects, said.key);
@@ -34,8 +34,7 @@ std::vector<Knob> of_effects(const std::vector<KnownValue>& known,
 
 }  // namespace
 
-std::vector<Knob> as_given(const Setup& setup, const std::vector<KnownValue>& known,
-                           std::span<const EffectRecord* const> effects) {
+std::vector<Knob> as_given(const Setup& setup, const std::vector<KnownValue>& known, KnownEffects effects) {
   const auto knob = [&](const char* key, double value, double apart, double highest) {
     if (const KnownValue* said = find_known(known, key)) apart = std::hypot(apart, said->error);
     const double reach = reach_as_given * apart;
@@ -72,7 +71,7 @@ std::vector<Knob> free_parameters(const Setup& setup) {
 }
 
 std::vector<Knob> believed(std::vector<Knob> knobs, const std::vector<KnownValue>& known,
-                           std::span<const EffectRecord* const> effects) {
+                           KnownEffects effects) {
   std::erase_if(knobs, [&](const Knob& knob) {
     const KnownValue* said = find_known(known, knob.key);
     return said != nullptr && said->error == 0;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "emulator.hpp"
+#include "known_effects.hpp"
 #include "known_value.hpp"
 
 namespace shakedown {
@@ -25,7 +26,7 @@ constexpr double believed_restitution = 0.1;
 /// Where [known] gives an error they may be off by that too.
 /// Numbers of `effects` that [known] gives with an error are among them.
 std::vector<Knob> as_given(const Setup& setup, const std::vector<KnownValue>& known = {},
-                           std::span<const EffectRecord* const> effects = {});
+                           KnownEffects effects = {});
 
 /// What a user may refit, about the setup's values; the spring's about `frequency` (Hz), which the momentum
 /// balance may know better, within
@@ -36,6 +37,6 @@ std::vector<Knob> free_parameters(const Setup& setup);
 /// The same with what [known] says of them for the belief; what it knows exactly is no knob any more. Numbers
 /// of `effects` that it gives with an error are added.
 std::vector<Knob> believed(std::vector<Knob> knobs, const std::vector<KnownValue>& known,
-                           std::span<const EffectRecord* const> effects = {});
+                           KnownEffects effects = {});
 
 }  // namespace shakedown

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "distributions.hpp"
 #include "errors.hpp"
 #include "fit_round.hpp"
 
@@ -28,8 +29,8 @@ double root_mean_square(const std::vector<RunComparison>& runs, double RunCompar
 
 void set_value(const Knob& knob, double at, FittedValue& value) {
   value.value = at;
-  value.low = std::max(knob.low, at - 1.96 * value.error);
-  value.high = std::min(knob.high, at + 1.96 * value.error);
+  value.low = std::max(knob.low, at - normal_95 * value.error);
+  value.high = std::min(knob.high, at + normal_95 * value.error);
   value.at_bound = at <= knob.low || at >= knob.high;
 }
 

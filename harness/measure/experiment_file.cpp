@@ -79,7 +79,7 @@ void split_run_keys(const TomlValue& table, const std::string& file, MeasuredRun
 struct Defaults {
   ClockAndScale scale;
   RunColumns columns;
-  std::span<const EffectRecord* const> effects{};  ///< whose numbers [known] may say
+  KnownEffects effects{};  ///< whose numbers [known] may say
 };
 
 /// Without a declared time column and with an empty box there is nothing to miss.
@@ -264,8 +264,7 @@ TomlValue parsed_experiment(std::string_view text, const std::string& name) {
 }  // namespace
 
 Experiment parse_experiment(std::string_view text, const std::string& name,
-                            const std::filesystem::path& folder,
-                            std::span<const EffectRecord* const> effects) {
+                            const std::filesystem::path& folder, KnownEffects effects) {
   const TomlValue root = parsed_experiment(text, name);
   Experiment experiment;
   experiment.file = name;
@@ -299,7 +298,7 @@ Experiment parse_experiment(std::string_view text, const std::string& name,
   return experiment;
 }
 
-Experiment read_experiment(const std::filesystem::path& file, std::span<const EffectRecord* const> effects) {
+Experiment read_experiment(const std::filesystem::path& file, KnownEffects effects) {
   keep_unchanged(file);
   return parse_experiment(read_text_file(file), file.string(), file.parent_path(), effects);
 }

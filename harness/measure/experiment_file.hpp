@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "experiment.hpp"
+#include "known_effects.hpp"
 
 namespace shakedown {
 
@@ -26,13 +27,11 @@ namespace shakedown {
 ///   initial_grains, column.* of this
 ///                              run alone (from = "": not measured), any key of the setup, e.g. grains.count
 ///                              = 0
-Experiment read_experiment(const std::filesystem::path& file,
-                           std::span<const EffectRecord* const> effects = {});
+Experiment read_experiment(const std::filesystem::path& file, KnownEffects effects = {});
 
 /// The same from text; tables are looked for in `folder`, `name` stands for the file in messages.
 Experiment parse_experiment(std::string_view text, const std::string& name,
-                            const std::filesystem::path& folder,
-                            std::span<const EffectRecord* const> effects = {});
+                            const std::filesystem::path& folder, KnownEffects effects = {});
 
 /// A short digest of what was measured and in which setups: changes with any number.
 std::string digest(const Experiment& experiment);

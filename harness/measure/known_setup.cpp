@@ -15,15 +15,14 @@ namespace shakedown {
 
 namespace {
 
-const EffectRecord* camera_record(std::string_view known_as, std::span<const EffectRecord* const> known) {
+const EffectRecord* camera_record(std::string_view known_as, KnownEffects known) {
   for (const EffectRecord* record : known)
     if (!record->camera_error.known_as.empty() && record->camera_error.known_as == known_as) return record;
   return nullptr;
 }
 
 /// Key and value for every number that this sets, other parameters that it needs first.
-std::vector<std::pair<std::string, double>> numbers_set_by(const KnownValue& value,
-                                                           std::span<const EffectRecord* const> known) {
+std::vector<std::pair<std::string, double>> numbers_set_by(const KnownValue& value, KnownEffects known) {
   const std::string key = setup_key_of(value, known);
   if (key.empty()) return {};
   const EffectRecord* camera = camera_record(value.key, known);
@@ -38,7 +37,7 @@ std::vector<std::pair<std::string, double>> numbers_set_by(const KnownValue& val
 
 }  // namespace
 
-std::string setup_key_of(const KnownValue& value, std::span<const EffectRecord* const> known) {
+std::string setup_key_of(const KnownValue& value, KnownEffects known) {
   if (find_setup_key(value.key) != nullptr || find_component_number(known, value.key) != nullptr)
     return value.key;
   const EffectRecord* record = camera_record(value.key, known);
@@ -47,8 +46,7 @@ std::string setup_key_of(const KnownValue& value, std::span<const EffectRecord* 
   return search.strengths.empty() ? "" : keys_of(*record, search.strengths.front());
 }
 
-Setup with_known(Setup setup, const std::vector<KnownValue>& values,
-                 std::span<const EffectRecord* const> known) {
+Setup with_known(Setup setup, const std::vector<KnownValue>& values, KnownEffects known) {
   for (const KnownValue& value : values)
     for (const auto& [key, number] : numbers_set_by(value, known))
       if (find_setup_key(key) == nullptr || get_number(setup, key, known) != number)
@@ -56,7 +54,7 @@ Setup with_known(Setup setup, const std::vector<KnownValue>& values,
   return setup;
 }
 
-Experiment with_known(Experiment experiment, std::span<const EffectRecord* const> known) {
+Experiment with_known(Experiment experiment, KnownEffects known) {
   for (MeasuredRun& run : experiment.runs)
     for (const KnownValue& value : run.known)
       for (const auto& [key, number] : numbers_set_by(value, known)) {

@@ -79,7 +79,7 @@ struct Target {
   bool low_excluded;
 };
 
-std::optional<Target> target_of(std::string_view path, std::span<const EffectRecord* const> effects) {
+std::optional<Target> target_of(std::string_view path, KnownEffects effects) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (const CameraKey* key = find_camera_key(path))
     return Target{key->unit, key->positive ? 0 : -infinity, infinity, false};
@@ -108,9 +108,9 @@ std::string meant_by(std::string_view path) {
 }
 
 Violation unknown_key(const TomlEntry& entry, std::string_view key, const std::string& path,
-                      std::span<const EffectRecord* const> effects) {
+                      KnownEffects effects) {
   const std::string full = path + std::string(key);
-  if (const EffectRecord* record = find_record(effects, effect_of(key)))
+  if (const EffectRecord* record = effects.find(effect_of(key)))
     return {entry.place, full,
             is_in_contacts(*record) ? "is no number of that effect that can be measured by itself"
                                     : "is of an effect that the films themselves tell",
@@ -227,8 +227,7 @@ std::optional<Problem> take(const TomlValue& from, const Target& target, KnownVa
 }
 
 void read_entries(const TomlValue& table, const std::string& above, const std::string& path,
-                  std::span<const EffectRecord* const> effects, std::vector<KnownValue>& all,
-                  std::vector<Violation>& violations) {
+                  KnownEffects effects, std::vector<KnownValue>& all, std::vector<Violation>& violations) {
   for (const TomlEntry& entry : table.entries) {
     const std::string key = above + entry.key;
     if (entry.value.kind == TomlKind::table) {  // box.mass without quotation marks
@@ -288,8 +287,7 @@ bool is_of_each_run(std::string_view key) {
 }
 
 std::vector<KnownValue> read_known(const TomlValue& table, const std::string& path,
-                                   std::vector<Violation>& violations,
-                                   std::span<const EffectRecord* const> effects) {
+                                   std::vector<Violation>& violations, KnownEffects effects) {
   std::vector<KnownValue> known;
   read_entries(table, "", path, effects, known, violations);
   return known;
@@ -301,15 +299,15 @@ const KnownValue* find_known(const std::vector<KnownValue>& known, std::string_v
   return nullptr;
 }
 
-const Parameter* find_component_number(std::span<const EffectRecord* const> effects, std::string_view key) {
-  const EffectRecord* record = find_record(effects, effect_of(key));
-  const Parameter* parameter = find_parameter(effects, key);
+const Parameter* find_component_number(KnownEffects effects, std::string_view key) {
+  const EffectRecord* record = effects.find(effect_of(key));
+  const Parameter* parameter = effects.find_parameter(key);
   const bool is_number = parameter != nullptr && parameter->kind == ParameterKind::number &&
                          std::count(key.begin(), key.end(), '.') == 1;
   return is_number && is_in_contacts(*record) ? parameter : nullptr;
 }
 
-std::string known_line(const KnownValue& known, std::span<const EffectRecord* const> effects) {
+std::string known_line(const KnownValue& known, KnownEffects effects) {
   const std::optional<Target> target = target_of(known.key, effects);
   EXPECT(target.has_value());
   return toml_string(known.key) + " = " +

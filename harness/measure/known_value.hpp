@@ -51,8 +51,7 @@ bool may_differ_between_runs(std::string_view key);
 /// once or with both. What is wrong goes to `violations`; `path` stands before the keys there. `effects`:
 /// those whose numbers may be said.
 std::vector<KnownValue> read_known(const TomlValue& table, const std::string& path,
-                                   std::vector<Violation>& violations,
-                                   std::span<const EffectRecord* const> effects = {});
+                                   std::vector<Violation>& violations, KnownEffects effects = {});
 
 /// The value of this key, nullptr when it is not known.
 const KnownValue* find_known(const std::vector<KnownValue>& known, std::string_view key);
@@ -60,9 +59,9 @@ const KnownValue* find_known(const std::vector<KnownValue>& known, std::string_v
 /// The number of an effect that a component test tells: of what acts inside the contacts or on the grains, a
 /// number by itself. Null: what acts on the box the momentum balance measures, and all else is no such
 /// number.
-const Parameter* find_component_number(std::span<const EffectRecord* const> effects, std::string_view key);
+const Parameter* find_component_number(KnownEffects effects, std::string_view key);
 
 /// As a line of an experiment file, without its end: "box.mass" = "434 g +- 2 g".
-std::string known_line(const KnownValue& known, std::span<const EffectRecord* const> effects = {});
+std::string known_line(const KnownValue& known, KnownEffects effects = {});
 
 }  // namespace shakedown

@@ -59,14 +59,13 @@ std::vector<std::string> all_notes(const Measurement& measurement) {
   return notes;
 }
 
-Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known) {
+Setup setup_of_run(const Setup& setup, const MeasuredRun& run, KnownEffects known) {
   Setup of_run = with_overrides(setup, run.overrides, known);
   of_run.release.grains_measured_at = run.grains_measured_at.value_or(of_run.release.displacement);
   return of_run;
 }
 
-Measurement measurement_of(const Setup& setup, Experiment experiment,
-                           std::span<const EffectRecord* const> known) {
+Measurement measurement_of(const Setup& setup, Experiment experiment, KnownEffects known) {
   experiment = with_known(std::move(experiment), known);
   const Setup measured = with_known(setup, experiment.known, known);
   std::vector<Setup> setups;
@@ -106,8 +105,7 @@ std::vector<KnownValue> known_of(const Measurement& measurement, const Measureme
   return known_of(of_all, run.recorded);
 }
 
-Measurement with_setup(Measurement measurement, const Setup& changed,
-                       std::span<const EffectRecord* const> known) {
+Measurement with_setup(Measurement measurement, const Setup& changed, KnownEffects known) {
   for (Measurement::Run& run : measurement.runs) run.setup = setup_of_run(changed, run.recorded, known);
   return measurement;
 }

@@ -8,6 +8,7 @@
 
 #include "audit.hpp"
 #include "experiment.hpp"
+#include "known_effects.hpp"
 
 namespace shakedown {
 
@@ -40,11 +41,10 @@ std::vector<std::string> all_notes(const Measurement& measurement);
 
 /// The setup of one run: the user's, with the run's own keys. Throws InputError that names the run's line for
 /// a key that does not exist or does not fit.
-Setup setup_of_run(const Setup& setup, const MeasuredRun& run, std::span<const EffectRecord* const> known);
+Setup setup_of_run(const Setup& setup, const MeasuredRun& run, KnownEffects known);
 
 /// Audits the frames, and gives each run its setup, with what is known put in. Throws as setup_of_run does.
-Measurement measurement_of(const Setup& setup, Experiment experiment,
-                           std::span<const EffectRecord* const> known);
+Measurement measurement_of(const Setup& setup, Experiment experiment, KnownEffects known);
 
 /// The same with setups made elsewhere, one for each run.
 Measurement measurement_of(const std::vector<Setup>& setups, Experiment experiment);
@@ -53,8 +53,7 @@ Measurement measurement_of(const std::vector<Setup>& setups, Experiment experime
 std::vector<KnownValue> known_of(const Measurement& measurement, const Measurement::Run& run);
 
 /// The same measurement beside another setup of the user: each run gets it with the run's own keys.
-Measurement with_setup(Measurement measurement, const Setup& changed,
-                       std::span<const EffectRecord* const> known);
+Measurement with_setup(Measurement measurement, const Setup& changed, KnownEffects known);
 
 /// What the frames show up to so many seconds after release.
 Measurement up_to(Measurement measurement, double seconds);

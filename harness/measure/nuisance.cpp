@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "camera.hpp"
 #include "effect_strength.hpp"
 #include "experiment_file.hpp"
 #include "key_unit.hpp"
@@ -44,12 +43,6 @@ CameraNuisance nuisance_of(const EffectRecord& record, const SearchedStrength& s
   return nuisance;
 }
 
-/// Whether only a camera can have it.
-bool is_optical(const EffectRecord& record, const SearchedStrength& strength) {
-  const CameraParameter* parameter = find_camera_parameter(keys_of(record, strength));
-  return parameter != nullptr && parameter->optical;
-}
-
 // Kitchen balances read to 1 g of some 400; grains are weighed by the dozen.
 struct Weighed {
   std::string_view key;
@@ -69,14 +62,13 @@ double CameraNuisance::deviation() const {
   return deviation_of.empty() ? 0 : *std::max_element(deviation_of.begin(), deviation_of.end());
 }
 
-std::vector<CameraNuisance> camera_nuisances(const Measurement& measurement,
-                                             std::span<const EffectRecord* const> known) {
+std::vector<CameraNuisance> camera_nuisances(const Measurement& measurement, KnownEffects known) {
   std::vector<CameraNuisance> list;
   for (const EffectRecord* record : known) {
     if (record->camera_error.known_as.empty()) continue;
     const Search search = search_of(*record);
     if (search.strengths.empty()) continue;
-    if (measurement.sensor != Sensor::camera && is_optical(*record, search.strengths.front())) continue;
+    if (measurement.sensor != Sensor::camera && record->camera.optical) continue;
     CameraNuisance nuisance = nuisance_of(*record, search.strengths.front(), measurement);
     if (nuisance.deviation() > 0) list.push_back(std::move(nuisance));
   }
@@ -130,13 +122,11 @@ std::optional<KnownWander> known_wander(const Measurement& measurement) {
   return wander;
 }
 
-std::vector<std::string> exactly_known(const Measurement& measurement,
-                                       std::span<const EffectRecord* const> known) {
+std::vector<std::string> exactly_known(const Measurement& measurement, KnownEffects known) {
   std::vector<std::string> names;
   for (const EffectRecord* record : known) {
     const Search search = search_of(*record);
-    if (measurement.sensor != Sensor::camera && !search.strengths.empty() &&
-        is_optical(*record, search.strengths.front())) {
+    if (measurement.sensor != Sensor::camera && !search.strengths.empty() && record->camera.optical) {
       names.emplace_back(record->name);
       continue;
     }

@@ -23,8 +23,7 @@ struct CameraNuisance {
   bool each_run = false;  ///< every run has its own (a trigger, or said of a run), else one camera films all
   double deviation() const;  ///< of the run that knows it least
 };
-std::vector<CameraNuisance> camera_nuisances(const Measurement& measurement,
-                                             std::span<const EffectRecord* const> known);
+std::vector<CameraNuisance> camera_nuisances(const Measurement& measurement, KnownEffects known);
 
 /// A number of the setup that was weighed or measured, of runs that have it in common.
 struct WeighedNuisance {
@@ -54,7 +53,6 @@ std::optional<KnownWander> known_wander(const Measurement& measurement);
 
 /// Effects of the camera that the experiment knows exactly, or that its sensor cannot have: none can be
 /// missing.
-std::vector<std::string> exactly_known(const Measurement& measurement,
-                                       std::span<const EffectRecord* const> known);
+std::vector<std::string> exactly_known(const Measurement& measurement, KnownEffects known);
 
 }  // namespace shakedown

@@ -110,26 +110,28 @@ Recording undone(const Camera& camera, const Recording& recording) {
   return truth;
 }
 
-std::span<const CameraParameter> camera_parameters() {
-  static constexpr std::array<CameraParameter, 10> parameters{{
-      {"camera_scale.scale", "", 0.01, &Camera::scale, false},
-      {"camera_lens.distortion", "", 0.005, &Camera::lens, true},
-      {"camera_tilt.tilt", "", 0.01, &Camera::tilt, true},
-      {"camera_depth.depth", "", 0.005, &Camera::depth, true},
-      {"camera_shutter.time", "s", 1e-3, &Camera::shutter, true},
-      {"camera_origin.origin", "m", 0.5e-3, &Camera::origin},
-      {"camera_drift.drift", "m/s", 1e-4, &Camera::drift},
-      {"camera_time_offset.offset", "s", 0.002, &Camera::time_offset},
-      {"camera_com_bias.bias", "", 0.05, &Camera::centre_bias, true},
-      {"camera_arc.blade_length", "m", 0.59, &Camera::arc_length, true, true},
-  }};
-  return parameters;
+std::optional<CameraParameter> camera_parameter_of(const EffectRecord& record) {
+  if (record.camera.field == nullptr) return std::nullopt;
+  const Parameter& first = record.parameters.front();
+  const std::vector<SearchedStrength>& strengths = record.search.strengths;
+  return CameraParameter{std::string(record.name) + "." + std::string(first.name), first.typical,
+                         record.camera.field, record.camera.optical,
+                         !strengths.empty() && strengths.front().inverse};
 }
 
-const CameraParameter* find_camera_parameter(std::string_view path) {
-  for (const CameraParameter& parameter : camera_parameters())
-    if (parameter.path == path) return &parameter;
-  return nullptr;
+std::vector<CameraParameter> camera_parameters(KnownEffects known) {
+  std::vector<CameraParameter> list;
+  for (const EffectRecord* record : known)
+    if (std::optional<CameraParameter> parameter = camera_parameter_of(*record))
+      list.push_back(std::move(*parameter));
+  return list;
+}
+
+std::optional<CameraParameter> find_camera_parameter(KnownEffects known, std::string_view path) {
+  const EffectRecord* record = known.find(effect_of(path));
+  std::optional<CameraParameter> parameter;
+  if (record != nullptr) parameter = camera_parameter_of(*record);
+  return parameter && parameter->path == path ? parameter : std::nullopt;
 }
 
 namespace {

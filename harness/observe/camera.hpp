@@ -2,10 +2,13 @@
 // The camera as a model: what it makes of a motion, the inverse, and how a recording changes with each of its
 // errors. All of it is arithmetic on positions; nothing is simulated.
 #pragma once
-#include <span>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "known_effects.hpp"
+#include "physics.hpp"
 #include "trajectory.hpp"
 
 namespace shakedown {
@@ -30,19 +33,20 @@ Recording seen_through(const Camera& camera, const Recording& recording);
 /// fixed point. Needs a picture that does not fold: 1 + 3 lens (x / camera_lens_reach)^2 > 0.
 Recording undone(const Camera& camera, const Recording& recording);
 
-/// A parameter of the camera.
+/// A parameter of the camera, as the record of its effect says it.
 struct CameraParameter {
-  std::string_view path;  ///< of the effect's parameter in a setup, "camera_lens.distortion"
-  std::string_view unit;  ///< SI
-  double typical = 0;     ///< SI, of an ordinary camera
+  std::string path;    ///< of the effect's parameter in a setup, "camera_lens.distortion"
+  double typical = 0;  ///< SI, of an ordinary camera
   double Camera::*field = nullptr;
-  bool optical = false;  ///< needs a lens, a shutter or a line of sight: no encoder, ranger or gyro has it
+  bool optical = false;         ///< CameraNumber
   bool inverse_square = false;  ///< the recording is linear in 1 / value^2 (a length; infinite: no error)
 };
-/// All of them; a clock's offset is one of each run.
-std::span<const CameraParameter> camera_parameters();
-/// The parameter of this path; null: there is none.
-const CameraParameter* find_camera_parameter(std::string_view path);
+/// Nothing of an effect that is none of the camera.
+std::optional<CameraParameter> camera_parameter_of(const EffectRecord& record);
+/// All that are known; a clock's offset is one of each run.
+std::vector<CameraParameter> camera_parameters(KnownEffects known);
+/// The parameter of this path; nothing: none is known.
+std::optional<CameraParameter> find_camera_parameter(KnownEffects known, std::string_view path);
 
 /// Change of the positions at each recorded time, per unit of the parameter (of 1 / value^2 where
 /// inverse_square), at a parameter of zero: the derivative of seen_through() that puts this error alone on

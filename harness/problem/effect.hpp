@@ -136,6 +136,20 @@ struct CameraError {
   double unknown = 0;           ///< standard deviation in a run that may start anywhere, SI; 0: as usual
 };
 
+struct Camera;
+
+/// Which number of the camera (physics.hpp) the first parameter of an effect sets.
+struct CameraNumber {
+  double Camera::*field = nullptr;  ///< null: the effect is none of the camera
+  bool optical = false;  ///< needs a lens, a shutter or a line of sight: no encoder, ranger or gyro has it
+};
+
+/// What the page of an empty box's answer lets its reader turn (diagnose/turned_model.hpp).
+struct OnPage {
+  bool integrated = false;  ///< the page integrates a box with this force
+  double reach = 0;         ///< of a number of the camera: how far from the answer, SI; 0: it is not turned
+};
+
 struct EffectRecord {
   std::string_view name{};   ///< snake_case id, never changed
   std::string_view label{};  ///< short name for people, "linear damping of the box"
@@ -159,9 +173,11 @@ struct EffectRecord {
   /// Misfit, over that of the model's own runs, that data of another code of the same physics leave of a
   /// right model with this effect; 0: as of one without (judgement/judgement.hpp, codes_differ).
   double codes_differ = 0;
+  CameraNumber camera{};
   CameraError camera_error{};
   /// How a run was made rather than a law of physics: never missing in a model.
   bool nuisance = false;
+  OnPage on_page{};
   /// Writes the effect's share into the physics. `index` is its line in Setup::effects and in the energy
   /// ledger.
   void (*apply)(const EffectChoice& choice, int index, Physics& physics) = nullptr;

@@ -10,17 +10,17 @@ namespace {
 constexpr char key_joint = '&';
 }  // namespace
 
-std::string unit_of_key(std::string_view key, std::span<const EffectRecord* const> known) {
+std::string unit_of_key(std::string_view key, KnownEffects known) {
   key = key.substr(0, key.find(key_joint));
   if (const SetupKey* found = find_setup_key(key)) return std::string(found->unit);
-  const Parameter* parameter = find_parameter(known, key);
+  const Parameter* parameter = known.find_parameter(key);
   if (parameter == nullptr) return "";
   return std::string(parameter->unit_shown.empty() ? parameter->unit : parameter->unit_shown);
 }
 
-std::string si_unit_of_key(std::string_view key, std::span<const EffectRecord* const> known) {
+std::string si_unit_of_key(std::string_view key, KnownEffects known) {
   if (find_setup_key(key.substr(0, key.find(key_joint))) == nullptr) {
-    const Parameter* parameter = find_parameter(known, key.substr(0, key.find(key_joint)));
+    const Parameter* parameter = known.find_parameter(key.substr(0, key.find(key_joint)));
     return parameter == nullptr ? "" : std::string(parameter->unit);
   }
   const std::string shown = unit_of_key(key, known);

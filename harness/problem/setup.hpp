@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "effect.hpp"
@@ -102,6 +103,13 @@ struct Setup {
   /// Where each given key stands ("box.mass" -> file:line:column), for messages.
   std::map<std::string, SourcePlace> places;
 };
+
+/// The setup's choice of this effect; null: it has none. It lives as long as the setup's list is not changed.
+inline const EffectChoice* find_choice(const Setup& setup, std::string_view name) {
+  for (const EffectChoice& choice : setup.effects)
+    if (choice.record->name == name) return &choice;
+  return nullptr;
+}
 
 /// Where a key was given; no place when it was not.
 inline SourcePlace place_of(const Setup& setup, const std::string& key) {

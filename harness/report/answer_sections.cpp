@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "distributions.hpp"
 #include "effects.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
@@ -150,11 +151,10 @@ ReportSection camera(const Diagnosis& d) {
   section.paragraphs = {
       "What the data say (95 %) of what was known to an error only, counted from what was stated; pale: what "
       "was known."};
-  constexpr double of_95_percent = 1.96;
   for (const NuisanceFound& n : d.camera) {
     const ReadUnit read = read_unit(n.name.substr(0, n.name.find(' ')));
-    const double value = n.value / read.factor, error = of_95_percent * n.error / read.factor,
-                 known = of_95_percent * n.deviation / read.factor;
+    const double value = n.value / read.factor, error = normal_95 * n.error / read.factor,
+                 known = normal_95 * n.deviation / read.factor;
     ReportInterval interval{words_of_key(n.name), read.unit, "", value, value - error, value + error};
     if (known > 0) interval.known_low = -known, interval.known_high = known;
     section.intervals.push_back(interval);

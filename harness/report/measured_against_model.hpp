@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine.hpp"
+#include "known_effects.hpp"
 #include "measurement.hpp"
 #include "report.hpp"
 
@@ -46,7 +47,7 @@ struct CurveOptions {
   int first_run = 0;
   int threads = 0;
   double rate = 50;  ///< Hz, of the curves
-  std::span<const EffectRecord* const> known;
+  KnownEffects known;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double fraction)> progress;
   /// The final model of each measured run; empty: `final_setup` with the run's own keys.

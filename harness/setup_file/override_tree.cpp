@@ -86,7 +86,7 @@ TomlValue table_of(const EffectChoice& choice, const Setup& setup) {
 
 }  // namespace
 
-void write_override(TomlValue& root, const Override& override, std::span<const EffectRecord* const> known) {
+void write_override(TomlValue& root, const Override& override, KnownEffects known) {
   TomlValue value = value_of_override(override);
   const SourcePlace place = value.place;
   std::string_view path = override.key;
@@ -98,8 +98,8 @@ void write_override(TomlValue& root, const Override& override, std::span<const E
   };
   std::string_view word = next_word();
   if (path.empty()) return set(entry_of(root, word, place), std::move(value));
-  TomlValue* table = find_record(known, word) ? &effect_table(root, word, place)
-                                              : &as_table(entry_of(root, word, place).value, place);
+  TomlValue* table = known.find(word) ? &effect_table(root, word, place)
+                                      : &as_table(entry_of(root, word, place).value, place);
   for (word = next_word(); !path.empty(); word = next_word()) {
     TomlEntry& deeper = entry_of(*table, word, place);
     if (TomlValue* axis = component_named(deeper.value, path)) {

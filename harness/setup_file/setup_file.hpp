@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "known_effects.hpp"
 #include "setup.hpp"
 
 namespace shakedown {
@@ -30,17 +31,16 @@ std::string toml_value(const Override& override);
 /// Reads a setup file. `known` are the effects it may name. Throws InputError with every violation at once,
 /// FileError when the file cannot be read. Effects at their neutral value are dropped. Relative
 /// initial_grains paths count from the file's folder, those of overrides from the working folder.
-Setup read_setup(const std::filesystem::path& file, std::span<const EffectRecord* const> known,
+Setup read_setup(const std::filesystem::path& file, KnownEffects known,
                  std::span<const Override> overrides = {});
 
 /// The same from text; `name` stands for the file in messages.
-Setup parse_setup(std::string_view text, const std::string& name, std::span<const EffectRecord* const> known,
+Setup parse_setup(std::string_view text, const std::string& name, KnownEffects known,
                   std::span<const Override> overrides = {}, const std::filesystem::path& folder = {});
 
 /// The setup with these keys set, read and checked as those of a file are; effects at their neutral value are
 /// dropped. Throws InputError with every violation at once.
-Setup with_overrides(Setup setup, std::span<const Override> overrides,
-                     std::span<const EffectRecord* const> known);
+Setup with_overrides(Setup setup, std::span<const Override> overrides, KnownEffects known);
 
 /// One effect of a setup as TOML: [[effect]], its name and all of its parameters.
 std::string write_effect(const EffectChoice& choice);
@@ -52,11 +52,11 @@ std::string write_setup(const Setup& setup);
 /// ("constant_acceleration.acceleration.x", 0.1); box.width sets both widths. An effect is added with its
 /// defaults when the setup does not have it yet. Throws InputError for a key that does not exist or is out of
 /// bounds.
-void set_number(Setup& setup, std::string_view key, double value, std::span<const EffectRecord* const> known);
+void set_number(Setup& setup, std::string_view key, double value, KnownEffects known);
 
 /// The value of a numeric key in SI; of an effect that the setup does not have: its neutral value, else its
 /// default.
-double get_number(const Setup& setup, std::string_view key, std::span<const EffectRecord* const> known = {});
+double get_number(const Setup& setup, std::string_view key, KnownEffects known = {});
 
 /// Everything wrong with the values of a setup built in code (a mass below zero, more grains than fit ...).
 /// Nothing is concluded from the keys in `known_bad`.

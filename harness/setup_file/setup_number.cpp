@@ -13,7 +13,7 @@ namespace shakedown {
 
 namespace {
 
-using Known = std::span<const EffectRecord* const>;
+using Known = KnownEffects;
 
 [[noreturn]] void refuse(std::string_view key, std::string problem, std::string remedy) {
   throw InputError({{{}, std::string(key), std::move(problem), std::move(remedy)}});
@@ -29,7 +29,7 @@ struct EffectPath {
 
 const EffectRecord* record_named(const Setup& setup, std::string_view name, Known known) {
   const EffectChoice* choice = find_choice(setup, name);
-  return choice ? choice->record : find_record(known, name);
+  return choice ? choice->record : known.find(name);
 }
 
 [[noreturn]] void unknown(const Setup& setup, std::string_view key, Known known) {

@@ -16,7 +16,7 @@ namespace shakedown {
 
 namespace {
 
-using Known = std::span<const EffectRecord* const>;
+using Known = KnownEffects;
 
 std::vector<std::string_view> names_of(Known known) {
   std::vector<std::string_view> names;
@@ -126,7 +126,7 @@ struct Reader {
   void read_section(const TomlEntry& section) {
     const auto names = section_names();
     if (std::find(names.begin(), names.end(), section.key) == names.end()) {
-      const bool effect = find_record(known, section.key) != nullptr;
+      const bool effect = known.find(section.key) != nullptr;
       std::vector<std::string_view> meant =
           names_of(known);  // --set EFFECT.PARAMETER=VALUE has an effect there
       meant.insert(meant.end(), names.begin(), names.end());
@@ -206,7 +206,7 @@ struct Reader {
     if (name == nullptr || name->kind != TomlValue::Kind::text)
       return add(table.place, "effect", "has no name",
                  "write name = \"...\"; `shakedown effects` lists the names");
-    const EffectRecord* record = find_record(known, name->text);
+    const EffectRecord* record = known.find(name->text);
     if (record == nullptr)
       return add(name->place, "effect.name", toml_string(name->text) + " is not an effect",
                  remedy_for(name->text, names_of(known), "effects"));

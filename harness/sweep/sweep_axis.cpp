@@ -22,7 +22,7 @@ constexpr const char* remedy_form = "write KEY=FROM:TO:STEP or KEY=A,B,C, e.g. b
 }
 
 /// The unit in which people write the key's values. A key that does not exist is refused as everywhere else.
-std::string unit_of(const std::string& key, std::span<const EffectRecord* const> known) {
+std::string unit_of(const std::string& key, KnownEffects known) {
   try {
     (void)get_number(Setup{}, key, known);
   } catch (InputError& error) {
@@ -108,7 +108,7 @@ std::string SweepAxis::column() const {
   return name;
 }
 
-SweepAxis parse_axis(std::string_view text, std::span<const EffectRecord* const> known) {
+SweepAxis parse_axis(std::string_view text, KnownEffects known) {
   const std::size_t equals = text.find('=');
   if (equals == text.npos || equals == 0) refuse_key(text, "names no range");
   SweepAxis axis{std::string(text.substr(0, equals)), "", {}};
@@ -127,8 +127,7 @@ SweepAxis parse_axis(std::string_view text, std::span<const EffectRecord* const>
   return axis;
 }
 
-std::vector<SweepAxis> parse_axes(const std::vector<std::string>& texts,
-                                  std::span<const EffectRecord* const> known) {
+std::vector<SweepAxis> parse_axes(const std::vector<std::string>& texts, KnownEffects known) {
   std::vector<SweepAxis> axes;
   std::vector<Violation> found;
   for (const std::string& text : texts) {

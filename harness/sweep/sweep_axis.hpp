@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "effect.hpp"
+#include "known_effects.hpp"
 
 namespace shakedown {
 
@@ -27,10 +28,9 @@ struct SweepAxis {
 /// "box.length=40mm,65mm,104mm". A unit after the last number alone holds for all: "25:600:5 mm". Values are
 /// the decimal numbers that a person would write: 25 mm + 3 x 5 mm is exactly the 40 mm of a setup file.
 /// Throws InputError.
-SweepAxis parse_axis(std::string_view text, std::span<const EffectRecord* const> known);
+SweepAxis parse_axis(std::string_view text, KnownEffects known);
 
 /// Several at once, every violation together; refuses one key twice and more than two axes.
-std::vector<SweepAxis> parse_axes(const std::vector<std::string>& texts,
-                                  std::span<const EffectRecord* const> known);
+std::vector<SweepAxis> parse_axes(const std::vector<std::string>& texts, KnownEffects known);
 
 }  // namespace shakedown

@@ -18,12 +18,12 @@ constexpr std::size_t most_reported = 8;
 
 /// An effect that a setup does not have can be varied only when it needs nothing else.
 std::vector<Violation> effects_that_need_more(const Setup& base, const std::vector<SweepAxis>& axes,
-                                              std::span<const EffectRecord* const> known) {
+                                              KnownEffects known) {
   std::vector<Violation> found;
   for (const SweepAxis& axis : axes) {
     const std::string name(effect_of(axis.key));
     if (find_choice(base, name)) continue;
-    if (const EffectRecord* record = find_record(known, name))
+    if (const EffectRecord* record = known.find(name))
       for (const Parameter& parameter : record->parameters) {
         const std::string needed = name + "." + std::string(parameter.name);
         const bool varied = std::any_of(
@@ -47,7 +47,7 @@ std::string shown(const std::vector<SweepAxis>& axes, const std::vector<double>&
 }
 
 std::vector<Violation> violations_at(const SweepPlan& plan, SweepPoint& point, const Engine& engine,
-                                     std::span<const EffectRecord* const> known) {
+                                     KnownEffects known) {
   try {
     for (std::size_t a = 0; a < plan.axes.size(); ++a)
       set_number(point.setup, plan.axes[a].key, point.values[a], known);
@@ -63,7 +63,7 @@ std::vector<Violation> violations_at(const SweepPlan& plan, SweepPoint& point, c
   }
 }
 
-void add_points(SweepPlan& plan, const Engine& engine, std::span<const EffectRecord* const> known) {
+void add_points(SweepPlan& plan, const Engine& engine, KnownEffects known) {
   std::vector<std::vector<double>> grid{{}};
   for (const SweepAxis& axis : plan.axes) {
     std::vector<std::vector<double>> longer;
@@ -101,7 +101,7 @@ void add_points(SweepPlan& plan, const Engine& engine, std::span<const EffectRec
 }  // namespace
 
 SweepPlan plan_sweep(const Setup& base, std::vector<SweepAxis> axes, int runs, const Engine& engine,
-                     std::span<const EffectRecord* const> known) {
+                     KnownEffects known) {
   EXPECT(!axes.empty() && runs >= 1);
   if (std::vector<Violation> found = effects_that_need_more(base, axes, known); !found.empty())
     throw InputError(std::move(found));

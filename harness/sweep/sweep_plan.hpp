@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine.hpp"
+#include "known_effects.hpp"
 #include "result_file.hpp"
 #include "sweep_axis.hpp"
 
@@ -27,7 +28,7 @@ struct SweepPlan {
 
 /// Throws InputError with the points that are no possible setup or that the engine does not model.
 SweepPlan plan_sweep(const Setup& base, std::vector<SweepAxis> axes, int runs, const Engine& engine,
-                     std::span<const EffectRecord* const> known);
+                     KnownEffects known);
 
 SweepIdentity identity_of(const SweepPlan& plan, const Engine& engine);
 

@@ -199,7 +199,7 @@ std::vector<Eigen::VectorXd> residuals_of(const std::vector<WaveformRun>& runs, 
   return list;
 }
 
-Setup with_laws(Setup setup, const WaveformFit& fit, std::span<const EffectRecord* const> known) {
+Setup with_laws(Setup setup, const WaveformFit& fit, KnownEffects known) {
   setup = prepared(std::move(setup), fit.laws, known);
   put(std::ssize(fit.residual), fit.laws, fit.value, setup);
   return setup;

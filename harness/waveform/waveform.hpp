@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "known_effects.hpp"
 #include "measurement.hpp"
 #include "momentum_terms.hpp"
 
@@ -61,7 +62,7 @@ struct WaveformFit {
 };
 
 struct WaveformOptions {
-  std::span<const EffectRecord* const> known;
+  KnownEffects known;
   int evaluations = 40;  ///< of the model with its derivatives, at most
   bool free_frequency = true;
   double believed_frequency = 0, believed_error = 0;  ///< Hz, beforehand; no error: nothing is
@@ -99,7 +100,7 @@ std::vector<Eigen::VectorXd> residuals_of(const std::vector<WaveformRun>& runs, 
                                           const WaveformOptions& options);
 
 /// The setup with what the fit found.
-Setup with_laws(Setup setup, const WaveformFit& fit, std::span<const EffectRecord* const> known);
+Setup with_laws(Setup setup, const WaveformFit& fit, KnownEffects known);
 
 /// Mean power of the residual a frame, m^2, white noise of deviation s having s^2, from half the swing's
 /// frequency to three and a half times it: where the laws of a swing act.

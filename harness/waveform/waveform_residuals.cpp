@@ -45,8 +45,7 @@ Eigen::Index count_of(const std::vector<WaveformRun>& runs, const std::vector<Wa
   return count;
 }
 
-Setup prepared(Setup setup, const std::vector<WaveformLaw>& laws,
-               std::span<const EffectRecord* const> known) {
+Setup prepared(Setup setup, const std::vector<WaveformLaw>& laws, KnownEffects known) {
   for (const WaveformLaw& law : laws) {
     for (const std::string& key : law.keys) set_number(setup, key, law.term.parameter_at(0), known);
     if (law.keys.empty()) setup = with_strength(std::move(setup), law.term, law.term.typical, known);

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "known_effects.hpp"
 #include "waveform.hpp"
 
 namespace shakedown {
@@ -14,7 +15,7 @@ inline constexpr double two_pi = 2 * std::numbers::pi;
 Eigen::Index count_of(const std::vector<WaveformRun>& runs, const std::vector<WaveformLaw>& laws);
 
 /// The setup with every law in it, at a strength that is within its bounds.
-Setup prepared(Setup setup, const std::vector<WaveformLaw>& laws, std::span<const EffectRecord* const> known);
+Setup prepared(Setup setup, const std::vector<WaveformLaw>& laws, KnownEffects known);
 
 /// Sets frequency and laws, which the setup has, from the values of a fit of so many runs.
 void put(Eigen::Index runs, const std::vector<WaveformLaw>& laws, const Eigen::VectorXd& value, Setup& setup);

@@ -142,8 +142,7 @@ bool is_candidate(const std::vector<Candidate>& list, std::string_view effect, s
   });
 }
 
-std::vector<Candidate> candidates_of(const shakedown::Setup& setup,
-                                     std::span<const EffectRecord* const> known = all_effects()) {
+std::vector<Candidate> candidates_of(const shakedown::Setup& setup, KnownEffects known = all_effects()) {
   return candidates_for(setup, {}, known, *engine_named("hard"));
 }
 

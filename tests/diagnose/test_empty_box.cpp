@@ -279,7 +279,7 @@ TEST(EmptyBox, ASpringThatRunsAwayIsAnsweredInWords) {
   const double a = given.release.displacement;
   Measurement measurement = measurement_of({given}, recorded({.viscous = 0.03}, 3));
   for (Measurement::Run& run : measurement.runs) {
-    run.setup.effects.push_back(with_defaults(*find_record(all_effects(), "spring_cubic")));
+    run.setup.effects.push_back(with_defaults(*all_effects().find("spring_cubic")));
     set_number(run.setup, "spring_cubic.coefficient", -0.5, all_effects());
     set_number(run.setup, "spring_cubic.reference", a / 3, all_effects());
   }

@@ -26,7 +26,7 @@ TEST(FromBalance, ASineStaysWithinTheBoundsOfASetup) {
   state = with_balance(state, {sine}, {}, *engine, options, notes);
   ASSERT_EQ(state.found.size(), 3u);
   for (const Knob& knob : state.found) {
-    const Parameter* parameter = find_parameter(all_effects(), knob.key);
+    const Parameter* parameter = all_effects().find_parameter(knob.key);
     ASSERT_NE(parameter, nullptr);
     EXPECT_GE(knob.at(-1e3), parameter->low) << knob.key;
     EXPECT_LE(knob.at(1e3), parameter->high) << knob.key;

@@ -131,6 +131,27 @@ TEST(Rival, AShortFitThatGainsNothingIsNotSure) {
   EXPECT_FALSE(is_alone_in_question(rivals, rivals[0]));
 }
 
+// A film of 106 mN of attraction: what the model without left of 3391 features' chi2, and what 64 simulations
+// with it left. No time was left for the fit that weighs it, and its signature at 20 mN said e^-293.
+TEST(Rival, AShortFitStandsWhereThereWasNoTimeForMore) {
+  const Candidate one = named("grain_cohesion");
+  Rival rival = shortly_fitted(one, 693, 3391);
+  rival.screened.weighed = true;
+  rival.screened.log_evidence = -293;
+  rival.screened.seen.value = 1, rival.screened.seen.error = 0.1;
+  EXPECT_FALSE(take_short_fit(rival));
+  weigh_rival(rival, known);
+  EXPECT_LT(rival.log_odds, -293);
+  rival.shortly.emplace();
+  rival.shortly->fit.judged_chi2 = 693;
+  EXPECT_TRUE(take_short_fit(rival));
+  weigh_rival(rival, known);
+  StrengthSeen seen = rival.screened.seen;
+  seen.gain = 3391 - 693;
+  EXPECT_DOUBLE_EQ(rival.log_odds, log_odds_of(seen, known));
+  EXPECT_TRUE(is_found(rival));
+}
+
 TEST(Rival, WhatTheDataRejectKeepsItsOdds) {
   const Candidate first = named("a"), second = named("b");
   std::vector<Rival> rivals{fitted(first, 1, 2600, {1, 1}), fitted(second, 1, 2400, {0, 0}, 0.001)};

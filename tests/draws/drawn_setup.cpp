@@ -38,7 +38,7 @@ class Drawing {
     text.precision(17);
     // A dotted key stands wherever its section is not written as a table.
     for (const auto& [key, value] : drawn) text << key->path << " = " << value << "\n";
-    const std::span<const EffectRecord* const> effects = all_effects();
+    const KnownEffects effects = all_effects();
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0, many = below(3); i < many; ++i) {
       const std::size_t at = below(effects.size());

@@ -79,7 +79,7 @@ TEST(Film, EveryErrorThatTheModelKnowsIsMadeAndAlike) {
   const Trajectory motion = damper(500);
   const Frames frames = even_frames(500, 0, 3);
   const Recording perfect = filmed({}, frames, motion);
-  for (const CameraParameter& parameter : camera_parameters()) {
+  for (const CameraParameter& parameter : camera_parameters(all_effects())) {
     Camera camera;
     camera.*parameter.field = parameter.typical;
     const Recording film = filmed(camera, frames, motion), model = recorded_by(camera, motion);

@@ -21,7 +21,7 @@ struct ReadKnown {
   std::string wrong;
 };
 
-ReadKnown known_of_text(const std::string& lines, std::span<const EffectRecord* const> effects = {}) {
+ReadKnown known_of_text(const std::string& lines, KnownEffects effects = {}) {
   ReadKnown result;
   std::vector<Violation> violations;
   result.values = read_known(parse_toml(lines, "experiment.toml"), "known.", violations, effects);

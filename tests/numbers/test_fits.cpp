@@ -6,31 +6,10 @@
 
 #include "interpolation.hpp"
 #include "least_squares.hpp"
-#include "local_polynomial.hpp"
 #include "running_statistic.hpp"
 #include "within.hpp"
 
 using namespace shakedown;
-
-TEST(LocalPolynomial, HasTheWeightsOfSavitzkyAndGolay) {
-  // Their table I: quadratic or cubic, five and seven points.
-  const Eigen::MatrixXd five = local_polynomial(2, 3), seven = local_polynomial(3, 2);
-  const double table_5[] = {-3, 12, 17, 12, -3}, table_7[] = {-2, 3, 6, 7, 6, 3, -2};
-  for (int i = 0; i < 5; ++i) WITHIN(five(0, i), table_5[i] / 35, 4e-15, 2.8e-16);
-  for (int i = 0; i < 7; ++i) WITHIN(seven(0, i), table_7[i] / 21, 2e-15, 1.3e-16);
-  // Their table IV: first derivative, cubic, five points.
-  const double slope[] = {1, -8, 0, 8, -1};
-  for (int i = 0; i < 5; ++i) WITHIN(five(1, i), slope[i] / 12, 1e-14, 1e-15);
-}
-
-TEST(LocalPolynomial, TakesACubicAtAnyPlacesAndUnit) {
-  Eigen::VectorXd times(7), values(7);
-  times << -0.031, -0.02, -0.011, 0.001, 0.008, 0.021, 0.04;
-  for (int i = 0; i < 7; ++i) values[i] = 2 + times[i] * (3 + times[i] * (-50 + times[i] * 700));
-  const Eigen::VectorXd found = local_polynomial(times, 3) * values;
-  const double expected[] = {2, 3, -50, 700};
-  for (int k = 0; k < 4; ++k) WITHIN(found[k] / expected[k], 1, 2e-13, 1.5e-14);
-}
 
 TEST(Interpolation, FollowsStraightLinesAndEndsWithTheSamples) {
   const std::vector<double> places{0, 1, 3}, values{10, 20, 0};

@@ -45,7 +45,7 @@ ModelTest MomentumAudit::test_of(const BalanceFit& fit) const {
   return {fit.p_value, fit.chi2_per_degree(), possible ? "" : why_not};
 }
 
-MomentumAudit audit_momentum(const Measurement& measurement, std::span<const EffectRecord* const> known,
+MomentumAudit audit_momentum(const Measurement& measurement, KnownEffects known,
                              const MomentumOptions& options) {
   constexpr int most_rounds = 3;
   MomentumOptions on_the_way = options;

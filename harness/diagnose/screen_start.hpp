@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// What a ranking of effects begins with.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "emulator.hpp"
+
+namespace shakedown {
+
+/// What the fit of the model without candidates has found already. Empty: the screen simulates.
+struct ScreenStart {
+  /// Covariances of each measured run's features, m^2: by which changes of the means are looked for, and by
+  /// which a run is likely.
+  std::vector<Eigen::MatrixXd> for_means{}, likeliest{};
+  /// Straight emulators about the fitted values, by these knobs' widths.
+  std::vector<Emulator> emulators{};
+  std::vector<Knob> knobs{};
+};
+
+}  // namespace shakedown
