@@ -285,7 +285,7 @@ class Suite {
   }
 
   void put_naive_answers(const Trial& trial, Json& document) const {
-    const Workshop workshop{tools_.model, tools_.known, tools_.threads, tools_.stop, {}, nullptr};
+    const Workshop workshop{tools_.model, tools_.known, {tools_.threads, tools_.stop}};
     const NaiveAnswers naive = naive_answers(
         trial.hidden.believed,
         measurement_of(trial.hidden.believed, measured_in(trial, tools_), tools_.known), workshop);

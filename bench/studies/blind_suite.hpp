@@ -67,6 +67,7 @@ BlindScore score_blind_suite(const std::filesystem::path& folder, const TrialToo
 /// Every case that is sealed there has an answer.
 bool all_answered(const std::filesystem::path& folder);
 
+/// The score as text for a terminal, and as JSON.
 std::string blind_score_text(const BlindScore& score);
 std::string blind_score_json(const BlindScore& score);
 

@@ -29,6 +29,7 @@ struct Chart {
   std::vector<Panel> panels;  ///< one below the other
 };
 
+/// The chart as a file of its own.
 std::string svg_of(const Chart& chart);
 
 /// "panel,curve,x,y", where panel is the label of its y axis; ten significant digits.

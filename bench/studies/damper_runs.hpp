@@ -40,6 +40,7 @@ struct DamperRuns {
   double rms_of_one_run_box = 0,
          rms_of_one_run_centre = 0;  ///< m, of a run about the mean, over time and runs
 
+  /// Mean and spread of this number over all runs.
   Statistic over(double RunReading::*what) const;
   Statistic over(const std::function<double(const RunReading&)>& what) const;
 };

@@ -48,6 +48,7 @@ std::vector<Statement> statements_of_decay(const PaperRuns& runs);
 std::vector<Statement> statements_of_optimum(const PaperRuns& runs);
 std::vector<Chart> charts_of(const PaperRuns& runs);
 
+/// Table I and the statements of the paper beside what was simulated, for files.
 std::string table_1_csv();
 std::string statements_csv(const std::vector<Statement>& statements);
 std::string paper_json(const Paper& paper);

@@ -70,7 +70,7 @@ Experiment part_of(const Experiment& whole, bool fitted) {
 PuzzleModel unfitted(const std::string& name, const Setup& setup, const Experiment& experiment,
                      const PuzzleOptions& options) {
   const std::unique_ptr<Engine> hard = engine_named("hard");
-  const Workshop workshop{hard.get(), all_effects(), options.threads, options.stop, {}, nullptr};
+  const Workshop workshop{hard.get(), all_effects(), {options.threads, options.stop}};
   RefitOptions how;
   how.count = options.quick ? 48 : 128;
   return model_of(name, refit(features_of(measurement_of(setup, part_of(experiment, false), all_effects())),

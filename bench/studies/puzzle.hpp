@@ -46,6 +46,7 @@ struct PuzzleOptions {
   std::function<void(const std::string& stage)> progress{};
 };
 
+/// Interrupted and what engines throw pass.
 Puzzle solve_puzzle(const PuzzleOptions& options);
 
 /// Smallest friction whose fitted restitution (95 % interval, and half a unit of the paper's last digit) is

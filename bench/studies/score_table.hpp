@@ -15,6 +15,7 @@ struct Count {
 
 class ScoreTable {
  public:
+  /// A row whose aim is a share of hits of at most, or at least, the limit.
   void at_most(const std::string& what, const Count& count, double limit);
   void at_least(const std::string& what, const Count& count, double limit);
   /// Told against the aim from 20 trials on: fewer cannot come between 90 and 98 %.

@@ -212,7 +212,7 @@ bool compare_by_waveform(const Setup& setup, const Measurement& recorded, const 
   compared.judgement = judged->judgement;
   compared.last = {recorded, {}, std::move(judged->found)};
   // A box alone has no spread, and a spread needs two runs.
-  const Workshop workshop{&engine, all_effects(), 1, nullptr, {}, nullptr};
+  const Workshop workshop{&engine, all_effects(), {1}};
   compared.decays = compare_decay(compared.measurement, workshop, 2, 1);
   return true;
 }
@@ -237,7 +237,7 @@ Compared compared_with(const Setup& setup, const Measurement& recorded, const En
     done += n;
     if (options.progress) options.progress(std::min(1.0, static_cast<double>(done) / all));
   };
-  const Workshop workshop{&engine, all_effects(), options.threads, options.stop, told, nullptr};
+  const Workshop workshop{&engine, all_effects(), {options.threads, options.stop, told}};
   compared.last = {measurement, EnsembleFit{setup, {}, {}, {}}, {}};
   EnsembleFit& ensembles = *compared.last.ensembles;
   ensembles.measured = features_with_camera(measurement, all_effects());

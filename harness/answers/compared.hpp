@@ -39,6 +39,7 @@ struct Compared {
 Compared compared_with(const Setup& setup, const Measurement& recorded, const Engine& engine,
                        const CompareOptions& options);
 
+/// The comparison as text for a terminal.
 std::string compared_text(const Compared& compared);
 /// As JSON text (harness/README.md).
 std::string compared_json(const Compared& compared);

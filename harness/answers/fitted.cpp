@@ -164,7 +164,7 @@ namespace {
 ReportKnobs knobs_of_fit(const Fit& fit, const Measurement& measurement, const Engine& engine, int threads,
                          const std::atomic<bool>* stop) {
   if (fit.measured.empty()) return {};
-  const Workshop workshop{&engine, all_effects(), threads, stop, {}, nullptr};
+  const Workshop workshop{&engine, all_effects(), {threads, stop}};
   RefitOptions once;
   constexpr int count = 64;
   once.count = count, once.rounds = once.most_rounds = 1;

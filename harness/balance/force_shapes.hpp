@@ -46,6 +46,7 @@ struct ForceShape {
   double (*value)(double argument, const ShapeValues& shape) = nullptr;  ///< g
 };
 
+/// All families of formulas that are tried, in the order of the table.
 const std::vector<ForceShape>& force_shapes();
 
 }  // namespace shakedown

@@ -73,6 +73,7 @@ std::vector<Outlier> odd_ones(const LawFit& fit, double by_chance);
 /// fit leaves open; for all impacts and instants together (Bonferroni).
 double chance_of(const Outlier& odd, const LawFit& fit, const LawFit& without);
 
+/// p-values of a fitted law, with what is known of the timing.
 LawTest test_of(const LawFit& fit, const TimingKnown& timing);
 
 }  // namespace shakedown

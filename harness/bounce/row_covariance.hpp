@@ -23,6 +23,7 @@ struct BandRoot {
 
 class RowCovariance {
  public:
+  /// Of these rows, in their order.
   explicit RowCovariance(const std::vector<ImpactRow>& rows);
   double mean_timing() const { return mean_timing_; }    ///< mean of the diagonal for timing of 1 s
   double mean_scatter() const { return mean_scatter_; }  ///< and for scatter of 1, s^2

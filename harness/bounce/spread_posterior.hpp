@@ -44,6 +44,7 @@ struct SpreadPosterior {
   double log_evidence_still = 0;  ///< evidence with f = 0 only
   std::vector<SpreadNode> nodes;
 
+  /// Posterior mean of the parameters.
   Eigen::VectorXd mean() const;
   Eigen::MatrixXd covariance() const;  ///< between nodes too
   /// value + slope . (parameters - at), cut off at the bounds: adds its normal distributions, each with its

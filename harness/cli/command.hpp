@@ -31,6 +31,7 @@ int run_program(const char* name, const char* description, std::vector<Command> 
 /// in commands.cpp.
 std::vector<Command> add_commands(CLI::App& program);
 
+/// Each adds its words and options to the program and returns what runs it.
 Command add_run_command(CLI::App& program);
 Command add_theory_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);

@@ -81,6 +81,7 @@ struct Crosscheck {
   std::vector<Comparison> comparisons;  ///< of every pair, numbers that neither has left out
   std::optional<ContactTimeLimit> limit;
 
+  /// Some comparison found this.
   bool any(Agreement verdict) const;
 };
 

@@ -67,6 +67,7 @@ std::vector<DecayCheck> checks_of(const DecayMeasurement& measured, const DecayB
 DecayMeasurement measure_decay(const Engine& engine, double length, std::uint64_t seed,
                                const EnsembleOptions& options);
 
+/// The check as text for a terminal.
 std::string readable(const DecayCheck& check);
 
 }  // namespace shakedown

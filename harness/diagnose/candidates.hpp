@@ -33,6 +33,7 @@ struct Candidate {
   /// What a run costs, in plain ones (Search::Cost).
   double plain_runs() const { return dear ? 10 : slow ? 4 : 1; }
 
+  /// What its fit varies; and the value of its parameter that has this strength from absence, and back.
   const std::vector<Knob>& fitted_knobs() const { return knobs.empty() ? when_tried : knobs; }
   double value_of(double strength) const;
   double strength_of(double value) const;

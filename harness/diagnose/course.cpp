@@ -112,11 +112,11 @@ void Course::judge() {
   });
   DiagnosisState given = state;
   given.theta = as_given(state.setup, tools_.measurement().known, tools_.known());
-  tools_.workshop().ensembles = tools_.options().ensembles;
+  tools_.workshop().store.recordings = tools_.options().ensembles;
   given.fit = fit_within(share::model_as_given, given, "the model as given", effort::least);
   if (!is_far_off(given.fit))
     given.fit = fit_within(share::model_as_given, given, "the model as given", effort::look);
-  tools_.workshop().ensembles = nullptr;
+  tools_.workshop().store.recordings = nullptr;
   tools_.limit_to(rules::for_the_search);
   result_.ladder.push_back(step_of("as given", given.fit));
   note_failures(given.fit, result_);

@@ -144,6 +144,7 @@ std::int64_t least_budget(const Measurement& measurement);
 Diagnosis diagnose(const Setup& setup, const Measurement& measurement, const Engine& engine,
                    const DiagnoseOptions& options);
 
+/// The word of `verdict` in diagnosis.json.
 std::string_view name_of(Verdict verdict);
 
 /// The whole diagnosis as JSON text.

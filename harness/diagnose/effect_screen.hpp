@@ -55,6 +55,7 @@ class EffectScreen {
   EffectScreen(const EffectScreen&) = delete;
   EffectScreen& operator=(const EffectScreen&) = delete;
 
+  /// Each of them at its levels, best first. What there is no time for is not weighed.
   Screening weigh(const std::vector<Candidate>& candidates);
 
   /// Pairs of different effects among those weighed last whose signatures were simulated, best first; no

@@ -17,6 +17,7 @@ DiagnosisState with_balance(DiagnosisState state, const std::vector<FoundTerm>& 
                             const Measurement& measurement, const Engine& engine,
                             const DiagnoseOptions& options, std::vector<std::string>& notes);
 
+/// Names of the effects that the balance found.
 std::vector<std::string> effects_of(const MomentumAudit& balance);
 
 /// The sets that the balance weighed; nothing missing where there is none.

@@ -15,7 +15,7 @@ namespace {
 /// What a camera would make of the setup: its plan, from one run of the model.
 MeasuredFeatures seen(Setup setup, double noise_box, double noise_centre, const Workshop& workshop) {
   RunOptions options;
-  options.stop = workshop.stop;
+  options.stop = workshop.execution.stop;
   setup.run.sample_rate = 500;
   const Trajectory trajectory = workshop.engine->run(setup, options);
   if (trajectory.interrupted) throw Interrupted("interrupted");

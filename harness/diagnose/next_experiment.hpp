@@ -21,6 +21,7 @@ struct Design {
 /// Designs that need no other apparatus, without those that were measured: there both models were fitted.
 std::vector<Design> possible_designs(const Setup& setup, const std::vector<MeasuredFeatures>& measured);
 
+/// The setup as this experiment would have it.
 Setup in_design(Setup setup, const Design& design);
 
 /// A model as fitted.

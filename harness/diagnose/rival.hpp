@@ -86,6 +86,7 @@ Rival* first_to_fit(const std::vector<Rival*>& by_odds);
 /// Of this effect in any of its forms, among these, each alone, and nothing.
 double probability_among(const std::vector<Rival>& rivals, const Rival& one);
 
+/// As the answer's ranking shows it.
 RankedEffect ranked_as(const Rival& rival);
 
 /// What the signature of one that was not fitted says: strengths with 95 % intervals, which allow for what

@@ -127,12 +127,12 @@ DiagnosisTools::DiagnosisTools(const Measurement& measurement, const Engine& eng
       clock_at_start_(std::clock()) {
   workshop_.engine = &engine;
   workshop_.known = options.known;
-  workshop_.threads = options.threads;
-  workshop_.stop = options.stop;
-  workshop_.runs = &runs_;
+  workshop_.execution.threads = options.threads;
+  workshop_.execution.stop = options.stop;
   workshop_.pool = &pool_;
-  workshop_.journal = options.journal;
-  workshop_.done = [this](int) {
+  workshop_.store.journal = options.journal;
+  workshop_.execution.done = [this](int more) {
+    runs_ += more;
     if (options_.progress && runs_ % 64 == 0) options_.progress(stage_, share_spent());
   };
 }
@@ -154,7 +154,7 @@ double DiagnosisTools::share_of_time() const {
 
 void DiagnosisTools::limit_to(double share) {
   limit_ = share;
-  workshop_.ask_for = [this, share](std::int64_t more) {
+  workshop_.execution.ask_for = [this, share](std::int64_t more) {
     if (more > 0 && static_cast<double>(runs_ + more) > share * static_cast<double>(budget_))
       throw BudgetSpent("as many simulations were made as may be");
     if (share_of_time() > share) throw BudgetSpent("the time is up");
@@ -163,7 +163,7 @@ void DiagnosisTools::limit_to(double share) {
 
 void DiagnosisTools::without_limit() {
   limit_ = 1;
-  workshop_.ask_for = nullptr;
+  workshop_.execution.ask_for = nullptr;
 }
 
 std::vector<MeasuredFeatures> DiagnosisTools::features(const Setup& setup) const {

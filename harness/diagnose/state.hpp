@@ -26,6 +26,7 @@ struct DiagnosisState {
   bool dear = false;                ///< an effect makes runs cost several times a plain one
   std::vector<Knob> before_fits{};  ///< theta before any fit
 
+  /// All that a fit of it varies.
   std::vector<Knob> knobs() const;
   /// The same, its knobs at the values of its fit.
   DiagnosisState settled(KnownEffects known) const;
@@ -153,6 +154,7 @@ DiagnosisState as_believed(DiagnosisState state);
 /// A fit as a step of the ladder.
 LadderStep step_of(const std::string& name, const Refit& fit);
 
+/// Those of `a`, then those of `b`.
 std::vector<Knob> together(std::vector<Knob> a, const std::vector<Knob>& b);
 
 /// Strength of the effect of this fitted value, from its absence, and its standard error; of a length the

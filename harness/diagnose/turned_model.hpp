@@ -13,6 +13,7 @@
 namespace shakedown {
 
 enum class NumberRole { parameter, effect, suspect, camera };
+/// Word of it in the page's data.
 std::string_view name_of(NumberRole role);
 
 /// A number that can be turned. Its places are its values in SI; of a length, infinite without the effect,

@@ -27,6 +27,7 @@ struct Findings {
 /// Refit::scatter. 1 where there was none, or where what is left is no number.
 double share_taken_away(double before, double after);
 
+/// The table of verdicts in README.md.
 Verdict verdict_of(const Findings& findings);
 
 /// The p-value that weighs something in no list against the final model: the worst of features, balance and

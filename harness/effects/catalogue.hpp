@@ -9,7 +9,9 @@
 
 namespace shakedown {
 
+/// Word of it in texts and JSON: "contact", "grains", "box", "all", "camera".
 std::string_view name_of(ActsOn acts_on);
+/// Word of it in texts and JSON.
 std::string_view name_of(Fidelity fidelity);
 
 /// The engines that the records name, in the order in which they do.

@@ -22,6 +22,7 @@ struct EngineDifference {
   double half_width;       ///< m/s, of the 95 % interval of hard_minus_soft
 };
 
+/// All that were measured, as the table beside says them.
 std::span<const EngineDifference> engine_differences();
 
 /// What the effect does to the slope, and what it adds to the difference of the engines beyond that of the

@@ -29,6 +29,7 @@ struct StoredRun {
   std::filesystem::path file{};  ///< that it was read from; empty: none
 };
 
+/// What stands in a file of collisions; read_collision_log reads it back.
 std::string collision_log_bytes(const StoredRun& stored);
 
 /// Reads a log, or collision_log_name in a folder. Throws FileError, naming what is wrong with the file.

@@ -15,6 +15,7 @@ struct FrameTimes {
   double rate = 500;                                    ///< Hz
   const std::atomic<bool>* stop = nullptr;              ///< set to true: no more frames, Interrupted
 
+  /// Number of frames that this log has, and the time of frame k, s.
   std::int64_t count(const CollisionLog& log) const;
   double time(std::int64_t k) const { return from + static_cast<double>(k) / rate; }
 };

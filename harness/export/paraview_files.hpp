@@ -10,6 +10,7 @@
 
 namespace shakedown {
 
+/// Grains and box of one frame as VTK XML files of polygonal data, SI.
 std::string grains_vtp(const Frame& frame);
 std::string box_vtp(const Frame& frame);
 

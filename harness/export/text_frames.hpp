@@ -14,6 +14,7 @@ std::string extended_xyz(const Frame& frame);
 /// LAMMPS dump, units si (OVITO, VMD, pandas).
 std::string lammps_dump(const Frame& frame);
 
+/// The first line of a table of frames, with or without columns of spins.
 std::string csv_header(bool spins);
 /// A line a grain: t_s,grain,x_m,y_m,z_m,vx_m_per_s,...,radius_m,mass_kg,x_box_m,v_box_m_per_s.
 std::string csv_lines(const Frame& frame);

@@ -13,6 +13,7 @@ struct Style {
 Style style_of(Look look);
 constexpr std::array<double, 3> ink{0.11, 0.13, 0.14}, pale{0.88, 0.88, 0.88};
 
+/// Marks of a drawing; `what` names the mark in the file.
 Mark text_at(double x, double y, std::string words, Anchor anchor, const char* what);
 Mark line_through(std::vector<DrawnPoint> points, const Style& style, const char* what);
 Mark area_within(std::vector<DrawnPoint> points, std::array<double, 3> colour, double opacity,

@@ -68,6 +68,7 @@ struct ModelJudgement {
 ModelJudgement judgement_of(const ModelTest& features, const ModelTest& balance,
                             const std::vector<Difference>& left = {});
 
+/// "holds", "fails" or "undecided".
 std::string_view name_of(Standing standing);
 
 }  // namespace shakedown

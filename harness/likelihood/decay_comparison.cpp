@@ -222,15 +222,15 @@ std::vector<DecayComparison> compare_decay(const Measurement& measurement, const
   std::vector<std::vector<Numbers>> simulated(frames.size());
   const int all = static_cast<int>(frames.size()) * runs;
   work_in_parallel_deliver_in_order(
-      all, threads_or_all(workshop.threads), [&](int job) -> std::function<void()> {
+      all, threads_or_all(workshop.execution.threads), [&](int job) -> std::function<void()> {
         const auto r = static_cast<std::size_t>(job / runs);
-        if (workshop.stop && *workshop.stop) throw Interrupted("interrupted");
+        if (workshop.execution.stop && *workshop.execution.stop) throw Interrupted("interrupted");
         Setup setup = measurement.runs[r].setup;
         setup.run.duration = std::max(0.5, frames[r].time.empty() ? 0.0 : frames[r].time.back() + 0.05);
         setup.run.sample_rate = 500;
         RunOptions options;
         options.run = first_run + job;
-        options.stop = workshop.stop;
+        options.stop = workshop.execution.stop;
         const Trajectory trajectory = workshop.engine->run(setup, options);
         if (trajectory.interrupted) throw Interrupted("interrupted");
         const Recording seen = recorded_by(physics_of(setup).camera, trajectory);

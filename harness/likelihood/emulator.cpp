@@ -120,12 +120,12 @@ Trajectory run_surely(const Setup& setup, int run, const Workshop& workshop) {
   for (int attempt = 0;; ++attempt) {
     RunOptions options;
     options.run = run + attempt * far_away;
-    options.stop = workshop.stop;
+    options.stop = workshop.execution.stop;
     // A run whose grains stall takes minutes: the limits hold within it too.
     constexpr int reports_between = 20;  // of some 200 a run: asking costs as much as a hundred impacts
     int reports = 0;
     options.progress = [&](double) {
-      if (workshop.ask_for && ++reports % reports_between == 0) workshop.ask_for(0);
+      if (++reports % reports_between == 0) workshop.execution.ask(0);
     };
     try {
       Trajectory trajectory = workshop.engine->run(setup, options);
@@ -245,23 +245,11 @@ Simulated simulate(const Group& group, const std::vector<MeasuredFeatures>& meas
   Simulated simulated{scatter(knobs, group.setup.run.seed + 7919 * group.stream, run, sparse), {}};
   Setup setup = setup_at(group.setup, knobs, simulated.z, workshop.known);
   setup.run.seed += 104729 * group.stream;
-  std::string name;
-  if (workshop.journal) {
-    name = std::string(workshop.engine->name()) + ' ' + digest(setup) + ' ' + std::to_string(run);
-    for (const std::size_t m : group.members) name += ' ' + measured[m].run;
-    if (auto kept = workshop.journal->find(name)) {
-      simulated.features = std::move(*kept);
-      return simulated;
-    }
-  }
-  const auto recorded = [&] {
+  std::vector<ReadOff> read;
+  for (const std::size_t m : group.members) read.push_back({measured[m].run, &measured[m].plan});
+  simulated.features = workshop.store.find_or_simulate({setup, run, workshop.engine->name()}, read, [&] {
     return recorded_by(physics_of(setup).camera, run_surely(setup, run, workshop));
-  };
-  const auto recording = workshop.ensembles ? workshop.ensembles->recording(setup, run, recorded)
-                                            : std::make_shared<const Recording>(recorded());
-  for (const std::size_t m : group.members)
-    simulated.features.push_back(simulated_features(measured[m].plan, *recording));
-  if (workshop.journal) workshop.journal->keep(name, simulated.features);
+  });
   return simulated;
 }
 
@@ -304,21 +292,17 @@ std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, con
   std::vector<std::vector<Simulated>> simulated(groups.size(),
                                                 std::vector<Simulated>(static_cast<std::size_t>(count)));
   const int groups_count = static_cast<int>(groups.size());
-  if (workshop.ask_for) workshop.ask_for(static_cast<std::int64_t>(count) * groups_count);
+  workshop.execution.ask(static_cast<std::int64_t>(count) * groups_count);
   // The longest runs are begun first: groups in turn, so that the last ones are spread over all.
-  work_in_parallel_deliver_in_order(
-      count * groups_count, threads_or_all(workshop.threads), [&](int job) -> std::function<void()> {
-        const int row = job / groups_count;
-        const auto g = static_cast<std::size_t>(job % groups_count);
-        if (workshop.stop && *workshop.stop) throw Interrupted("interrupted");
-        if (workshop.ask_for) workshop.ask_for(0);
-        simulated[g][static_cast<std::size_t>(row)] =
-            simulate(groups[g], measured, knobs, first_run + row, sparse, workshop);
-        return [&] {
-          if (workshop.runs) ++*workshop.runs;
-          if (workshop.done) workshop.done(1);
-        };
-      });
+  work_in_parallel_deliver_in_order(count * groups_count, threads_or_all(workshop.execution.threads),
+                                    [&](int job) -> std::function<void()> {
+                                      const int row = job / groups_count;
+                                      const auto g = static_cast<std::size_t>(job % groups_count);
+                                      workshop.execution.ask(0);
+                                      simulated[g][static_cast<std::size_t>(row)] = simulate(
+                                          groups[g], measured, knobs, first_run + row, sparse, workshop);
+                                      return [&] { workshop.execution.finished(1); };
+                                    });
   std::vector<Emulator> emulators(measured.size());
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (workshop.pool)

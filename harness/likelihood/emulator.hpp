@@ -5,19 +5,13 @@
 // ensembles on a grid.
 #pragma once
 #include <Eigen/Core>
-#include <atomic>
-#include <functional>
 #include <map>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "engine.hpp"
-#include "ensemble_cache.hpp"
 #include "features.hpp"
 #include "known_effects.hpp"
-#include "simulation_journal.hpp"
-#include "simulation_pool.hpp"
+#include "workshop.hpp"
 
 namespace shakedown {
 
@@ -59,26 +53,11 @@ struct MeasuredFeatures {
   Eigen::MatrixXd own{};
 };
 
+/// Of each run, without what a camera does to it.
 std::vector<MeasuredFeatures> features_of(const Measurement& measurement);
 
 /// A covariance of its features with what the run has of its own.
 Eigen::MatrixXd with_own(Eigen::MatrixXd covariance, const MeasuredFeatures& measured);
-
-struct Workshop {
-  const Engine* engine = nullptr;
-  KnownEffects known;
-  int threads = 0;
-  const std::atomic<bool>* stop = nullptr;
-  std::function<void(int runs)> done;  ///< told of finished simulations; may be empty
-  std::int64_t* runs = nullptr;        ///< counts simulations; may be null
-  SimulationPool* pool = nullptr;  ///< what was simulated before, and where new simulations go; may be null
-  EnsembleCache* ensembles =
-      nullptr;  ///< where simulations that other experiments repeat are kept; may be null
-  SimulationJournal* journal = nullptr;  ///< of this work, begun before or not; may be null
-  /// Throws BudgetSpent where so many more simulations are too many: asked before each batch and, with 0, by
-  /// every simulation at its start and now and then on its way, from several threads; may be empty.
-  std::function<void(std::int64_t more)> ask_for{};
-};
 
 /// Regression of one run's features on the knobs.
 struct Emulator {

@@ -72,6 +72,7 @@ void refuse_unknown_runs(const Measurement& measurement, const std::vector<std::
 std::vector<FittedParameter> parameters_of(const Refit& fit, const std::vector<Knob>& start,
                                            KnownEffects known);
 
+/// Of the same size as the covariance.
 Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance);
 
 /// The parameters as a fit by ensembles has them.
@@ -84,6 +85,7 @@ ContactCurve curve_of(const CurveLaw& law, const Fit& fit, KnownEffects known);
 /// not. Empty without a curve.
 std::string words_of_constant(const Fit& fit);
 
+/// The whole fit as JSON text, and as text for a terminal.
 std::string fit_json(const Fit& fit);
 std::string fit_text(const Fit& fit);
 

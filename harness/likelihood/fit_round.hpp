@@ -81,10 +81,12 @@ class FitRound {
   /// The rules of `other`, or of this round where there is none.
   std::vector<JudgingRule> rules_of(const Refit* other) const;
 
+  /// Of each measured run's features, m^2.
   std::vector<Eigen::MatrixXd> covariances() const;
   /// covariance_for_means() of all simulations, with what each run has of its own.
   std::vector<Eigen::MatrixXd> for_means(double model_error) const;
 
+  /// Run r at the solution z, in widths of the knobs.
   RunComparison comparison(std::size_t r, const Eigen::VectorXd& z) const;
 
   /// Its errors and what they are uncertain by; `covariance` of z as covariance_at() has it.

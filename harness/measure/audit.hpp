@@ -21,6 +21,7 @@ struct RunAudit {
   std::vector<double> x_box, x_com;  ///< the run's series with outliers taken out (NaN)
 };
 
+/// Noise, outliers, wander and release of one run, from its frames alone.
 RunAudit audit_run(const MeasuredRun& run);
 
 /// One camera films all runs: its colour is the same in runs of one frame rate, and so is its noise unless

@@ -20,6 +20,7 @@ class ExperimentReader {
   /// The value as it stands there, or nullptr.
   const TomlValue* find(std::string_view key) const;
 
+  /// The value of a key of this section; empty or false where it is not given.
   std::string text(std::string_view key) const;
   std::vector<std::string> texts(std::string_view key) const;
   bool flag(std::string_view key) const;

@@ -14,6 +14,7 @@ constexpr std::uint64_t fnv_step(std::uint64_t hash, std::uint64_t unit) {
   return (hash ^ unit) * 0x100000001b3u;
 }
 
+/// FNV-1a, 64 bits; `hash`: that of the bytes before.
 constexpr std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = fnv_start) {
   for (const char c : bytes) hash = fnv_step(hash, static_cast<unsigned char>(c));
   return hash;

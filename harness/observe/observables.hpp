@@ -32,6 +32,7 @@ struct Observables {
   std::optional<SteadyState> steady;  ///< of a forced damper, over its last cycles
 };
 
+/// All of them of one motion; what it does not tell is `absent`.
 Observables observe(const Trajectory& trajectory, const Setup& setup);
 
 /// Below which a peak is small, m: small_share of the release.

@@ -22,6 +22,7 @@ struct CubicPiece {
   double start = 0, length = 0;           ///< s
   double c0 = 0, c1 = 0, c2 = 0, c3 = 0;  ///< position = c0 + c1 u + c2 u^2 + c3 u^3, m
 
+  /// Value and time at u of 0 (its beginning) to 1 (its end); SI.
   double at(double u) const { return c0 + u * (c1 + u * (c2 + u * c3)); }
   double time_at(double u) const { return start + u * length; }
 };

@@ -21,6 +21,7 @@ struct LammpsSteps {
   std::int64_t samples = 0;      ///< after the one at release
 };
 
+/// The time step and how often it is written, so that frames fall where the setup has them.
 LammpsSteps lammps_steps(const Setup& setup);
 
 /// A power that LAMMPS adds up at every step, W: the columns "mean" and "now" of it in each row.

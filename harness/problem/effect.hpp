@@ -205,6 +205,7 @@ struct EffectChoice {
   std::map<std::string, ParameterValue, std::less<>> values;
   SourcePlace place;  ///< where the setup names it
 
+  /// The value of the parameter of this name, which must be of this kind.
   double number(std::string_view parameter) const;
   const Vec3& vector(std::string_view parameter) const;
   const std::string& text(std::string_view parameter) const;

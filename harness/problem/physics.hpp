@@ -28,6 +28,7 @@ class Slot {
     int effect;  ///< line in Setup::effects
   };
 
+  /// `effect`: the line of the energy ledger that gets the share.
   void add(const Value& strength, int effect) {
     shares_.push_back({strength, effect});
     sum_ = shares_.size() == 1 ? strength : Value(sum_ + strength);

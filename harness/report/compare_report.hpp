@@ -27,6 +27,7 @@ Report report_of(const ComparedModel& found, const Measurement& measurement, con
 /// E, u_num, u_input, u_D and u_val of each observable of each run.
 ReportTable validation_table(const std::vector<Validation>& rows);
 
+/// Error of each run beside noise and spread, mm.
 ReportSection errors_section(const std::string& title, const std::vector<RunComparison>& runs);
 
 }  // namespace shakedown

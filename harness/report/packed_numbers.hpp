@@ -30,6 +30,7 @@ struct PackedReplay {
 };
 PackedReplay packed(const ReportReplay& replay);
 
+/// A gzip stream of the bytes, and bytes as base64 text (RFC 4648).
 std::string gzip(std::string_view bytes);
 std::string base64(std::string_view bytes);
 

@@ -15,8 +15,10 @@ std::string for_people(double value);
 /// "0.9901 (0.9899 to 0.9903)": as many digits as the interval deserves.
 std::string with_interval(double value, double low, double high);
 
+/// Class of the page's style sheet.
 std::string_view css_class(Tone tone);
 
+/// Parts of a page as HTML, their texts escaped.
 std::string table_html(const ReportTable& table);
 std::string bars_html(const ReportBars& bars);
 std::string strip_html(const ReportStrip& strip);

@@ -28,6 +28,7 @@ ValueOrProblem<std::int64_t> count_in(const TomlValue& value, double high);
 /// One of the words.
 ValueOrProblem<std::string> choice_in(const TomlValue& value, std::span<const std::string_view> choices);
 
+/// The value as a text, or as true or false; a problem where it is of another type.
 ValueOrProblem<std::string> text_in(const TomlValue& value);
 ValueOrProblem<bool> boolean_in(const TomlValue& value);
 

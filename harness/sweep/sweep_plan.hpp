@@ -30,6 +30,7 @@ struct SweepPlan {
 SweepPlan plan_sweep(const Setup& base, std::vector<SweepAxis> axes, int runs, const Engine& engine,
                      KnownEffects known);
 
+/// What a result file must have been begun with so that this sweep goes on in it.
 SweepIdentity identity_of(const SweepPlan& plan, const Engine& engine);
 
 }  // namespace shakedown

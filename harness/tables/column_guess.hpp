@@ -9,6 +9,7 @@
 
 namespace shakedown {
 
+/// The column that holds the time, and its unit, by names and values.
 GuessedColumn guess_time(const Table& table);
 
 /// The box's position; `taken` are columns that are something else, and gets the one that is chosen.

@@ -51,6 +51,7 @@ struct RunSeries {
   std::vector<std::string> notes;
 };
 
+/// The columns of one run in SI. Throws InputError with every fault of them.
 RunSeries read_columns(const Table& table, const RunColumns& columns, const ClockAndScale& scale);
 
 /// SI size of a unit of time, or of length or angle, as people and programs write it ("micron", "sec", "px",

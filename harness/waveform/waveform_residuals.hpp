@@ -29,6 +29,8 @@ class Residuals {
   Residuals(const std::vector<WaveformRun>& runs, const std::vector<WaveformLaw>& laws,
             const WaveformOptions& options);
 
+  /// What Eigen's Levenberg and Marquardt asks for: numbers of unknowns and of residuals, residuals at scaled
+  /// unknowns (0 where they can be computed), slopes.
   int inputs() const { return static_cast<int>(inputs_); }
   int values() const { return static_cast<int>(frames_) + believes(); }
   int frames() const { return static_cast<int>(frames_); }

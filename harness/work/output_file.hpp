@@ -20,6 +20,7 @@ class GrowingFile {
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
 
+  /// Appends it. Throws FileError when the disk is full.
   void add(std::string_view text);
   /// Puts the file in its place.
   void finish();

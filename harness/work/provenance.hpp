@@ -21,6 +21,7 @@ struct Provenance {
 /// The part that this program and this machine determine; the caller fills in the rest.
 Provenance provenance_of_this_program();
 
+/// As the object `provenance` of every result file.
 std::string provenance_json(const Provenance& provenance);
 
 /// "shakedown 0.1.0 (commit, compiler)".

@@ -28,6 +28,7 @@ class SimulationJournal {
   std::optional<Features> find(const std::string& simulation) const;
   void keep(const std::string& simulation, const Features& features);
 
+  /// Number of simulations that it holds.
   std::int64_t kept() const;
   const std::filesystem::path& file() const { return file_; }
 

@@ -23,7 +23,7 @@ FittedModel known_to(const shakedown::Setup& setup, double restitution, double f
 
 double told_apart(const shakedown::Setup& one, const shakedown::Setup& other, const Design& design) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
-  const Workshop workshop{engine.get(), all_effects(), 2, nullptr, {}, nullptr};
+  const Workshop workshop{engine.get(), all_effects(), {2}};
   return advise({design}, known_to(one, 0.02, 2e-4), other, {2e-4, 5e-4, 64, 1}, workshop).front().sigmas;
 }
 

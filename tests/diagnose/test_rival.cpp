@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "distributions.hpp"
 #include "effects.hpp"
 #include "pair_rivals.hpp"
 #include "rival.hpp"
@@ -236,10 +237,10 @@ TEST(Rival, PromisesWhatItsSignatureSaysAndAllowsForTheEngines) {
   ASSERT_EQ(promised.strengths.size(), 1u);
   EXPECT_EQ(promised.strengths[0].unit, "N");
   EXPECT_EQ(promised.strengths[0].value, 0.1);
-  EXPECT_DOUBLE_EQ(promised.strengths[0].low, 0.1 - 1.96 * 0.003);
-  EXPECT_DOUBLE_EQ(promised.strengths[0].high, 0.1 + 1.96 * 0.003);
+  EXPECT_DOUBLE_EQ(promised.strengths[0].low, 0.1 - normal_95 * 0.003);
+  EXPECT_DOUBLE_EQ(promised.strengths[0].high, 0.1 + normal_95 * 0.003);
   options.strength_uncertainty = [](std::string_view) { return 0.04; };
   promised = promised_by(rival, options);
-  EXPECT_DOUBLE_EQ(promised.strengths[0].low, 0.1 - 1.96 * 0.005);
-  EXPECT_DOUBLE_EQ(promised.strengths[0].high, 0.1 + 1.96 * 0.005);
+  EXPECT_DOUBLE_EQ(promised.strengths[0].low, 0.1 - normal_95 * 0.005);
+  EXPECT_DOUBLE_EQ(promised.strengths[0].high, 0.1 + normal_95 * 0.005);
 }

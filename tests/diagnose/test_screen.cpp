@@ -31,7 +31,7 @@ ScreenedEffect screened(const std::string& hidden, const std::string& candidate)
   Workshop workshop;
   workshop.engine = engine.get();
   workshop.known = all_effects();
-  workshop.threads = 2;
+  workshop.execution.threads = 2;
   const std::vector<Candidate> candidates = candidates_for(setup, {candidate}, all_effects(), *engine);
   const std::vector<ScreenedEffect> list =
       EffectScreen(features, free_parameters(setup), workshop, {}, 1000).weigh(candidates).list;
@@ -53,8 +53,8 @@ std::vector<ScreenedEffect> ranking_with(const std::string& hidden, EnsembleCach
   Workshop workshop;
   workshop.engine = engine.get();
   workshop.known = all_effects();
-  workshop.threads = 2;
-  workshop.ensembles = &ensembles;
+  workshop.execution.threads = 2;
+  workshop.store.recordings = &ensembles;
   std::vector<Candidate> candidates = candidates_for(setup, {}, all_effects(), *engine);
   const std::vector<std::string> seen = audit_momentum(measurement, all_effects()).seen;
   std::erase_if(candidates, [&](const Candidate& candidate) {
@@ -134,8 +134,8 @@ TEST(Screen, WhatTheMiddleLevelRulesOutCostsOneLevel) {
   std::int64_t runs = 0;
   workshop.engine = engine.get();
   workshop.known = all_effects();
-  workshop.threads = 1;
-  workshop.runs = &runs;
+  workshop.execution.threads = 1;
+  workshop.execution.done = [&](int more) { runs += more; };
   const std::vector<Candidate> candidates = candidates_for(setup, {"grain_air_drag"}, all_effects(), *engine);
   ASSERT_EQ(candidates.size(), 1u);
   EXPECT_EQ(candidates[0].levels.size(), 3u);

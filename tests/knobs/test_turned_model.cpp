@@ -75,7 +75,7 @@ EnsembleFit fit_of_one_run(const Engine& engine, const Setup& user, std::vector<
   Workshop workshop;
   workshop.engine = &engine;
   workshop.known = all_effects();
-  workshop.threads = 2;
+  workshop.execution.threads = 2;
   std::vector<MeasuredFeatures> plain = fit.measured;
   plain.front().setup.effects.clear();
   RefitOptions options;
@@ -174,7 +174,7 @@ Eigen::VectorXd simulated_mean(const EnsembleFit& fit, const TurnedModel& model,
   Workshop workshop;
   workshop.engine = &engine;
   workshop.known = all_effects();
-  workshop.threads = 2;
+  workshop.execution.threads = 2;
   return emulate(runs, {}, 128, first_run, workshop).front().coefficients.row(0).transpose();
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "distributions.hpp"
 #include "effects.hpp"
 #include "errors.hpp"
 #include "fit.hpp"
@@ -32,7 +33,7 @@ double restitution(const shakedown::Setup& setup, double speed,
 }
 
 FittedValue value(const std::string& key, double at, double error = 0.1) {
-  return {key, at, at - 1.96 * error, at + 1.96 * error, error, false};
+  return {key, at, at - normal_95 * error, at + normal_95 * error, error, false};
 }
 
 }  // namespace
@@ -114,7 +115,7 @@ TEST(ContactCurve, BandIsThatOfItsParametersAndOfWhatAStepBetweenPointsWouldMake
   for (std::size_t i = 0; i < level.speed.size(); ++i) {
     WITHIN(level.grains.error[i], 0.02, 3e-16, 1.8e-17);
     WITHIN(level.walls.error[i], 0.03, 4e-16, 2.5e-17);
-    EXPECT_DOUBLE_EQ(level.low(level.grains, i), 0.75 - 1.96 * level.grains.error[i]);
+    EXPECT_DOUBLE_EQ(level.low(level.grains, i), 0.75 - normal_95 * level.grains.error[i]);
   }
   EXPECT_EQ(words_of(level), "stays at 0.75 (grains), stays at 0.76 (walls)");
   shakedown::Setup falling = setup;

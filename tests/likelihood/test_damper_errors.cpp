@@ -84,7 +84,7 @@ TEST(DamperErrors, ColumnsHaveNoNoiseForTheMicrostatesAreTheSame) {
   Workshop workshop;
   workshop.engine = &engine;
   workshop.known = all_effects();
-  workshop.threads = 1;
+  workshop.execution.threads = 1;
   const std::vector<FeatureColumns> columns = columns_of(errors, measured, 8, 1000, workshop);
   ASSERT_EQ(columns.size(), 2u);
   add_columns(errors, columns, all_effects(), measured);
@@ -121,8 +121,8 @@ TEST(DamperErrors, RepeatsShareSimulationsFromTheMeanOfTheirReleases) {
   std::int64_t runs = 0;
   workshop.engine = &engine;
   workshop.known = all_effects();
-  workshop.threads = 1;
-  workshop.runs = &runs;
+  workshop.execution.threads = 1;
+  workshop.execution.done = [&](int more) { runs += more; };
   const std::vector<FeatureColumns> columns = columns_of(errors, measured, 8, 1000, workshop);
   EXPECT_EQ(runs, 3 * 8);  // without, release, mass: each once for both
   add_columns(errors, columns, all_effects(), measured);

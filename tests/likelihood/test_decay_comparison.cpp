@@ -34,7 +34,7 @@ std::vector<DecayComparison> compared(const shakedown::Setup& truth, const shake
   const auto engine = engine_named("hard");
   const Experiment experiment =
       make_measurements(truth, {{"forced", {}}}, recording, {engine.get(), all_effects(), 3, 1, nullptr});
-  const Workshop workshop{engine.get(), all_effects(), 1, nullptr, {}, nullptr};
+  const Workshop workshop{engine.get(), all_effects(), {1}};
   return compare_decay(measurement_of(believed, experiment, all_effects()), workshop, 2, 1);
 }
 

@@ -14,7 +14,7 @@ TEST(Emulator, LearnsFromThePoolWhatLiesInItsBox) {
   const DampedOscillation engine;
   const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
   SimulationPool pool;
-  Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr, &pool};
+  Workshop workshop{&engine, all_effects(), {2}, &pool};
   EXPECT_EQ(emulate(measured, theta, 64, 0, workshop)[0].residuals.rows(), 64);
   EXPECT_EQ(emulate(measured, theta, 64, 1000, workshop)[0].residuals.rows(), 128);
   std::vector<Knob> narrow = theta;
@@ -48,7 +48,7 @@ Eigen::RowVectorXd slope_of(const Emulator& emulator, const std::vector<Knob>& k
 TEST(Emulator, KnowsEachKnobWhereverTheCamerasStand) {
   const DampedOscillation engine;
   const std::vector<MeasuredFeatures> measured = filmed_on_stand_in();
-  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  const Workshop workshop{&engine, all_effects(), {2}};
   std::vector<Knob> scattered = theta;
   scattered.push_back({"blade_viscous_damping.damping", 0, 0.05, 0, 10, false});
   for (Knob& knob : scattered) knob.curved = false;
@@ -77,7 +77,7 @@ TEST(Emulator, KnowsEachKnobWhereverTheCamerasStand) {
 TEST(EmulatorDeathTest, ADesignThatCannotTellItsColumnsApartIsAnError) {
   const DampedOscillation engine;
   const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
-  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  const Workshop workshop{&engine, all_effects(), {2}};
   std::vector<Knob> knobs = theta;
   knobs[1].width = 0;  // cannot move, while the others do
   EXPECT_DEATH(emulate(measured, knobs, 48, 0, workshop), "rank");
@@ -86,7 +86,7 @@ TEST(EmulatorDeathTest, ADesignThatCannotTellItsColumnsApartIsAnError) {
 TEST(Emulator, LeavesOutABlockAsARegressionWithoutItWould) {
   const DampedOscillation engine;
   const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
-  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  const Workshop workshop{&engine, all_effects(), {2}};
   std::vector<Knob> knobs = theta;
   knobs[0].cubic = true;
   const Emulator all = emulate(measured, knobs, 50, 0, workshop)[0];

@@ -25,8 +25,8 @@ TEST(SlowJudgedAsGiven, AJournalTellsTheEnginesApart) {
   SimulationJournal journal(folder / "journal", "test", false);
   constexpr int count = 4;
   const auto judge = [&](const Engine& engine) {
-    Workshop workshop{&engine, all_effects(), 1, nullptr, {}, nullptr};
-    workshop.journal = &journal;
+    Workshop workshop{&engine, all_effects(), {1}};
+    workshop.store.journal = &journal;
     return judged_as_given(setup, measurement, features_with_camera(measurement, all_effects()), workshop,
                            count);
   };

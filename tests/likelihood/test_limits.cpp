@@ -52,8 +52,8 @@ std::vector<MeasuredFeatures> measured() {
 TEST(Limits, HoldWithinASimulation) {
   int reports = 0, asked = 0;
   const Stalling engine(reports);
-  Workshop workshop{&engine, all_effects(), 1, nullptr, {}, nullptr};
-  workshop.ask_for = [&](std::int64_t more) {
+  Workshop workshop{&engine, all_effects(), {1}};
+  workshop.execution.ask_for = [&](std::int64_t more) {
     if (more == 0 && ++asked > 1) throw BudgetSpent("the time is up");  // the first run begins in time
   };
   EXPECT_THROW(emulate(measured(), {}, 4, 1, workshop), BudgetSpent);

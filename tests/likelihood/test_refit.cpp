@@ -45,7 +45,7 @@ TEST(Refit, GrainsThatTheSetupHasNotAreNotCompared) {
 
 TEST(Refit, ARecordingWithoutTheCentreIsValidatedByTheBoxAlone) {
   const DampedOscillation engine;
-  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  const Workshop workshop{&engine, all_effects(), {2}};
   const Trajectory motion = engine.run(believed_setup(), {});
   Experiment experiment;
   experiment.runs.emplace_back();
@@ -62,7 +62,7 @@ TEST(Refit, ARecordingWithoutTheCentreIsValidatedByTheBoxAlone) {
 
 TEST(SlowRefit, HoldsForDataOfTheModelItself) {
   const DampedOscillation engine;
-  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  const Workshop workshop{&engine, all_effects(), {2}};
   int rejected = 0;
   for (int run = 0; run < 20; ++run)
     rejected += refit(measured_on(believed_setup(), believed_setup(), run), {}, workshop, {}).p_value < 0.05;
@@ -71,7 +71,7 @@ TEST(SlowRefit, HoldsForDataOfTheModelItself) {
 
 TEST(Refit, GivesNoProbabilityOfWhatIsNoNumber) {
   const DampedOscillation engine;
-  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  const Workshop workshop{&engine, all_effects(), {2}};
   for (const double bad : {std::nan(""), static_cast<double>(INFINITY)}) {
     std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
     measured.front().values[7] = bad;
@@ -85,7 +85,7 @@ TEST(Refit, GivesNoProbabilityOfWhatIsNoNumber) {
 /// Of three values a run at most so many lie outside their intervals of 95 %.
 void expect_hidden_values_found(int runs, int outside) {
   const DampedOscillation engine;
-  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  const Workshop workshop{&engine, all_effects(), {2}};
   shakedown::Setup truth = believed_setup();
   truth.restitution = {0.85, 0.70};
   truth.spring.frequency = 1.2345;
@@ -124,7 +124,7 @@ std::array<double, 2> times_floor_of(const std::vector<RunComparison>& runs) {
 
 TEST(SlowRefit, FloorIsWhatRecordingsOfTheModelItselfLeave) {
   const DampedOscillation engine;
-  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  const Workshop workshop{&engine, all_effects(), {2}};
   RefitOptions quick;
   quick.count = 96;
   std::vector<RunComparison> given, fitted;
@@ -148,7 +148,7 @@ TEST(SlowRefit, FloorIsWhatRecordingsOfTheModelItselfLeave) {
 
 TEST(Refit, RejectsWhatRefittingCannotExplainAndAcceptsTheEffect) {
   const DampedOscillation engine;
-  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  const Workshop workshop{&engine, all_effects(), {2}};
   shakedown::Setup truth = believed_setup();
   set_number(truth, "blade_viscous_damping.damping", 0.1, all_effects());
   const std::vector<MeasuredFeatures> measured = measured_on(truth, believed_setup(), 3);
@@ -163,7 +163,7 @@ TEST(Refit, RejectsWhatRefittingCannotExplainAndAcceptsTheEffect) {
 TEST(SlowFitRound, TellsHowFarItsEmulatorsNoiseMovesTheMinimum) {
   // The same data fitted through independent simulations: what differs is the emulators.
   const DampedOscillation engine;
-  const Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  const Workshop workshop{&engine, all_effects(), {2}};
   const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 2);
   constexpr int batches = 24;
   Eigen::ArrayXXd solutions(batches, 3);
@@ -276,7 +276,7 @@ TEST(Refit, LooksBesideADoubtfulFitAndKeepsTheBetter) {
   options.most_looks = 2;
   std::int64_t runs = 0;
   Workshop counting = fits.workshop;
-  counting.runs = &runs;
+  counting.execution.done = [&](int more) { runs += more; };
   const Refit kept = look_beside(fits.confirmed, fits.measured, counting, options);
   EXPECT_EQ(runs, 0);  // nobody doubts it
   EXPECT_EQ(kept.values[0].value, fits.confirmed.values[0].value);
@@ -288,7 +288,7 @@ TEST(Refit, LooksBesideADoubtfulFitAndKeepsTheBetter) {
 
 TEST(EnsembleCache, ChangesNoAnswerAndSimulatesOnce) {
   const DampedOscillation engine;
-  Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  Workshop workshop{&engine, all_effects(), {2}};
   RefitOptions options;
   options.count = 32;
   shakedown::Setup longer = believed_setup();
@@ -297,7 +297,7 @@ TEST(EnsembleCache, ChangesNoAnswerAndSimulatesOnce) {
                                       second = measured_on(longer, believed_setup(), 2);
   const Refit alone = refit(first, {}, workshop, options), other_alone = refit(second, {}, workshop, options);
   EnsembleCache cache;
-  workshop.ensembles = &cache;
+  workshop.store.recordings = &cache;
   EXPECT_EQ(refit(second, {}, workshop, options).chi2, other_alone.chi2);
   EXPECT_EQ(cache.reused(), 0);
   // shorter runs are the beginnings of longer ones
@@ -321,7 +321,7 @@ class CountingEngine final : public Engine {
 
 TEST(SimulationJournal, WhatItHoldsIsNotSimulatedAgainAndTheAnswerIsTheSame) {
   const CountingEngine engine;
-  Workshop workshop{&engine, all_effects(), 2, nullptr, {}, nullptr};
+  Workshop workshop{&engine, all_effects(), {2}};
   RefitOptions options;
   options.count = 48;
   const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
@@ -330,13 +330,13 @@ TEST(SimulationJournal, WhatItHoldsIsNotSimulatedAgainAndTheAnswerIsTheSame) {
   const ScratchFolder folder;
   {
     SimulationJournal journal(folder / "journal", "test", false);
-    workshop.journal = &journal;
+    workshop.store.journal = &journal;
     emulate(measured, theta, 64, options.first_run + 10000, workshop);  // as if interrupted after a round
     EXPECT_EQ(journal.kept(), 128);
   }
   engine.runs = 0;
   SimulationJournal journal(folder / "journal", "test", true);
-  workshop.journal = &journal;
+  workshop.store.journal = &journal;
   EXPECT_EQ(journal.kept(), 128);
   const Refit resumed = refit(measured, theta, workshop, options);
   EXPECT_EQ(engine.runs, whole - 128);

@@ -309,9 +309,9 @@ TEST(SlowNaiveAnswers, NameAStrongForceAndAccuseWhereNothingIsHidden) {
   Trial trial;
   trial.runs = small_design().runs;
   trial.hidden = {{}, changed({}, at_strength(*find_hideable("spring_cubic"), 2), all_effects())};
-  Workshop workshop{hard.get(), all_effects(), 0, nullptr, {}, nullptr};
+  Workshop workshop{hard.get(), all_effects(), {0}};
   EnsembleCache ensembles;  // much is simulated for both
-  workshop.ensembles = &ensembles;
+  workshop.store.recordings = &ensembles;
   const auto answers = [&] {
     return naive_answers({}, measurement_of(shakedown::Setup{}, measured_in(trial, tools), all_effects()),
                          workshop);

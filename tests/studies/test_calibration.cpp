@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Probabilities and intervals of answers written by hand, held against the truth.
 #include "calibration.hpp"
+#include "distributions.hpp"
 #include "within.hpp"
 
 #include <gtest/gtest.h>
@@ -57,7 +58,7 @@ TEST(Calibration, WhatIsSaidWithNineTenthsIsRightNineTimesInTen) {
 }
 
 TEST(Calibration, AnIntervalStandsForItsQuantiles) {
-  WITHIN(deviations_from_middle({0, 2}, 2), 1.96, 8e-15, 4.4e-16);
+  WITHIN(deviations_from_middle({0, 2}, 2), normal_95, 8e-15, 4.4e-16);
   WITHIN(deviations_from_middle({0, 2}, 0.5), 0.98, 4e-15, 2.2e-16);
   EXPECT_EQ(deviations_from_middle({1, 1}, 1), 0);
   EXPECT_TRUE(std::isinf(deviations_from_middle({1, 1}, 2)));
@@ -66,10 +67,10 @@ TEST(Calibration, AnIntervalStandsForItsQuantiles) {
 TEST(Calibration, CoverageCountsTruthsWithinEachQuantile) {
   std::vector<OpenedCase> cases;
   for (int i = 0; i < 100;
-       ++i) {  // one half-width is 1.96 standard deviations; truths at the normal's quantiles
+       ++i) {  // one half-width is normal_95 standard deviations; truths at the normal's quantiles
     OpenedCase one = answered({});
     one.judgement.named = true;
-    one.found["grain_friction.grain_wall"] = {-1.96, 1.96};
+    one.found["grain_friction.grain_wall"] = {-normal_95, normal_95};
     const double share = (i + 0.5) / 100;
     one.strengths["grain_friction.grain_wall"] = share < 0.5    ? 0.3
                                                  : share < 0.8  ? 1.0

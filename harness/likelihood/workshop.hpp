@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Who simulates, how, and where simulations are kept.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+
+#include "engine.hpp"
+#include "known_effects.hpp"
+#include "simulation_pool.hpp"
+#include "simulation_store.hpp"
+
+namespace shakedown {
+
+/// On how many threads, who may stop it, who hears of it.
+struct Execution {
+  int threads = 0;                          ///< 0: one for each core
+  const std::atomic<bool>* stop = nullptr;  ///< set to true to stop; may be null
+  std::function<void(int runs)> done{};     ///< told of finished simulations, by one thread; may be empty
+  /// Throws BudgetSpent where so many more simulations are too many; called from several threads; may be
+  /// empty.
+  std::function<void(std::int64_t more)> ask_for{};
+
+  /// Before each batch of so many and, with 0, by every simulation at its start and now and then on its way.
+  /// Throws Interrupted once it was stopped, and BudgetSpent.
+  void ask(std::int64_t more) const;
+  void finished(int runs) const {
+    if (done) done(runs);
+  }
+};
+
+struct Workshop {
+  const Engine* engine = nullptr;
+  KnownEffects known{};
+  Execution execution{};
+  /// What was simulated before, from which regressions learn too, and where new simulations go; may be null.
+  SimulationPool* pool = nullptr;
+  SimulationStore store{};
+};
+
+}  // namespace shakedown
