@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "errors.hpp"
+#include "from_balance.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "setup_file.hpp"

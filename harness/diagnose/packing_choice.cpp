@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "initial_state.hpp"
+#include "running_statistic.hpp"
 
 namespace shakedown {
 
@@ -30,14 +31,9 @@ LaidCentre laid_centre(const Setup& setup) {
   };
   if (!is_loose(setup.release.packing)) return {apart(0), layers_within};
   constexpr int draws = 24;
-  double sum = 0, squares = 0;
-  for (int run = 0; run < draws; ++run) {
-    const double x = apart(run);
-    sum += x;
-    squares += x * x;
-  }
-  const double mean = sum / draws;
-  return {mean, std::max(loose_within, std::sqrt(std::max(0.0, squares / draws - mean * mean)))};
+  RunningStatistic drawn;
+  for (int run = 0; run < draws; ++run) drawn.add(apart(run));
+  return {drawn.statistic().mean, std::max(loose_within, drawn.statistic().sd)};
 }
 
 /// A camera's scale or bias (standard deviation), and what another packing must bring in chi2.

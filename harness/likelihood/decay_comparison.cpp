@@ -10,6 +10,7 @@
 #include "observables.hpp"
 #include "printed_text.hpp"
 #include "random.hpp"
+#include "statistic.hpp"
 
 namespace shakedown {
 
@@ -120,12 +121,8 @@ Numbers numbers_of(const UsedFrames& frames, const Setup& setup, int most_peaks)
 
 /// Mean and spread of what the simulations have; none: NaN.
 MeasuredNumber beside(double measured, const std::vector<double>& simulated) {
-  double sum = 0, squares = 0, count = 0;
-  for (const double value : simulated)
-    if (std::isfinite(value)) sum += value, squares += value * value, ++count;
-  if (count < 2) return {measured, absent, absent};
-  const double mean = sum / count;
-  return {measured, mean, std::sqrt(std::max(0.0, (squares / count - mean * mean) * count / (count - 1)))};
+  const Statistic told = statistic_of(simulated);
+  return told.n < 2 ? MeasuredNumber{measured, absent, absent} : MeasuredNumber{measured, told.mean, told.sd};
 }
 
 /// Each measured landing beside those of the simulations that come within a quarter of a period of it.

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "least_squares.hpp"
+#include "robust_statistics.hpp"
 
 namespace shakedown {
 
@@ -30,8 +31,7 @@ Frames frames_of(const std::vector<double>& time, const std::vector<double>& x, 
   std::vector<double> apart;
   for (std::size_t i = 1; i < frames.time.size(); ++i) apart.push_back(frames.time[i] - frames.time[i - 1]);
   if (apart.empty()) return frames;
-  std::nth_element(apart.begin(), apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2), apart.end());
-  frames.interval = apart[apart.size() / 2];
+  frames.interval = median(std::move(apart));
   return frames;
 }
 
@@ -94,9 +94,7 @@ double usual_half_period(const std::vector<double>& crossings) {
   std::vector<double> halves;
   for (std::size_t i = 1; i < crossings.size(); ++i) halves.push_back(crossings[i] - crossings[i - 1]);
   if (halves.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::nth_element(halves.begin(), halves.begin() + static_cast<std::ptrdiff_t>(halves.size() / 2),
-                   halves.end());
-  return halves[halves.size() / 2];
+  return median(std::move(halves));
 }
 
 std::string too_few(double frames) {

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <exception>
 #include <mutex>
-#include <thread>
 
 #include "in_order.hpp"
 #include "run_numbers.hpp"
@@ -38,12 +37,8 @@ void work_in_any_order(std::size_t count, int threads, const std::function<void(
       }
     }
   };
-  {
-    std::vector<std::jthread> helpers;
-    for (int i = 1; i < std::min<int>(threads, static_cast<int>(std::min<std::size_t>(count, 1024))); ++i)
-      helpers.emplace_back(serve);
-    serve();
-  }
+  constexpr std::size_t most_threads = 1024;
+  serve_on_threads(std::min<int>(threads, static_cast<int>(std::min(count, most_threads))), serve);
   if (failure) std::rethrow_exception(failure);
 }
 

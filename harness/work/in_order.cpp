@@ -94,6 +94,12 @@ int threads_or_all(int threads) {
   return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+void serve_on_threads(int threads, const std::function<void()>& serve) {
+  std::vector<std::jthread> helpers;
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(serve);
+  serve();
+}
+
 void work_in_parallel_deliver_in_order(int count, int threads,
                                        const std::function<std::function<void()>(int)>& work) {
   // Runs of one batch differ tenfold in cost: with room for few results the quick ones would wait for the
@@ -101,11 +107,7 @@ void work_in_parallel_deliver_in_order(int count, int threads,
   constexpr int results_a_thread = 16;
   const int all = threads_or_all(threads);
   Line line(count, all > 1 ? results_a_thread * all : 1, work);
-  {
-    std::vector<std::jthread> helpers;
-    for (int i = 1; i < std::min(all, count); ++i) helpers.emplace_back([&] { line.serve(); });
-    line.serve();
-  }
+  serve_on_threads(std::min(all, count), [&] { line.serve(); });
   line.rethrow();
 }
 

@@ -7,6 +7,10 @@ namespace shakedown {
 /// Number of threads to use when the user names none (0): one for each core.
 int threads_or_all(int threads);
 
+/// Calls `serve`, which must throw nothing, on so many threads at once, the caller's among them, and returns
+/// when all calls have.
+void serve_on_threads(int threads, const std::function<void()>& serve);
+
 /// Calls work(0) ... work(count - 1), several at a time on `threads` threads (the caller's is one of them).
 /// What each call returns is then called one at a time in ascending order: the receiver of the results sees
 /// the order of one thread, whatever the number of threads; and no more results
