@@ -79,9 +79,9 @@ BalanceProblem::BalanceProblem(const Measurement& measurement, KnownEffects know
   for (const MomentumTerm& term : seen_)
     if (term.kind == TermKind::refit || (possible(term.effect) && !scales_all_lengths(known, term.key())))
       terms_.push_back(term);
-  if (const EffectRecord* record = known.oscillating();
-      record != nullptr && possible(std::string(record->name)) && !find_choice(first, record->name))
-    typical_sine_ = search_of(*record).strengths.front().typical;
+  for (const EffectRecord* record : known.oscillating())
+    if (possible(std::string(record->name)) && !find_choice(first, record->name))
+      typical_sine_ = search_of(*record).strengths.front().typical;
 }
 
 double BalanceProblem::noise() const {

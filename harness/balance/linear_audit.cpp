@@ -77,13 +77,13 @@ std::vector<std::string> look_alikes(const SelectionProblem& p, const std::vecto
 }
 
 std::string name_of_sine(KnownEffects known) {
-  const EffectRecord* record = known.oscillating();
-  return record == nullptr ? "" : std::string(record->name);
+  const std::vector<const EffectRecord*> oscillating = known.oscillating();
+  return oscillating.empty() ? "" : std::string(oscillating.front()->name);
 }
 
 FoundTerm sine_found(KnownEffects known, double frequency, double sine, double cosine, double error) {
   FoundTerm found;
-  if (const EffectRecord* record = known.oscillating()) {
+  if (const EffectRecord* record = known.find(name_of_sine(known))) {
     const std::string_view amplitude = record->search.harmonic->amplitude;  // of a vector a component
     const Parameter& parameter = *record->find(amplitude.substr(0, amplitude.find('.')));
     found.effect = record->name, found.parameter = parameter.name, found.unit = parameter.unit;

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "camera.hpp"
 #include "effect_strength.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
@@ -32,7 +33,8 @@ Knob knob_of(const EffectRecord& record, const SearchedStrength& strength, const
   knob.absent_key = strength.absent_key;
   constexpr std::size_t for_a_cubic = 4;
   knob.cubic = strength.levels.size() >= for_a_cubic;
-  knob.exact = !strength.inverse && record.camera.field != nullptr;
+  const std::optional<CameraParameter> of_camera = camera_parameter_of(record);
+  knob.exact = !strength.inverse && of_camera && of_camera->path == knob.key;
   if (knob.exact) knob.curved = knob.cubic = false;
   return knob;
 }

@@ -83,8 +83,10 @@ void note_shape(const std::string& effect, const EffectRecord& record, const Sea
   std::string others;
   for (const double value : shape.values)
     if (value != fitted) others += (others.empty() ? "" : ", ") + write_quantity(value, unit);
-  d.notes.push_back(effect + " was fitted with " + std::string(shape.parameter) + " = " +
-                    write_quantity(fitted, unit) + "; it was looked for with " + others + " too");
+  const bool is_fitted = !d.promised || d.promised->effect != effect;
+  d.notes.push_back(effect + (is_fitted ? " was fitted with " : " is given with ") +
+                    std::string(shape.parameter) + " = " + write_quantity(fitted, unit) +
+                    "; it was looked for with " + others + " too");
 }
 
 /// Which of the shapes that were tried an effect was fitted with: no strength tells it.
@@ -160,7 +162,7 @@ void advise_by_words(const Setup& user, const DiagnosisState& final, bool refitt
   }
   constexpr double badly_known = 0.03;  // of a restitution: what a drop test betters
   for (const FittedValue& value : final.fit.values)
-    if (refitted && value.key.starts_with("restitution") && value.error > badly_known) {
+    if (refitted && !d.promised && value.key.starts_with("restitution") && value.error > badly_known) {
       list.push_back(fewer_grains(user, value));
       break;
     }
@@ -169,7 +171,7 @@ void advise_by_words(const Setup& user, const DiagnosisState& final, bool refitt
 /// The experiment that would tell the effect added last from its rival.
 void advise_by_simulation(const DiagnosisState& final, DiagnosisTools& tools, Diagnosis& d) {
   const RunnerUp& rival = d.runner_up;
-  if (d.verdict != Verdict::missing || rival.effect.empty() ||
+  if (d.verdict != Verdict::missing || d.promised || rival.effect.empty() ||
       std::find(d.missing.begin(), d.missing.end(), rival.added) == d.missing.end())
     return;
   tools.begin("which experiment would decide");
@@ -268,21 +270,37 @@ void take_restitutions_back(const Setup& user, Diagnosis& d, KnownEffects known)
   for (const DiagnosedParameter& parameter : d.parameters)
     if (is_restitution(parameter))
       set_number(d.amended, parameter.name, get_number(user, parameter.name, known), known);
+  if (d.last_fit) {
+    auto last = std::make_shared<LastFit>(*d.last_fit);
+    for (const DiagnosedParameter& parameter : d.parameters)
+      if (is_restitution(parameter)) last->taken_back.push_back(parameter.name);
+    d.last_fit = std::move(last);
+  }
   std::erase_if(d.parameters, is_restitution);
   d.notes.push_back("the restitutions are as given: they were fitted without " + d.promised->effect);
 }
 
+bool names_promised(const Diagnosis& d, const std::vector<std::string>& found) {
+  if (!d.promised || d.verdict != Verdict::unknown || d.momentum.unlisted || d.momentum.unexplained ||
+      d.hypotheses.empty() || !(d.hypotheses.front().probability > rules::adds_effect))
+    return false;
+  // Beside what was found: a hypothesis with something that was taken back since is not the answer's model.
+  std::vector<std::string> with = found;
+  with.push_back(d.promised->effect);
+  const std::vector<std::string>& effects = d.hypotheses.front().effects;
+  return std::is_permutation(effects.begin(), effects.end(), with.begin(), with.end());
+}
+
 }  // namespace
 
-void name_promised(const Setup& user, Diagnosis& d, KnownEffects known) {
-  constexpr double more_likely_than_not = 0.5;
-  if (d.verdict != Verdict::unknown || d.momentum.unlisted || d.momentum.unexplained || !d.promised ||
-      d.hypotheses.empty() || d.hypotheses.front().probability < more_likely_than_not)
+void name_promised(const Setup& user, const std::vector<std::string>& found, Diagnosis& d,
+                   KnownEffects known) {
+  if (!names_promised(d, found)) {
+    d.promised.reset();
     return;
-  const std::vector<std::string>& effects = d.hypotheses.front().effects;
-  if (std::find(effects.begin(), effects.end(), d.promised->effect) == effects.end()) return;
+  }
   d.verdict = Verdict::missing;
-  d.missing = effects;
+  d.missing = d.hypotheses.front().effects;
   take_restitutions_back(user, d, known);
   for (const auto& [key, value] : d.promised->besides) set_number(d.amended, key, value, known);
   for (const DiagnosedParameter& strength : d.promised->strengths) {
@@ -329,9 +347,9 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   if (refitted) set_parameters(final, tools, d);
   complete_ranking(d);
   settle_hypotheses(d, findings);
-  name_promised(user, d, tools.known());
+  name_promised(user, final.missing, d, tools.known());
   if (d.judgement.standing == Standing::fails && !d.momentum.unlisted && !d.momentum.unexplained &&
-      !is_promised(d))
+      !d.promised)
     offer_free_restitution(user, final, tools, d);
   note_shapes(d, tools.known());
   d.sentence = sentence_of(d, tools.known());

@@ -24,10 +24,13 @@ void complete_ranking(Diagnosis& diagnosis);
 /// hold 95 % as the answers.
 void settle_hypotheses(Diagnosis& diagnosis, const Findings& findings);
 
-/// Where nothing that was fitted explains the measurements, the balance is in order, and the most probable
-/// hypothesis of the settled table has an effect that there was no time to fit: names that hypothesis, as the
-/// verdict `missing`, the effect at the strength that its signature asks for and the restitutions as given.
-void name_promised(const Setup& user, Diagnosis& diagnosis, KnownEffects known);
+/// Where nothing that was fitted explains the measurements, the balance of momentum (if there is one) is in
+/// order, and the settled table holds one hypothesis for as probable as an effect must be to be added: what
+/// was `found` and an effect that there was no time to fit. Names that hypothesis, as the verdict `missing`,
+/// the effect at the strength that its signature asks for and the restitutions as given. Else nothing is
+/// promised any more.
+void name_promised(const Setup& user, const std::vector<std::string>& found, Diagnosis& diagnosis,
+                   KnownEffects known);
 
 /// Where the model of this fit fails.
 void note_failures(const Refit& fit, Diagnosis& diagnosis);

@@ -82,6 +82,8 @@ void Course::compare_forced_runs() {
       if (one.forced) result_.forced.push_back(std::move(one));
   } catch (const Interrupted&) {
     // What was found by then is the answer.
+  } catch (const PhysicsError& error) {
+    result_.notes.push_back(std::string("the forced runs could not be simulated: ") + error.what());
   }
 }
 

@@ -28,10 +28,6 @@ Measurement with_fixed(Measurement measurement, const Setup& user, const Diagnos
 
 }  // namespace
 
-bool is_promised(const Diagnosis& d) {
-  return d.promised && std::find(d.missing.begin(), d.missing.end(), d.promised->effect) != d.missing.end();
-}
-
 void note_failures(const Refit& fit, Diagnosis& diagnosis) {
   constexpr std::size_t most_cells = 12;
   diagnosis.where.clear();

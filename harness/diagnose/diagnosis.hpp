@@ -100,7 +100,8 @@ struct Diagnosis {
       free_restitution;  ///< for what lies inside the contacts, where a curve explains it
   std::vector<std::string> next_experiments;
   RunnerUp runner_up;
-  std::optional<PromisedEffect> promised;  ///< by the last round, which added nothing
+  /// Among what is missing, and not fitted for want of time.
+  std::optional<PromisedEffect> promised;
   std::vector<std::string> notes;
   Setup amended;  ///< the user's setup with effects and refitted values
   double seconds = 0;
@@ -129,9 +130,6 @@ struct DiagnoseOptions {
   EnsembleCache* ensembles = nullptr;    ///< shared by diagnoses of one setup; may be null
   SimulationJournal* journal = nullptr;  ///< of this diagnosis, begun before or not; may be null
 };
-
-/// What it says is missing was promised by a signature alone: there was no time to fit it.
-bool is_promised(const Diagnosis& diagnosis);
 
 /// Simulations that a diagnosis may make unless told otherwise: 10000 for each different setup among the
 /// runs, for four at least.

@@ -169,6 +169,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"verdict", std::string(name_of(d.verdict))},
       {"sentence", d.sentence},
       {"missing", d.missing},
+      {"not_fitted", d.promised ? Json(d.promised->effect) : Json(nullptr)},
       {"hypotheses", sets_json(d.hypotheses)},
       {"answer_set", sets_json(d.answers)},
       {"judgement",

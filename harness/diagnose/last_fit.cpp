@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "last_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "errors.hpp"
@@ -85,7 +86,9 @@ std::vector<Setup> setups_of(const LastFit& fit, const Setup& amended, KnownEffe
   if (fit.ensembles)
     for (Setup& setup : setups)
       for (const FittedValue& value : fit.ensembles->fit.values)
-        for (const std::string& key : joined_keys(value.key)) put(setup, key, value.value, known);
+        for (const std::string& key : joined_keys(value.key))
+          if (std::find(fit.taken_back.begin(), fit.taken_back.end(), key) == fit.taken_back.end())
+            put(setup, key, value.value, known);
   if (!fit.swing) return setups;
   const SwingFound& found = *fit.swing;
   std::size_t r = 0;

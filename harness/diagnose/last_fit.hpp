@@ -31,6 +31,7 @@ struct LastFit {
   Measurement measurement;  ///< each run from where the model of it begins
   std::optional<EnsembleFit> ensembles;
   std::optional<SwingFound> swing;
+  std::vector<std::string> taken_back{};  ///< keys whose fitted values are not the answer's
 };
 
 /// One observable of one measured run beside the model at the same moments.

@@ -20,8 +20,9 @@ const Rival* best_signature(const std::vector<Rival>& rivals) {
   return best;
 }
 
-double log_odds_of_signature(const Rival& rival, double known) {
-  return rival.screened.log_evidence - rival.nothing_gained + prior_log_odds(rival.screened.seen.odds, known);
+double log_odds_of_signature(const Rival& rival, double searched) {
+  return rival.screened.log_evidence - rival.nothing_gained +
+         prior_log_odds(rival.screened.seen.odds, searched);
 }
 
 }  // namespace
@@ -34,14 +35,14 @@ bool is_far_beyond(const PairRival& pair, const std::vector<Rival>& rivals) {
 }
 
 std::vector<PairRival> pairs_beyond(const std::vector<Rival>& rivals, const std::vector<ScreenedPair>& pairs,
-                                    const std::vector<Candidate>& candidates, double known) {
+                                    const std::vector<Candidate>& candidates, double searched) {
   const auto rival_of = [&](std::size_t candidate) {
     return std::find_if(rivals.begin(), rivals.end(),
                         [&](const Rival& rival) { return rival.screened.candidate == candidate; });
   };
   const Rival* single = best_signature(rivals);
   if (single == nullptr) return {};
-  const double best = log_odds_of_signature(*single, known);
+  const double best = log_odds_of_signature(*single, searched);
   std::vector<PairRival> list;
   for (const ScreenedPair& pair : pairs) {
     const auto first = rival_of(pair.first), second = rival_of(pair.second);
@@ -53,8 +54,8 @@ std::vector<PairRival> pairs_beyond(const std::vector<Rival>& rivals, const std:
     one.second.screened.value = candidates[pair.second].value_of(pair.second_strength);
     one.log_evidence = pair.log_evidence;
     one.log_odds = pair.log_evidence - first->nothing_gained +
-                   prior_log_odds(first->screened.seen.odds, known) +
-                   prior_log_odds(second->screened.seen.odds, known);
+                   prior_log_odds(first->screened.seen.odds, searched) +
+                   prior_log_odds(second->screened.seen.odds, searched);
     if (one.log_odds > best) list.push_back(std::move(one));
   }
   std::stable_sort(list.begin(), list.end(),
@@ -72,10 +73,10 @@ void fit_pair(PairRival& pair, const DiagnosisState& before, DiagnosisTools& too
   pair.first.fitted = true;
 }
 
-void weigh_pair(PairRival& pair, double known) {
+void weigh_pair(PairRival& pair, double searched) {
   if (!pair.fitted) return;
-  weigh_rival(pair.first, known);
-  weigh_rival(pair.second, known);
+  weigh_rival(pair.first, searched);
+  weigh_rival(pair.second, searched);
   pair.log_odds = pair.first.log_odds + pair.second.log_odds;
 }
 

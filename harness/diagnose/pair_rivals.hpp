@@ -19,10 +19,10 @@ struct PairRival {
 };
 
 /// The pairs that their signatures make more probable than that of any single rival, most probable first.
-/// Left out are pairs of look-alikes: beside the one the next round asks for the other. `known`: the number
-/// of known effects.
+/// Left out are pairs of look-alikes: beside the one the next round asks for the other. `searched`: the
+/// number of effects that are looked for.
 std::vector<PairRival> pairs_beyond(const std::vector<Rival>& rivals, const std::vector<ScreenedPair>& pairs,
-                                    const std::vector<Candidate>& candidates, double known);
+                                    const std::vector<Candidate>& candidates, double searched);
 
 /// Its signatures make it more probable than any single rival by more than signatures err.
 bool is_far_beyond(const PairRival& pair, const std::vector<Rival>& rivals);
@@ -31,8 +31,8 @@ bool is_far_beyond(const PairRival& pair, const std::vector<Rival>& rivals);
 void fit_pair(PairRival& pair, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
               double lowest, Effort effort);
 
-/// The odds of a pair by its fit, as weigh_rival has those of one; what was not fitted keeps its own. `known`
-/// as for pairs_beyond.
-void weigh_pair(PairRival& pair, double known);
+/// The odds of a pair by its fit, as weigh_rival has those of one; what was not fitted keeps its own.
+/// `searched` as for pairs_beyond.
+void weigh_pair(PairRival& pair, double searched);
 
 }  // namespace shakedown

@@ -86,6 +86,10 @@ bool is_found(const Rival& rival) { return rival.fitted && rival.log_odds > 0; }
 
 bool holds(const Rival& rival) { return rival.fitted && rival.state.fit.p_value > rules::holds; }
 
+bool is_shortly_fitted(const Rival& rival) {
+  return rival.fitted && rival.short_fit_stands && !std::isfinite(rival.log_ratio);
+}
+
 double signatures_err_by(double best) { return std::max(std::log(10), effort::signature_errs * best); }
 
 std::vector<Knob> at_values(const Refit& fit) {
@@ -118,14 +122,15 @@ void fit_shortly(Rival& rival, const DiagnosisState& before, DiagnosisTools& too
   state.fit = tools.fit(state, "looking at " + rival.candidate->effect, knobs_of_fit(before, state),
                         effort::least, &before.fit);
   rival.short_chi2 = state.fit.judged_chi2;
+  rival.held_out_gain = before.fit.judged_held_out_chi2 - state.fit.judged_held_out_chi2;
   rival.shortly = std::move(state);
 }
 
-bool take_short_fit(Rival& rival) {
-  if (!rival.shortly) return false;
-  rival.state = *rival.shortly;
-  rival.fitted = true;
-  rival.held_out_gain = std::nan("");
+bool take_short_fit(const std::vector<Rival>& rivals, Rival& rival) {
+  if (!rival.shortly || !is_alone_in_question(rivals, rival)) return false;
+  rival.state = std::move(*rival.shortly);
+  rival.shortly.reset();
+  rival.fitted = rival.short_fit_stands = true;
   return true;
 }
 
@@ -155,7 +160,7 @@ void weigh_rival(Rival& rival, double candidates) {
   rival.log_odds = prior_log_odds(seen.odds, candidates);
   if (rival.screened.weighed) rival.log_odds += rival.screened.log_evidence - rival.nothing_gained;
   // A short fit is made where the model without is so far off that signatures say little.
-  const bool shortly = rival.fitted && rival.shortly && !std::isfinite(rival.log_ratio);
+  const bool shortly = is_shortly_fitted(rival);
   if (!shortly && !std::isfinite(rival.log_ratio)) return;
   StrengthSeen fitted = strength_fitted(rival);
   fitted.gain = shortly ? rival.chi2_without - rival.state.fit.judged_chi2
@@ -178,7 +183,7 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
                signature = best->screened.log_evidence;
   for (Rival& rival : rivals) {
     if (&rival == best) continue;
-    if (counts(rival) || (rival.fitted && !std::isfinite(rival.log_ratio)))
+    if (counts(rival) || is_shortly_fitted(rival))
       rival.log_odds =
           from + prior(rival) + of_fits * (of_best - chi2_left(rival.state.fit, covariances)) / 2;
     else if (!rival.fitted && rival.screened.weighed && best->screened.weighed)
@@ -249,6 +254,7 @@ RankedEffect ranked_as(const Rival& rival) {
   if (!rival.fitted) return ranked;
   ranked.fitted = true;
   if (std::isfinite(rival.log_ratio)) ranked.gain = 2 * (rival.log_ratio - rival.nothing_gained);
+  if (is_shortly_fitted(rival)) ranked.gain = rival.chi2_without - rival.state.fit.judged_chi2;
   ranked.held_out_gain = rival.held_out_gain;
   // of a difference of two chi2 of nested models
   ranked.standard_error = 2 * std::sqrt(std::abs(rival.held_out_gain));

@@ -25,6 +25,8 @@ struct Rival {
   /// made.
   double short_chi2 = std::nan(""), chi2_without = std::nan("");
   std::optional<DiagnosisState> shortly{};  ///< where its short fit put it
+  bool short_fit_stands = false;            ///< `state` is that, for want of time
+  bool out_of_time = false;                 ///< its weighing or its fit, for want of time or simulations
   /// ln likelihood of the model without it where it was fitted, over that where the screen is.
   double nothing_gained = 0;
 };
@@ -38,6 +40,9 @@ bool is_found(const Rival& rival);
 
 /// The data accept it as fitted.
 bool holds(const Rival& rival);
+
+/// Nothing but a short fit has put it where it is.
+bool is_shortly_fitted(const Rival& rival);
 
 /// By how much ln odds of signatures are wrong, where the best one has so many: a factor of ten, far from
 /// nothing effort::signature_errs.
@@ -58,8 +63,9 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
 /// PhysicsError and InputError pass.
 void fit_shortly(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools);
 
-/// Where there was no time for a fit that weighs it, its short fit stands. False: none was made.
-bool take_short_fit(Rival& rival);
+/// Where there was no time for a fit that weighs it, its short fit stands, if no other left as little as far
+/// as short fits tell: two that do are not told from each other. False: it does not stand.
+bool take_short_fit(const std::vector<Rival>& rivals, Rival& rival);
 
 /// Its odds beside nothing by what is known so far: its prior, its signature, its fitted model; of one that
 /// only a short fit has put where it is, what that leaves. `candidates`:

@@ -140,7 +140,7 @@ class Round {
     for (Rival& rival : rivals_) {
       weigh_rival(rival, searched_);
       order_.push_back(&rival);
-      if (!rival.weighed) round_.not_tried.push_back(rival.candidate->effect);
+      if (!rival.weighed) leave_out(rival);
     }
     if (rejected_ && static_cast<double>(state_.missing.size()) + 2 <= rules::most_effects)
       pairs_ = pairs_beyond(rivals_, screen_->pairs(candidates_), candidates_, searched_);
@@ -168,6 +168,10 @@ class Round {
       } catch (const InputError&) {
       }
     tools_.limit_to(whole);
+    // What others have left behind is no answer, and a fit's state is large.
+    const std::vector<Rival*> kept = in_question(rivals_);
+    for (Rival& rival : rivals_)
+      if (std::find(kept.begin(), kept.end(), &rival) == kept.end()) rival.shortly.reset();
   }
 
   /// Fits confirm the most probable, and what has more than a tenth of its probability; where a fit takes
@@ -242,8 +246,9 @@ class Round {
         fit(effort::least);
       }
     } catch (const BudgetSpent&) {
-      if (!take_short_fit(rival)) return round_.not_tried.push_back(rival.candidate->effect);
-      round_.notes.push_back("there was no time for more than a short fit of " + rival.candidate->effect);
+      if (!take_short_fit(rivals_, rival)) return leave_out(rival);
+      round_.notes.push_back("there was no time for more than a short fit of " + rival.candidate->effect +
+                             ": its intervals are wide (--seconds, --budget)");
       weigh_rival(rival, searched_);
     } catch (const PhysicsError& error) {
       note_failure(rival.candidate->effect, error);
@@ -319,13 +324,24 @@ class Round {
     round_.runner_up_setup = (*second)->state.settled(tools_.known()).setup;
   }
 
-  /// Of an effect whose fit there was no time for the table knows what its signature says.
+  void leave_out(Rival& rival) {
+    rival.out_of_time = true;
+    round_.not_tried.push_back(rival.candidate->effect);
+  }
+
+  /// Of an effect whose fit there was no time for the table knows what its signature says. An effect may be a
+  /// candidate several times, with other shapes.
   void promise_the_most_probable() {
-    if (order_.empty()) return;
-    const Rival& most = *order_.front();
-    const bool left_out = std::find(round_.not_tried.begin(), round_.not_tried.end(),
-                                    most.candidate->effect) != round_.not_tried.end();
-    if (left_out && most.weighed && !most.fitted) round_.promised = promised_by(most, tools_.options());
+    const auto less = [&](const Rival* a, const Rival* b) {
+      return probability_among(rivals_, *a) < probability_among(rivals_, *b);
+    };
+    const auto most = std::max_element(order_.begin(), order_.end(), less);
+    if (most == order_.end()) return;
+    for (const Rival* rival : order_)  // by odds
+      if (rival->candidate->effect == (*most)->candidate->effect && rival->weighed) {
+        if (rival->out_of_time && !rival->fitted) round_.promised = promised_by(*rival, tools_.options());
+        return;
+      }
   }
 
   const DiagnosisState& state_;

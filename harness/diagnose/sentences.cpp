@@ -209,7 +209,7 @@ std::string first_words(const Diagnosis& d, KnownEffects known) {
              what_it_brings(d) + ties_in_words(d);
     case Verdict::measurement: return of_the_measurement(d, known);
     case Verdict::missing: {
-      if (is_promised(d)) return of_what_was_not_fitted(d, known) + ties_in_words(d);
+      if (d.promised) return of_what_was_not_fitted(d, known) + ties_in_words(d);
       std::vector<std::string> names;
       for (const std::string& effect : d.missing) names.push_back(named(effect, d, known));
       return "Missing in the model: " + list_of(names) + "." + what_it_brings(d) + ties_in_words(d) +

@@ -220,8 +220,9 @@ class Mapper {
       levels.push_back(
           {one.strength, (*metric.outside)(stacked(one.change, metric)), metric.chaos * one.of_chaos});
     const Signature known(levels, {Eigen::VectorXd::Zero(levels.front().change.size()), 0});
-    const double needed = std::log(rules::answer_set / (1 - rules::answer_set)) -
-                          prior_log_odds(candidate.prior.odds, static_cast<double>(options_.known.size()));
+    const double needed =
+        std::log(rules::answer_set / (1 - rules::answer_set)) -
+        prior_log_odds(candidate.prior.odds, static_cast<double>(options_.known.searched()));
     const auto is_seen = [&](double strength) {
       const double s = sign * strength;
       const Signature filmed(levels, {known.share_seen(s) * known.change(s), 0});

@@ -121,7 +121,10 @@ Numbers numbers_of(const UsedFrames& frames, const Setup& setup, int most_peaks)
 
 /// Mean and spread of what the simulations have; none: NaN.
 MeasuredNumber beside(double measured, const std::vector<double>& simulated) {
-  const Statistic told = statistic_of(simulated);
+  std::vector<double> finite;
+  std::copy_if(simulated.begin(), simulated.end(), std::back_inserter(finite),
+               [](double value) { return std::isfinite(value); });
+  const Statistic told = statistic_of(finite);
   return told.n < 2 ? MeasuredNumber{measured, absent, absent} : MeasuredNumber{measured, told.mean, told.sd};
 }
 

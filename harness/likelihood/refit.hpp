@@ -105,8 +105,8 @@ struct RefitOptions {
   double look_beside_below = 0;
 };
 
-/// Fits the knobs (none: the setup as it is). Where simulations are refused (Workshop::ask_for) once there is
-/// a solution, that solution is the answer; before, BudgetSpent passes through. `measured` may leave runs
+/// Fits the knobs (none: the setup as it is). Where simulations are refused (Execution::ask_for) once there
+/// is a solution, that solution is the answer; before, BudgetSpent passes through. `measured` may leave runs
 /// out; compare_at() then judges them.
 Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs, const Workshop& workshop,
             const RefitOptions& options);

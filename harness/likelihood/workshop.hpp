@@ -16,7 +16,7 @@ namespace shakedown {
 struct Execution {
   int threads = 0;                          ///< 0: one for each core
   const std::atomic<bool>* stop = nullptr;  ///< set to true to stop; may be null
-  std::function<void(int runs)> done{};     ///< told of finished simulations, by one thread; may be empty
+  std::function<void(int runs)> done{};     ///< told of finished simulations, one at a time; may be empty
   /// Throws BudgetSpent where so many more simulations are too many; called from several threads; may be
   /// empty.
   std::function<void(std::int64_t more)> ask_for{};

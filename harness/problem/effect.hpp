@@ -146,7 +146,7 @@ struct CameraNumber {
 
 /// What the page of an empty box's answer lets its reader turn (diagnose/turned_model.hpp).
 struct OnPage {
-  bool integrated = false;  ///< the page integrates a box with this force
+  bool integrated = false;  ///< forces_of() of report/page/model.js has this force
   double reach = 0;         ///< of a number of the camera: how far from the answer, SI; 0: it is not turned
 };
 

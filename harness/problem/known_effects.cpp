@@ -2,6 +2,7 @@
 #include "known_effects.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace shakedown {
 
@@ -26,10 +27,11 @@ const Parameter* KnownEffects::find_parameter(std::string_view key) const {
   return record->find(rest.substr(0, rest.find('.')));
 }
 
-const EffectRecord* KnownEffects::oscillating() const {
-  const auto found = std::find_if(
-      begin(), end(), [](const EffectRecord* r) { return is_searched(r) && r->search.harmonic.has_value(); });
-  return found == end() ? nullptr : *found;
+std::vector<const EffectRecord*> KnownEffects::oscillating() const {
+  std::vector<const EffectRecord*> list;
+  std::copy_if(begin(), end(), std::back_inserter(list),
+               [](const EffectRecord* r) { return is_searched(r) && r->search.harmonic.has_value(); });
+  return list;
 }
 
 std::size_t KnownEffects::searched() const {

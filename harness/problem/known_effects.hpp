@@ -3,6 +3,7 @@
 #pragma once
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "effect.hpp"
 
@@ -18,9 +19,9 @@ class KnownEffects : public std::span<const EffectRecord* const> {
   const EffectRecord* find(std::string_view name) const;
   /// The parameter at "effect.parameter" or "effect.parameter.component"; null: there is none.
   const Parameter* find_parameter(std::string_view key) const;
-  /// The effect whose strength oscillates at a frequency that a diagnosis searches; the first of several,
-  /// for they make the same motion; null: none is known.
-  const EffectRecord* oscillating() const;
+  /// Effects whose strength oscillates at a frequency that a diagnosis searches. They make the same motion:
+  /// the first is named.
+  std::vector<const EffectRecord*> oscillating() const;
   /// How many of them a diagnosis of a box with grains looks for: among so many the prior of one is shared
   /// out.
   std::size_t searched() const;

@@ -23,11 +23,10 @@ struct ComparedModel {
 Report report_of(const ComparedModel& found, const Measurement& measurement, const Setup& setup,
                  const std::vector<MeasuredAgainstModel>& curves, ReportKnobs knobs = {});
 
-/// Error of each run as bars beside what noise and spread make.
 /// E, u_num, u_input, u_D and u_val of each observable of each run.
 ReportTable validation_table(const std::vector<Validation>& rows);
 
-/// Error of each run beside noise and spread, mm.
+/// Error of each run as bars beside what noise and spread make, mm.
 ReportSection errors_section(const std::string& title, const std::vector<RunComparison>& runs);
 
 }  // namespace shakedown

@@ -136,21 +136,40 @@ TEST(Rival, AShortFitThatGainsNothingIsNotSure) {
 // with it left. No time was left for the fit that weighs it, and its signature at 20 mN said e^-293.
 TEST(Rival, AShortFitStandsWhereThereWasNoTimeForMore) {
   const Candidate one = named("grain_cohesion");
-  Rival rival = shortly_fitted(one, 693, 3391);
+  const Candidate other = named("grain_friction");
+  std::vector<Rival> rivals{shortly_fitted(one, 693, 3391), shortly_fitted(other, 1500, 3391)};
+  Rival& rival = rivals[0];
   rival.screened.weighed = true;
   rival.screened.log_evidence = -293;
   rival.screened.seen.value = 1, rival.screened.seen.error = 0.1;
-  EXPECT_FALSE(take_short_fit(rival));
+  EXPECT_FALSE(take_short_fit(rivals, rival));
   weigh_rival(rival, known);
   EXPECT_LT(rival.log_odds, -293);
   rival.shortly.emplace();
   rival.shortly->fit.judged_chi2 = 693;
-  EXPECT_TRUE(take_short_fit(rival));
+  rivals[1].short_chi2 = 720;  // not told apart by short fits
+  EXPECT_FALSE(take_short_fit(rivals, rival));
+  rivals[1].short_chi2 = 1500;
+  EXPECT_TRUE(take_short_fit(rivals, rival));
   weigh_rival(rival, known);
   StrengthSeen seen = rival.screened.seen;
   seen.gain = 3391 - 693;
   EXPECT_DOUBLE_EQ(rival.log_odds, log_odds_of(seen, known));
   EXPECT_TRUE(is_found(rival));
+  EXPECT_EQ(ranked_as(rival).gain, seen.gain);
+}
+
+// An error of the camera is arithmetic on the recording: its signature is exact and its fit is not weighed.
+TEST(Rival, AFittedErrorOfTheCameraKeepsTheOddsOfItsSignature) {
+  const Candidate first = named("a"), camera = named("camera_lens");
+  std::vector<Rival> rivals{fitted(first, 1, 2600, {3, 1}), fitted(camera, 1, 2400, {1, 0})};
+  rivals[1].log_ratio = std::nan("");
+  weigh_beside_the_best(rivals, known);
+  EXPECT_DOUBLE_EQ(rivals[1].log_odds, 2400);
+  // What a short fit alone has put somewhere is weighed by what it leaves.
+  rivals[1].short_fit_stands = true;
+  weigh_beside_the_best(rivals, known);
+  WITHIN(rivals[1].log_odds - rivals[0].log_odds, averaged(9), 1e-12, 5e-14);
 }
 
 TEST(Rival, WhatTheDataRejectKeepsItsOdds) {

@@ -26,6 +26,16 @@ TEST(RecordList, NamesAreUniqueAndFound) {
   EXPECT_EQ(find_effect("nothing"), nullptr);
 }
 
+// Eleven say why no diagnosis of a box with grains looks for them, or only for the waveform of an empty one.
+TEST(RecordList, PriorsAreSharedAmongWhatIsLookedFor) {
+  EXPECT_EQ(all_effects().size(), 37u);
+  EXPECT_EQ(all_effects().searched(), 26u);
+  ASSERT_EQ(all_effects().oscillating().size(), 1u);  // a second mode only in the waveform of an empty box
+  EXPECT_EQ(all_effects().oscillating().front()->name, "oscillating_acceleration");
+  EXPECT_TRUE(KnownEffects().oscillating().empty());
+  EXPECT_EQ(KnownEffects().find("grain_friction"), nullptr);
+}
+
 /// Setups and measurements of years refer to these.
 TEST(RecordList, KeepsTheNamesOnceGiven) {
   for (const std::string_view name : {"grain_friction",

@@ -49,6 +49,21 @@ std::vector<MeasuredFeatures> measured() {
 
 }  // namespace
 
+TEST(Limits, AreAskedAfterTheFlagThatStops) {
+  std::atomic<bool> stop = false;
+  int asked = 0, done = 0;
+  const Execution work{1, &stop, [&](int more) { done += more; }, [&](std::int64_t) { ++asked; }};
+  work.ask(3);
+  work.finished(2);
+  stop = true;
+  EXPECT_THROW(work.ask(0), Interrupted);
+  EXPECT_EQ(asked, 1);
+  EXPECT_EQ(done, 2);
+  const Execution unlimited;
+  unlimited.ask(1000000);
+  unlimited.finished(1);
+}
+
 TEST(Limits, HoldWithinASimulation) {
   int reports = 0, asked = 0;
   const Stalling engine(reports);

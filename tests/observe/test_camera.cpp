@@ -151,8 +151,42 @@ TEST(Camera, DerivativesAreThoseOfTheCamera) {
     }
     EXPECT_GT(size, 0) << parameter.path;
     EXPECT_LT(most, 1e-3 * size) << parameter.path;  // seen: 3e-4, what the step leaves of second order
-    EXPECT_EQ(find_camera_parameter(all_effects(), parameter.path)->field, parameter.field);
   }
+}
+
+struct Told {
+  const char* path;
+  double Camera::*field;
+  bool optical, inverse_square;
+};
+
+TEST(Camera, EachNumberIsSetByTheEffectThatSaysSo) {
+  const Told told[] = {{"camera_scale.scale", &Camera::scale, false, false},
+                       {"camera_lens.distortion", &Camera::lens, true, false},
+                       {"camera_tilt.tilt", &Camera::tilt, true, false},
+                       {"camera_depth.depth", &Camera::depth, true, false},
+                       {"camera_shutter.time", &Camera::shutter, true, false},
+                       {"camera_origin.origin", &Camera::origin, false, false},
+                       {"camera_drift.drift", &Camera::drift, false, false},
+                       {"camera_time_offset.offset", &Camera::time_offset, false, false},
+                       {"camera_com_bias.bias", &Camera::centre_bias, true, false},
+                       {"camera_arc.blade_length", &Camera::arc_length, true, true}};
+  EXPECT_EQ(camera_parameters(all_effects()).size(), std::size(told));
+  for (const Told& one : told) {
+    const std::optional<CameraParameter> parameter = find_camera_parameter(all_effects(), one.path);
+    ASSERT_TRUE(parameter) << one.path;
+    EXPECT_EQ(parameter->field, one.field) << one.path;
+    EXPECT_EQ(parameter->optical, one.optical) << one.path;
+    EXPECT_EQ(parameter->inverse_square, one.inverse_square) << one.path;
+    // The record writes what it says.
+    EffectChoice choice = with_defaults(*all_effects().find(effect_of(one.path)));
+    choice.values[std::string(choice.record->parameters.front().name)] = 0.125;
+    Physics physics;
+    choice.record->apply(choice, 0, physics);
+    EXPECT_EQ(physics.camera.*one.field, 0.125) << one.path;
+  }
+  EXPECT_FALSE(find_camera_parameter(all_effects(), "camera_lens.nothing"));
+  EXPECT_FALSE(find_camera_parameter(all_effects(), "grain_friction.grain_grain"));
 }
 
 }  // namespace

@@ -11,6 +11,18 @@
 
 using namespace shakedown;
 
+TEST(InOrder, ServesOnSoManyThreadsAtOnce) {
+  std::latch all(3);
+  std::atomic<int> served = 0;
+  serve_on_threads(3, [&] {
+    all.arrive_and_wait();  // with fewer it would wait for ever
+    ++served;
+  });
+  EXPECT_EQ(served, 3);
+  serve_on_threads(0, [&] { ++served; });
+  EXPECT_EQ(served, 4);
+}
+
 TEST(InOrder, DeliversAscendingWhateverTheThreads) {
   for (const int threads : {1, 2, 3, 8}) {
     std::vector<int> delivered;

@@ -193,7 +193,7 @@ class Diagnosis(_WithSetup, _WithCurves):
 
     @property
     def missing(self) -> list[str]:
-        """Names of the effects that were added."""
+        """Names of the effects that were added, or that are most probable (to_dict()["not_fitted"])."""
         return list(self.to_dict()["missing"])
 
     @property
