@@ -2,6 +2,7 @@
 // Where the simulations and the time of a diagnosis go. What decides here spares work; what decides between
 // hypotheses stands in rules.hpp.
 #pragma once
+#include <algorithm>
 #include <span>
 
 #include "rules.hpp"
@@ -18,6 +19,13 @@ struct Effort {
   bool whole = false;   ///< not cut where runs are dear: its intervals are the answer's
   int looks = 2;        ///< more, where the first was misled or is poor
 };
+/// Of each different setup: rounds that only find the way take half (likelihood/refit.cpp), 64 at least.
+constexpr int simulations_of(const Effort& effort) {
+  constexpr int least_on_the_way = 64;
+  return (effort.rounds - 1) * std::max(least_on_the_way, effort.count / 2) + effort.count +
+         effort.confirming;
+}
+
 namespace effort {
 constexpr Effort look{1, 128, 0}, refit{2, 160, 128}, beside{2, 160, 128, true},
     attempt{.rounds = 2, .count = 128, .confirming = 96, .looks = 1},

@@ -86,8 +86,13 @@ bool is_found(const Rival& rival) { return rival.fitted && rival.log_odds > 0; }
 
 bool holds(const Rival& rival) { return rival.fitted && rival.state.fit.p_value > rules::holds; }
 
-bool is_shortly_fitted(const Rival& rival) {
-  return rival.fitted && rival.short_fit_stands && !std::isfinite(rival.log_ratio);
+bool is_weighed_by_left(const Rival& rival) {
+  return rival.fitted && rival.weighed_by_left && !std::isfinite(rival.log_ratio);
+}
+
+Effort affordable(const Rival& rival, Effort usual, double left) {
+  const double needed = rival.short_share * simulations_of(usual) / simulations_of(effort::least);
+  return needed > left ? effort::attempt_when_dear : usual;  // NaN: no short fit says
 }
 
 double signatures_err_by(double best) { return std::max(std::log(10), effort::signature_errs * best); }
@@ -118,10 +123,12 @@ DiagnosisState with_rival(const DiagnosisState& before, const Rival& rival, Diag
 
 void fit_shortly(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools) {
   DiagnosisState state = with_rival(before, rival, tools);
+  const double spent = tools.share_spent();
   rival.chi2_without = before.fit.judged_chi2;
   state.fit = tools.fit(state, "looking at " + rival.candidate->effect, knobs_of_fit(before, state),
                         effort::least, &before.fit);
   rival.short_chi2 = state.fit.judged_chi2;
+  rival.short_share = tools.share_spent() - spent;
   rival.held_out_gain = before.fit.judged_held_out_chi2 - state.fit.judged_held_out_chi2;
   rival.shortly = std::move(state);
 }
@@ -130,7 +137,7 @@ bool take_short_fit(const std::vector<Rival>& rivals, Rival& rival) {
   if (!rival.shortly || !is_alone_in_question(rivals, rival)) return false;
   rival.state = std::move(*rival.shortly);
   rival.shortly.reset();
-  rival.fitted = rival.short_fit_stands = true;
+  rival.fitted = rival.weighed_by_left = true;
   return true;
 }
 
@@ -148,7 +155,9 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
   try {
     rival.log_ratio =
         screen.log_likelihood_ratio(tools.features(state.setup), at_values(state.fit), weighing.nothing);
-  } catch (const BudgetSpent&) {  // the signature's evidence stands
+  } catch (const BudgetSpent&) {
+    // The signature's evidence stands, but where the model without is so far off that it says little.
+    rival.weighed_by_left = std::isfinite(rival.chi2_without);
   }
 }
 
@@ -160,7 +169,7 @@ void weigh_rival(Rival& rival, double candidates) {
   rival.log_odds = prior_log_odds(seen.odds, candidates);
   if (rival.screened.weighed) rival.log_odds += rival.screened.log_evidence - rival.nothing_gained;
   // A short fit is made where the model without is so far off that signatures say little.
-  const bool shortly = is_shortly_fitted(rival);
+  const bool shortly = is_weighed_by_left(rival);
   if (!shortly && !std::isfinite(rival.log_ratio)) return;
   StrengthSeen fitted = strength_fitted(rival);
   fitted.gain = shortly ? rival.chi2_without - rival.state.fit.judged_chi2
@@ -183,7 +192,7 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
                signature = best->screened.log_evidence;
   for (Rival& rival : rivals) {
     if (&rival == best) continue;
-    if (counts(rival) || is_shortly_fitted(rival))
+    if (counts(rival) || is_weighed_by_left(rival))
       rival.log_odds =
           from + prior(rival) + of_fits * (of_best - chi2_left(rival.state.fit, covariances)) / 2;
     else if (!rival.fitted && rival.screened.weighed && best->screened.weighed)
@@ -254,7 +263,7 @@ RankedEffect ranked_as(const Rival& rival) {
   if (!rival.fitted) return ranked;
   ranked.fitted = true;
   if (std::isfinite(rival.log_ratio)) ranked.gain = 2 * (rival.log_ratio - rival.nothing_gained);
-  if (is_shortly_fitted(rival)) ranked.gain = rival.chi2_without - rival.state.fit.judged_chi2;
+  if (is_weighed_by_left(rival)) ranked.gain = rival.chi2_without - rival.state.fit.judged_chi2;
   ranked.held_out_gain = rival.held_out_gain;
   // of a difference of two chi2 of nested models
   ranked.standard_error = 2 * std::sqrt(std::abs(rival.held_out_gain));

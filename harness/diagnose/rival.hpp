@@ -25,7 +25,8 @@ struct Rival {
   /// made.
   double short_chi2 = std::nan(""), chi2_without = std::nan("");
   std::optional<DiagnosisState> shortly{};  ///< where its short fit put it
-  bool short_fit_stands = false;            ///< `state` is that, for want of time
+  double short_share = std::nan("");        ///< of simulations or time, that its short fit took
+  bool weighed_by_left = false;             ///< by what its fit leaves, for want of time
   bool out_of_time = false;                 ///< its weighing or its fit, for want of time or simulations
   /// ln likelihood of the model without it where it was fitted, over that where the screen is.
   double nothing_gained = 0;
@@ -41,8 +42,12 @@ bool is_found(const Rival& rival);
 /// The data accept it as fitted.
 bool holds(const Rival& rival);
 
-/// Nothing but a short fit has put it where it is.
-bool is_shortly_fitted(const Rival& rival);
+/// Nothing but what its fit leaves weighs it.
+bool is_weighed_by_left(const Rival& rival);
+
+/// The effort that its fit can take of the share that is left, by what its short fit took: `usual`, or that
+/// of effects which make runs dear.
+Effort affordable(const Rival& rival, Effort usual, double left);
 
 /// By how much ln odds of signatures are wrong, where the best one has so many: a factor of ten, far from
 /// nothing effort::signature_errs.
@@ -68,7 +73,7 @@ void fit_shortly(Rival& rival, const DiagnosisState& before, DiagnosisTools& too
 bool take_short_fit(const std::vector<Rival>& rivals, Rival& rival);
 
 /// Its odds beside nothing by what is known so far: its prior, its signature, its fitted model; of one that
-/// only a short fit has put where it is, what that leaves. `candidates`:
+/// there was no time to weigh and whose signature says little, what its fit leaves. `candidates`:
 /// the number of effects that are looked for.
 void weigh_rival(Rival& rival, double candidates);
 
