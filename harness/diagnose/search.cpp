@@ -240,7 +240,7 @@ class Round {
         fit(affordable(rival, rival.candidate->dear ? effort::attempt_when_dear : effort::attempt,
                        tools_.limit() - tools_.share_spent()));
       } catch (const BudgetSpent&) {
-        if (rival.shortly) throw;  // a fit of the least effort was made
+        if (rival.shortly && is_alone_in_question(rivals_, rival)) throw;  // its short fit stands
         // What is sure is fitted with what was kept for the last fit.
         if (probability_among(rivals_, rival) <= rules::adds_effect && !is_alone_in_question(rivals_, rival))
           throw;
