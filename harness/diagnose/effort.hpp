@@ -2,9 +2,9 @@
 // Where the simulations and the time of a diagnosis go. What decides here spares work; what decides between
 // hypotheses stands in rules.hpp.
 #pragma once
-#include <algorithm>
 #include <span>
 
+#include "refit.hpp"
 #include "rules.hpp"
 #include "screen_effort.hpp"
 
@@ -19,11 +19,9 @@ struct Effort {
   bool whole = false;   ///< not cut where runs are dear: its intervals are the answer's
   int looks = 2;        ///< more, where the first was misled or is poor
 };
-/// Of each different setup: rounds that only find the way take half (likelihood/refit.cpp), 64 at least.
+/// Of each different setup.
 constexpr int simulations_of(const Effort& effort) {
-  constexpr int least_on_the_way = 64;
-  return (effort.rounds - 1) * std::max(least_on_the_way, effort.count / 2) + effort.count +
-         effort.confirming;
+  return (effort.rounds - 1) * simulations_on_the_way(effort.count) + effort.count + effort.confirming;
 }
 
 namespace effort {

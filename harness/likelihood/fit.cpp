@@ -40,13 +40,12 @@ MeasuredFeatures beginning_of(const MeasuredFeatures& whole, double end) {
 }
 
 /// A regression on as many simulations as it has terms leaves nothing between them: what is chaos would seem
-/// known. Rounds on the way make half the simulations, 64 at least.
+/// known.
 void refuse_too_few_simulations(const std::vector<Knob>& knobs, int count) {
   const int terms = static_cast<int>(
       regression_terms(knobs, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs.size()))).size());
-  constexpr int fewest_on_the_way = 64;
   const bool half_decides = 4 * terms > 2 * fewest_on_the_way;
-  if (std::min(count, std::max(fewest_on_the_way, count / 2)) >= 2 * terms) return;
+  if (std::min(count, simulations_on_the_way(count)) >= 2 * terms) return;
   throw InputError(
       {{{"--runs", 0, 0},
         fmt::format("{}", count),

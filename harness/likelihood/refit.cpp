@@ -237,7 +237,7 @@ Refit refit_by_rounds(const std::vector<MeasuredFeatures>& measured, std::vector
     // that judges.
     const int count = nothing_to_scatter || (number >= options.rounds && !best)
                           ? options.count
-                          : std::max(64, options.count / 2);
+                          : simulations_on_the_way(options.count);
     const FitRound round(
         measured, here, emulate(measured, here, count, options.first_run + 10000 * number, pooling), options);
     const Minimum minimum = minimum_of(round.objective(), reach, nothing_to_scatter ? 1 : 6);

@@ -3,6 +3,7 @@
 // of the chaos, the camera's noise and the emulator's own error. Whether what remains is within the model's
 // spread is told by pseudo-experiments drawn from simulations that the covariance has not seen.
 #pragma once
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -79,6 +80,11 @@ struct Refit {
   double floor_box() const;
   double floor_centre() const;
 };
+
+/// Simulations of each different setup in a round that only finds the way: half of those of the round that
+/// judges, and `fewest_on_the_way` at least (an assumption).
+constexpr int fewest_on_the_way = 64;
+constexpr int simulations_on_the_way(int count) { return std::max(fewest_on_the_way, count / 2); }
 
 struct RefitOptions {
   int count = 192;      ///< simulations of each different setup in the last round, half as many before
