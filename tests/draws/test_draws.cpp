@@ -21,7 +21,7 @@ using namespace shakedown;
 
 namespace {
 
-constexpr int most_seconds = 15;  // of a core
+constexpr int most_seconds = 12;  // of a core; after ten it says how long it will take
 
 struct Asked {
   std::string setup;
