@@ -155,6 +155,11 @@ void Course::judge() {
   tools_.limit_to(1);
   if (!final.missing.empty() && final.missing != refitted.missing && final.missing != wholly_fitted_)
     final = with_full_effort(final);
+  // It tells strengths better than the fit that weighed both of a pair.
+  if (final.missing != refitted.missing && added_last_ > 1) {
+    const DiagnosisState less = still_needed(final, added_last_);
+    if (less.missing != final.missing) final = with_full_effort(less);
+  }
   final = without_untold(std::move(final), refitted);
   if (final.missing.empty() && accepted) return conclude(user_, given, given, false, tools_, result_);
   conclude(user_, given, final, !no_better, tools_, result_);

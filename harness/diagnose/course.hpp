@@ -67,6 +67,8 @@ class Course {
   /// is looked beside where it is doubtful and nothing was found that is sure.
   DiagnosisState search(DiagnosisState& refitted);
   DiagnosisState with_full_effort(DiagnosisState state);
+  /// Without what later effects have made needless; `added`: how many were added last at once.
+  DiagnosisState still_needed(DiagnosisState state, std::size_t added);
   /// An effect that was added to a model which the data accept, and of which the last fit finds next to
   /// nothing, is taken back; so is what was added between two models that the data reject, where no error
   /// falls.
@@ -84,6 +86,7 @@ class Course {
   RunnerUp runner_up_;
   std::optional<Refit> first_periods_;      ///< the fit that chose the engine
   std::optional<DiagnosisState> accepted_;  ///< before the last effect was added, where the data accept that
+  std::size_t added_last_ = 1;              ///< how many effects at once
   std::vector<std::string> wholly_fitted_;  ///< effects beside which the last fit was made already
 };
 

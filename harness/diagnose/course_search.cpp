@@ -36,7 +36,6 @@ DiagnosisState& Course::beside(DiagnosisState& refitted) {
 
 DiagnosisState Course::search(DiagnosisState& refitted) {
   DiagnosisState state = refitted;
-  const std::vector<std::string> from_balance = effects_of(result_.momentum);
   // Until nothing is added, though the data accept the model: chi2 of hundreds of features does not see what
   // a single effect would take away. Where runs cost several times a plain one, only while they do not.
   for (bool searched = false;; searched = true) {
@@ -66,24 +65,29 @@ DiagnosisState Course::search(DiagnosisState& refitted) {
     if (!round.added) break;
     accepted_.reset();
     if (state.fit.p_value > rules::holds) accepted_ = state;
-    const std::size_t added = round.next.missing.size() - state.missing.size();
+    added_last_ = round.next.missing.size() - state.missing.size();
     state = round.next;
     runner_up_ = {round.next.missing.back(), round.runner_up, round.runner_up_setup};
     result_.ladder.push_back(step_of(step_name(state.missing), state.fit));
-    const std::vector<std::string> before = state.missing;
-    // A pair was weighed as a whole: that both are needed is worth what was kept for the last fit.
-    const double limit = tools_.limit();
-    if (added > 1) tools_.limit_to(1);
-    state = unless_spent("which effects are still needed", state,
-                         [&] { return pruned(state, tools_, from_balance, added); });
-    tools_.limit_to(limit);
-    for (const std::string& effect : before)
-      if (std::find(state.missing.begin(), state.missing.end(), effect) == state.missing.end())
-        take_back(effect);
+    state = still_needed(std::move(state), added_last_);
     // The fit that is made in the end anyway, where it may spare a round.
     if (state.fit.p_value <= rules::doubtful) state = with_full_effort(state).settled(tools_.known());
   }
   result_.runner_up = runner_up_;
+  return state;
+}
+
+DiagnosisState Course::still_needed(DiagnosisState state, std::size_t added) {
+  const std::vector<std::string> before = state.missing;
+  // A pair was weighed as a whole: that both are needed is worth what was kept for the last fit.
+  const double limit = tools_.limit();
+  if (added > 1) tools_.limit_to(1);
+  state = unless_spent("which effects are still needed", state,
+                       [&] { return pruned(state, tools_, effects_of(result_.momentum), added); });
+  tools_.limit_to(limit);
+  for (const std::string& effect : before)
+    if (std::find(state.missing.begin(), state.missing.end(), effect) == state.missing.end())
+      take_back(effect);
   return state;
 }
 

@@ -66,12 +66,26 @@ StrengthSeen strength_fitted(const Rival& rival) {
   return seen;
 }
 
-/// What a fit leaves, in the metric of these covariances of each run.
-double chi2_left(const Refit& fit, const std::vector<Eigen::MatrixXd>& covariances) {
+/// What a fit leaves of each run's features.
+std::vector<Eigen::VectorXd> left_by(const Refit& fit) {
+  std::vector<Eigen::VectorXd> left;
+  for (const RunComparison& run : fit.runs) left.push_back(run.residual);
+  return left;
+}
+
+/// The same, in the metric of these covariances of each run.
+double chi2_of(const std::vector<Eigen::VectorXd>& left, const std::vector<Eigen::MatrixXd>& covariances) {
   double sum = 0;
-  for (std::size_t r = 0; r < fit.runs.size(); ++r)
-    sum += Eigen::LLT<Eigen::MatrixXd>(covariances[r]).matrixL().solve(fit.runs[r].residual).squaredNorm();
+  for (std::size_t r = 0; r < left.size(); ++r)
+    sum += Eigen::LLT<Eigen::MatrixXd>(covariances[r]).matrixL().solve(left[r]).squaredNorm();
   return sum;
+}
+
+/// The data accept its short fit, and no longer one has taken that back.
+bool may_hold(const Rival& rival) { return rival.short_holds && (!rival.fitted || holds(rival)); }
+
+bool some_may_hold(const std::vector<Rival>& rivals) {
+  return std::any_of(rivals.begin(), rivals.end(), may_hold);
 }
 
 /// The odds of a difference of ln odds that is known to within `error`, averaged over what it may be, are
@@ -95,7 +109,9 @@ Effort affordable(const Rival& rival, Effort usual, double left) {
   return needed > left ? effort::attempt_when_dear : usual;  // NaN: no short fit says
 }
 
-double signatures_err_by(double best) { return std::max(std::log(10), effort::signature_errs * best); }
+double signatures_err_by(double best) {
+  return std::max(std::log(10), effort::signature_errs * std::abs(best));
+}
 
 std::vector<Knob> at_values(const Refit& fit) {
   std::vector<Knob> knobs = fit.knobs;
@@ -128,6 +144,8 @@ void fit_shortly(Rival& rival, const DiagnosisState& before, DiagnosisTools& too
   state.fit = tools.fit(state, "looking at " + rival.candidate->effect, knobs_of_fit(before, state),
                         effort::least, &before.fit);
   rival.short_chi2 = state.fit.judged_chi2;
+  rival.short_left = left_by(state.fit);
+  rival.short_holds = state.fit.p_value > rules::holds;
   rival.short_share = tools.share_spent() - spent;
   rival.held_out_gain = before.fit.judged_held_out_chi2 - state.fit.judged_held_out_chi2;
   rival.shortly = std::move(state);
@@ -188,35 +206,56 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
   const std::vector<Eigen::MatrixXd>& covariances = best->state.fit.covariances;
   const auto prior = [&](const Rival& rival) { return prior_log_odds(rival.screened.seen.odds, candidates); };
   const double of_fits = averaged_over(rules::emulator_noise / 2),
-               of_best = chi2_left(best->state.fit, covariances), from = best->log_odds - prior(*best),
+               of_best = chi2_of(left_by(best->state.fit), covariances), from = best->log_odds - prior(*best),
                signature = best->screened.log_evidence;
+  // At least what its fit shows that the best one's was wrong by.
+  const double of_signatures = averaged_over(
+      std::max(signatures_err_by(signature), std::abs(best->log_ratio - best->nothing_gained - signature)));
+  const auto beside_the_best = [&](const Rival& rival, double chi2, double factor) {
+    return from + prior(rival) + factor * (of_best - chi2) / 2;
+  };
   for (Rival& rival : rivals) {
     if (&rival == best) continue;
-    if (counts(rival) || is_weighed_by_left(rival))
+    if (rival.fitted && (std::isfinite(rival.log_ratio) || is_weighed_by_left(rival))) {
+      const double weighed = beside_the_best(rival, chi2_of(left_by(rival.state.fit), covariances), of_fits);
+      // What the data reject gains nothing by it.
       rival.log_odds =
-          from + prior(rival) + of_fits * (of_best - chi2_left(rival.state.fit, covariances)) / 2;
-    else if (!rival.fitted && rival.screened.weighed && best->screened.weighed)
+          counts(rival) || is_weighed_by_left(rival) ? weighed : std::min(rival.log_odds, weighed);
+    } else if (!rival.fitted && !rival.short_left.empty()) {
+      const double left = chi2_of(rival.short_left, covariances),
+                   err = (effort::short_fits_err - 1) / normal_95 * left / 2;
       rival.log_odds =
-          from + prior(rival) +
-          averaged_over(signatures_err_by(signature)) * (rival.screened.log_evidence - signature);
+          beside_the_best(rival, left, averaged_over(std::hypot(err, rules::emulator_noise / 2)));
+    } else if (!rival.fitted && rival.screened.weighed && best->screened.weighed && !is_arithmetic(rival)) {
+      rival.log_odds = from + prior(rival) + of_signatures * (rival.screened.log_evidence - signature);
+    }
   }
 }
 
 std::vector<Rival*> in_question(std::vector<Rival>& rivals) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Rival& rival : rivals) least = std::fmin(least, rival.short_chi2);
+  const bool only_those_that_may_hold = some_may_hold(rivals);
   std::vector<Rival*> list;
+  double least = std::numeric_limits<double>::infinity();
   for (Rival& rival : rivals)
-    if (!rival.attempted && rival.short_chi2 <= effort::short_fits_err * least) list.push_back(&rival);
+    if (may_hold(rival) || !only_those_that_may_hold) {
+      list.push_back(&rival);
+      least = std::fmin(least, rival.short_chi2);
+    }
+  std::erase_if(list, [&](const Rival* rival) {
+    return rival->attempted || !(rival->short_chi2 <= effort::short_fits_err * least);
+  });
   std::stable_sort(list.begin(), list.end(),
                    [](const Rival* a, const Rival* b) { return a->short_chi2 < b->short_chi2; });
   return list;
 }
 
 bool is_alone_in_question(const std::vector<Rival>& rivals, const Rival& one) {
+  const bool only_those_that_may_hold = some_may_hold(rivals);
+  if (only_those_that_may_hold && !may_hold(one)) return false;
   double second = one.chi2_without;
   for (const Rival& rival : rivals)
-    if (rival.candidate->effect != one.candidate->effect) second = std::fmin(second, rival.short_chi2);
+    if (rival.candidate->effect != one.candidate->effect && (may_hold(rival) || !only_those_that_may_hold))
+      second = std::fmin(second, rival.short_chi2);
   return effort::short_fits_err * one.short_chi2 < second;
 }
 

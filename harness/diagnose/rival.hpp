@@ -24,10 +24,12 @@ struct Rival {
   /// What its short fit left and what the model without leaves, in the metric of that one; NaN: none was
   /// made.
   double short_chi2 = std::nan(""), chi2_without = std::nan("");
-  std::optional<DiagnosisState> shortly{};  ///< where its short fit put it
-  double short_share = std::nan("");        ///< of simulations or time, that its short fit took
-  bool weighed_by_left = false;             ///< by what its fit leaves, for want of time
-  bool out_of_time = false;                 ///< its weighing or its fit, for want of time or simulations
+  std::optional<DiagnosisState> shortly{};    ///< where its short fit put it
+  std::vector<Eigen::VectorXd> short_left{};  ///< m, of each run's features, by its short fit
+  bool short_holds = false;                   ///< the data accept it as its short fit left it
+  double short_share = std::nan("");          ///< of simulations or time, that its short fit took
+  bool weighed_by_left = false;               ///< by what its fit leaves, for want of time
+  bool out_of_time = false;                   ///< its weighing or its fit, for want of time or simulations
   /// ln likelihood of the model without it where it was fitted, over that where the screen is.
   double nothing_gained = 0;
 };
@@ -49,8 +51,8 @@ bool is_weighed_by_left(const Rival& rival);
 /// of effects which make runs dear.
 Effort affordable(const Rival& rival, Effort usual, double left);
 
-/// By how much ln odds of signatures are wrong, where the best one has so many: a factor of ten, far from
-/// nothing effort::signature_errs.
+/// By how much ln odds of signatures are wrong, where the best one has so many of either sign: a factor of
+/// ten, far from nothing effort::signature_errs.
 double signatures_err_by(double best);
 
 /// The knobs of a fit at its values.
@@ -80,14 +82,18 @@ void weigh_rival(Rival& rival, double candidates);
 /// Where the data reject the model without them all, the likelihood of each over it is told in the metric of
 /// a model that is wrong: 2 % of thousands. Fitted rivals which the data accept, and those that nothing but a
 /// fit weighs, are weighed beside the best by what each leaves, in the metric of that one; what was not
-/// fitted, by the signatures of both.
+/// fitted, by what its short fit leaves, or, where none was made, by the signatures of both; one that is
+/// arithmetic keeps its odds, for its signature is exact.
 void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates);
 
 /// Those whose fit has not had its turn and whose short fits left as little as any as far as short fits tell,
-/// least first; none where no short fit was made.
+/// least first; none where no short fit was made. What a short fit leaves is told in the metric of the model
+/// without, which is wrong: where the data accept some as they were fitted shortly, only these are in
+/// question, until their fits take that back.
 std::vector<Rival*> in_question(std::vector<Rival>& rivals);
 
-/// No other short fit left as little as this one's as far as short fits tell, nor did the model without.
+/// No other short fit left as little as this one's as far as short fits tell, nor did the model without; of
+/// those that the data accept, no other that they accept.
 bool is_alone_in_question(const std::vector<Rival>& rivals, const Rival& one);
 
 /// Of these, most probable first, the one to fit next: signatures that differ by less than they err by say

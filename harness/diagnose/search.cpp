@@ -215,7 +215,8 @@ class Round {
     const double best = std::min(promised, order_.front()->log_odds);
     const double worth_a_fit = all_bad ? -std::numeric_limits<double>::infinity()
                                        : std::max(worth_asking, best - signatures_err_by(best));
-    if (const std::vector<Rival*> shortly = in_question(rivals_); !shortly.empty() && none_holds())
+    if (const std::vector<Rival*> shortly = in_question(rivals_);
+        !shortly.empty() && (none_holds() || shortly.front()->short_holds))
       return shortly.front();
     std::vector<Rival*> open;
     for (Rival* rival : order_) {
