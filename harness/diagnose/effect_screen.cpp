@@ -104,7 +104,8 @@ bool EffectScreen::glance(const Candidate& candidate, Weighed& one) {
   simulations_->look_at_the_middle(candidate, effort_.glance, one.looked);
   if (!one.looked.levels.empty()) weigh_again(candidate, one);
   // Beside nothing alone, while the best one is not known.
-  if (!one.looked.whole && (one.looked.levels.empty() || may_be_missing(one.effect, 0))) {
+  if (!effort_.middle_alone && !one.looked.whole &&
+      (one.looked.levels.empty() || may_be_missing(one.effect, 0))) {
     simulations_->look(candidate, effort_.glance, one.looked);
     if (!one.looked.levels.empty()) weigh_again(candidate, one);
   }
@@ -133,7 +134,8 @@ Screening EffectScreen::weigh(const std::vector<Candidate>& candidates) {
   bool spent = false;
   for (const std::size_t c : by_odds_for_cost(candidates)) {
     const Candidate& candidate = candidates[c];
-    Weighed one{{c, candidate.effect, 0, candidate.levels.front().value, 0, candidate.prior}, {}};
+    const double middle = candidate.levels[candidate.levels.size() / 2].value;
+    Weighed one{{c, candidate.effect, 0, middle, 0, candidate.prior}, {}};
     if (!spent) try {
         if (!glance(candidate, one)) {
           screening.left_out.push_back({candidate.effect, one.looked.reason});

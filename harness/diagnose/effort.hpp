@@ -28,11 +28,17 @@ namespace effort {
 constexpr Effort look{1, 128, 0}, refit{2, 160, 128}, beside{2, 160, 128, true},
     attempt{.rounds = 2, .count = 128, .confirming = 96, .looks = 1},
     attempt_when_dear{.rounds = 1, .count = 72, .confirming = 48, .looks = 1},
-    conclude{1, 192, 160, false, false, true}, apart{2, 160, 128, true, false, true},
-    least{1, 64, 0, false, true};
+    conclude{1, 192, 160, false, false, true},
+    conclude_in_haste{.rounds = 1, .count = 96, .confirming = 64, .whole = true, .looks = 1},
+    apart{2, 160, 128, true, false, true}, least{1, 64, 0, false, true};
 constexpr int most_when_dear = 80;
 constexpr std::size_t most_pairs = 2;
 constexpr ScreenEffort rank{}, rank_when_dear{32, 48, {8, 8, 8}, {12, 12, 12}};
+/// The same where signatures say little but at which strength a short fit begins.
+constexpr ScreenEffort at_the_middle(ScreenEffort effort) {
+  effort.middle_alone = true;
+  return effort;
+}
 
 constexpr Rule far_off{
     "far_off", 2, "times the misfit of own runs",
@@ -57,8 +63,7 @@ constexpr Rule moves_along{
     "what they err by at the edge (an assumption); 12 simulations move them by 0.2 by chance"};
 constexpr Rule short_fits_err{
     "short_fits_err", 1.3, "times what the best of them left",
-    "64 simulations about one strength and about another left 693 and 730, 3405 and 3730; of two films an "
-    "effect that was there left 1.10 and 1.0 times the least"};
+    "64 simulations about one strength and about another left 693 and 730, 3405 and 3730"};
 constexpr Rule astray{
     "astray", 2, "errors of what is believed",
     "the restitutions of a rejected model beyond are not where effects are looked for: what a 95 % interval "
@@ -77,7 +82,7 @@ constexpr double engine_choice = 0.35;
 constexpr double ranking_of_a_round = 0.5;
 /// Where signatures say little they are to leave time for short fits of each effect, and these for the fits
 /// that they choose: assumptions.
-constexpr double ranking_when_far_off = 0.3, short_fits_of_the_rest = 0.5;
+constexpr double ranking_when_far_off = 0.3, short_fits_of_the_rest = 0.5, short_fits_while_none_holds = 0.8;
 }  // namespace share
 
 /// Those with a name, in this order.

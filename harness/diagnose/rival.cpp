@@ -81,6 +81,16 @@ double chi2_of(const std::vector<Eigen::VectorXd>& left, const std::vector<Eigen
   return sum;
 }
 
+double log_determinant(const std::vector<Eigen::MatrixXd>& covariances) {
+  double sum = 0;
+  for (const Eigen::MatrixXd& covariance : covariances)
+    sum += 2 * Eigen::LLT<Eigen::MatrixXd>(covariance).matrixLLT().diagonal().array().log().sum();
+  return sum;
+}
+
+/// What short fits of one that is there may miss of its deviance.
+double short_fit_errs(const Rival& rival) { return (effort::short_fits_err - 1) * rival.short_own_chi2; }
+
 /// The data accept its short fit, and no longer one has taken that back.
 bool may_hold(const Rival& rival) { return rival.short_holds && (!rival.fitted || holds(rival)); }
 
@@ -145,6 +155,8 @@ void fit_shortly(Rival& rival, const DiagnosisState& before, DiagnosisTools& too
                         effort::least, &before.fit);
   rival.short_chi2 = state.fit.judged_chi2;
   rival.short_left = left_by(state.fit);
+  rival.short_own_chi2 = chi2_of(rival.short_left, state.fit.covariances);
+  rival.short_deviance = rival.short_own_chi2 + log_determinant(state.fit.covariances);
   rival.short_holds = state.fit.p_value > rules::holds;
   rival.short_share = tools.share_spent() - spent;
   rival.held_out_gain = before.fit.judged_held_out_chi2 - state.fit.judged_held_out_chi2;
@@ -235,28 +247,27 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
 std::vector<Rival*> in_question(std::vector<Rival>& rivals) {
   const bool only_those_that_may_hold = some_may_hold(rivals);
   std::vector<Rival*> list;
-  double least = std::numeric_limits<double>::infinity();
   for (Rival& rival : rivals)
-    if (may_hold(rival) || !only_those_that_may_hold) {
+    if (std::isfinite(rival.short_deviance) && (may_hold(rival) || !only_those_that_may_hold))
       list.push_back(&rival);
-      least = std::fmin(least, rival.short_chi2);
-    }
-  std::erase_if(list, [&](const Rival* rival) {
-    return rival->attempted || !(rival->short_chi2 <= effort::short_fits_err * least);
-  });
   std::stable_sort(list.begin(), list.end(),
-                   [](const Rival* a, const Rival* b) { return a->short_chi2 < b->short_chi2; });
+                   [](const Rival* a, const Rival* b) { return a->short_deviance < b->short_deviance; });
+  if (list.empty()) return list;
+  const double as_likely = list.front()->short_deviance + short_fit_errs(*list.front());
+  std::erase_if(list,
+                [&](const Rival* rival) { return rival->attempted || rival->short_deviance > as_likely; });
   return list;
 }
 
 bool is_alone_in_question(const std::vector<Rival>& rivals, const Rival& one) {
   const bool only_those_that_may_hold = some_may_hold(rivals);
   if (only_those_that_may_hold && !may_hold(one)) return false;
-  double second = one.chi2_without;
-  for (const Rival& rival : rivals)
-    if (rival.candidate->effect != one.candidate->effect && (may_hold(rival) || !only_those_that_may_hold))
-      second = std::fmin(second, rival.short_chi2);
-  return effort::short_fits_err * one.short_chi2 < second;
+  const double as_likely = one.short_deviance + short_fit_errs(one);
+  return effort::short_fits_err * one.short_chi2 < one.chi2_without &&
+         std::none_of(rivals.begin(), rivals.end(), [&](const Rival& rival) {
+           return rival.candidate->effect != one.candidate->effect &&
+                  (may_hold(rival) || !only_those_that_may_hold) && rival.short_deviance <= as_likely;
+         });
 }
 
 Rival* first_to_fit(const std::vector<Rival*>& by_odds) {

@@ -26,10 +26,13 @@ struct Rival {
   double short_chi2 = std::nan(""), chi2_without = std::nan("");
   std::optional<DiagnosisState> shortly{};    ///< where its short fit put it
   std::vector<Eigen::VectorXd> short_left{};  ///< m, of each run's features, by its short fit
-  bool short_holds = false;                   ///< the data accept it as its short fit left it
-  double short_share = std::nan("");          ///< of simulations or time, that its short fit took
-  bool weighed_by_left = false;               ///< by what its fit leaves, for want of time
-  bool out_of_time = false;                   ///< its weighing or its fit, for want of time or simulations
+  /// Its chi2 in the metric of its own runs, and that with the ln determinant: -2 ln likelihood but for a
+  /// constant. NaN: none was made.
+  double short_own_chi2 = std::nan(""), short_deviance = std::nan("");
+  bool short_holds = false;           ///< the data accept it as its short fit left it
+  double short_share = std::nan("");  ///< of simulations or time, that its short fit took
+  bool weighed_by_left = false;       ///< by what its fit leaves, for want of time
+  bool out_of_time = false;           ///< its weighing or its fit, for want of time or simulations
   /// ln likelihood of the model without it where it was fitted, over that where the screen is.
   double nothing_gained = 0;
 };
@@ -70,8 +73,8 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
 /// PhysicsError and InputError pass.
 void fit_shortly(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools);
 
-/// Where there was no time for a fit that weighs it, its short fit stands, if no other left as little as far
-/// as short fits tell: two that do are not told from each other. False: it does not stand.
+/// Where there was no time for a fit that weighs it, its short fit stands, if it is alone in
+/// question: two that are not are not told from each other. False: it does not stand.
 bool take_short_fit(const std::vector<Rival>& rivals, Rival& rival);
 
 /// Its odds beside nothing by what is known so far: its prior, its signature, its fitted model; of one that
@@ -86,14 +89,13 @@ void weigh_rival(Rival& rival, double candidates);
 /// arithmetic keeps its odds, for its signature is exact.
 void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates);
 
-/// Those whose fit has not had its turn and whose short fits left as little as any as far as short fits tell,
-/// least first; none where no short fit was made. What a short fit leaves is told in the metric of the model
-/// without, which is wrong: where the data accept some as they were fitted shortly, only these are in
-/// question, until their fits take that back.
+/// Those whose fit has not had its turn and whose short fits made the data as likely as any as far as short
+/// fits tell, most likely first; none where no short fit was made. Where the data accept some as they were
+/// fitted shortly, only these are in question, until their fits take that back.
 std::vector<Rival*> in_question(std::vector<Rival>& rivals);
 
-/// No other short fit left as little as this one's as far as short fits tell, nor did the model without; of
-/// those that the data accept, no other that they accept.
+/// No other short fit made the data as likely as this one's as far as short fits tell, and the model without
+/// left more; of those that the data accept, no other that they accept.
 bool is_alone_in_question(const std::vector<Rival>& rivals, const Rival& one);
 
 /// Of these, most probable first, the one to fit next: signatures that differ by less than they err by say

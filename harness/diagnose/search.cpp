@@ -104,6 +104,8 @@ class Round {
       tools_.begin("ranking the effects");
       rank();
       if (far_off_) fit_each_shortly();
+      for (Rival& rival : rivals_)
+        if (!rival.weighed && std::isnan(rival.short_chi2)) leave_out(rival);
       fit_the_most_probable();
       if (rejected_) weigh_beside_the_best(rivals_, searched_);
     }
@@ -116,7 +118,8 @@ class Round {
  private:
   /// Every effect by its signature, and pairs of them.
   void rank() {
-    const ScreenEffort& ranking = state_.dear ? effort::rank_when_dear : effort::rank;
+    const ScreenEffort& closely = state_.dear ? effort::rank_when_dear : effort::rank;
+    const ScreenEffort ranking = far_off_ ? effort::at_the_middle(closely) : closely;
     screen_ = std::make_unique<EffectScreen>(
         tools_.features(from_.setup), from_.knobs(), tools_.workshop(), ranking, tools_.next_batch(),
         astray_ ? ScreenStart{} : start_from(state_.fit, state_.knobs()));
@@ -140,7 +143,6 @@ class Round {
     for (Rival& rival : rivals_) {
       weigh_rival(rival, searched_);
       order_.push_back(&rival);
-      if (!rival.weighed) leave_out(rival);
     }
     if (rejected_ && static_cast<double>(state_.missing.size()) + 2 <= rules::most_effects)
       pairs_ = pairs_beyond(rivals_, screen_->pairs(candidates_), candidates_, searched_);
@@ -148,20 +150,23 @@ class Round {
   }
 
   /// About parameters that are far off no line reaches what is missing, and what a signature promises says
-  /// little. Short fits of all, the cheap ones first, say which are worth one that weighs them.
+  /// little. Short fits of all, the cheap ones first, say which are worth one that weighs them. While the
+  /// data accept none of them the next one is worth more than a longer fit of one that they reject.
   void fit_each_shortly() {
     sort_by_odds();
     std::vector<Rival*> open;
     for (Rival* rival : order_)
-      if (rival->weighed && !is_arithmetic(*rival)) open.push_back(rival);
+      if (!is_arithmetic(*rival)) open.push_back(rival);
     if (open.size() < 2) return;
     std::stable_sort(open.begin(), open.end(), [](const Rival* a, const Rival* b) {
       return a->candidate->plain_runs() < b->candidate->plain_runs();
     });
     const double whole = tools_.limit(), spent = std::min(whole, tools_.share_spent());
-    tools_.limit_to(spent + share::short_fits_of_the_rest * (whole - spent));
+    const auto limit_to = [&](double share) { tools_.limit_to(spent + share * (whole - spent)); };
+    limit_to(share::short_fits_while_none_holds);
     for (Rival* rival : open) try {
         fit_shortly(*rival, from_, tools_);
+        if (rival->short_holds) limit_to(share::short_fits_of_the_rest);
       } catch (const BudgetSpent&) {
         break;
       } catch (const PhysicsError&) {  // the fit that weighs it will say so

@@ -211,7 +211,15 @@ Refit DiagnosisTools::fit(const DiagnosisState& state, const std::string& stage,
   RefitOptions options = options_of(state, effort);
   options.judged_by = judged_by;
   options.look_again_below = look_again_below;
-  return refit(features(state.setup), knobs, workshop_, options);
+  const double spent = share_spent();
+  const Refit fitted = refit(features(state.setup), knobs, workshop_, options);
+  share_of_a_simulation_ = (share_spent() - spent) / simulations_of(effort);
+  return fitted;
+}
+
+Effort DiagnosisTools::affordable(const Effort& usual, const Effort& in_haste) const {
+  const double needed = share_of_a_simulation_ * (simulations_of(usual) + usual.count);
+  return needed > limit_ - share_spent() ? in_haste : usual;
 }
 
 Refit DiagnosisTools::fit_of_first(double seconds, const DiagnosisState& state, const Engine& engine,

@@ -94,7 +94,8 @@ namespace {
 
 Rival shortly_fitted(const Candidate& candidate, double chi2, double without) {
   Rival rival{&candidate, {}};
-  rival.short_chi2 = chi2, rival.chi2_without = without;
+  rival.short_chi2 = rival.short_own_chi2 = rival.short_deviance = chi2;
+  rival.chi2_without = without;
   return rival;
 }
 
@@ -118,8 +119,8 @@ TEST(Rival, ThoseWhoseShortFitsLeaveLeastHaveTheirTurnFirst) {
   EXPECT_EQ(in_question(two), std::vector<Rival*>{&two[0]});
 }
 
-// A film of restitutions that fall with the speed. In the metric of the model without, which leaves 2358,
-// attraction leaves least; of its own runs' spread it leaves 66 times what it may.
+// Whatever makes the data more likely: of a model that they accept, and of attraction that leaves little in
+// the metric of the model without.
 TEST(Rival, ShortFitsThatTheDataAcceptHaveTheirTurnBeforeThoseThatLeaveLess) {
   const Candidate law = named("law"), attraction = named("attraction"), other = named("other");
   std::vector<Rival> rivals{shortly_fitted(attraction, 604, 2358), shortly_fitted(law, 1021, 2358),
@@ -171,9 +172,9 @@ TEST(Rival, AShortFitStandsWhereThereWasNoTimeForMore) {
   EXPECT_LT(rival.log_odds, -293);
   rival.shortly.emplace();
   rival.shortly->fit.judged_chi2 = 693;
-  rivals[1].short_chi2 = 720;  // not told apart by short fits
+  rivals[1].short_deviance = 720;  // not told apart by short fits
   EXPECT_FALSE(take_short_fit(rivals, rival));
-  rivals[1].short_chi2 = 1500;
+  rivals[1].short_deviance = 1500;
   EXPECT_TRUE(take_short_fit(rivals, rival));
   weigh_rival(rival, known);
   StrengthSeen seen = rival.screened.seen;
