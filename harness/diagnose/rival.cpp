@@ -250,12 +250,15 @@ std::vector<Rival*> in_question(std::vector<Rival>& rivals) {
   for (Rival& rival : rivals)
     if (std::isfinite(rival.short_deviance) && (may_hold(rival) || !only_those_that_may_hold))
       list.push_back(&rival);
-  std::stable_sort(list.begin(), list.end(),
-                   [](const Rival* a, const Rival* b) { return a->short_deviance < b->short_deviance; });
-  if (list.empty()) return list;
-  const double as_likely = list.front()->short_deviance + short_fit_errs(*list.front());
+  const auto best = std::min_element(list.begin(), list.end(), [](const Rival* a, const Rival* b) {
+    return a->short_deviance < b->short_deviance;
+  });
+  if (best == list.end()) return list;
+  const double as_likely = (*best)->short_deviance + short_fit_errs(**best);
   std::erase_if(list,
                 [&](const Rival* rival) { return rival->attempted || rival->short_deviance > as_likely; });
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Rival* a, const Rival* b) { return a->log_odds > b->log_odds; });
   return list;
 }
 

@@ -90,8 +90,8 @@ void weigh_rival(Rival& rival, double candidates);
 void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates);
 
 /// Those whose fit has not had its turn and whose short fits made the data as likely as any as far as short
-/// fits tell, most likely first; none where no short fit was made. Where the data accept some as they were
-/// fitted shortly, only these are in question, until their fits take that back.
+/// fits tell, most probable by their signatures first; none where no short fit was made. Where the data
+/// accept some as they were fitted shortly, only these are in question, until their fits take that back.
 std::vector<Rival*> in_question(std::vector<Rival>& rivals);
 
 /// No other short fit made the data as likely as this one's as far as short fits tell, and the model without

@@ -113,6 +113,9 @@ TEST(Rival, ThoseWhoseShortFitsLeaveLeastHaveTheirTurnFirst) {
 
   std::vector<Rival> two{shortly_fitted(law, 1130, 2561), shortly_fitted(unequal, 1029, 2561),
                          shortly_fitted(arc, 1569, 2561)};
+  // Which of them has its turn first their signatures say.
+  EXPECT_EQ(in_question(two), (std::vector<Rival*>{&two[0], &two[1]}));
+  two[1].log_odds = 46;
   EXPECT_EQ(in_question(two), (std::vector<Rival*>{&two[1], &two[0]}));
   EXPECT_FALSE(is_alone_in_question(two, two[1]));
   two[1].attempted = true;
