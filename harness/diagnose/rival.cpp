@@ -234,8 +234,7 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
       rival.log_odds =
           counts(rival) || is_weighed_by_left(rival) ? weighed : std::min(rival.log_odds, weighed);
     } else if (!rival.fitted && !rival.short_left.empty()) {
-      const double left = chi2_of(rival.short_left, covariances),
-                   err = (effort::short_fits_err - 1) / normal_95 * left / 2;
+      const double left = chi2_of(rival.short_left, covariances), err = effort::short_fits_differ * left / 2;
       rival.log_odds =
           beside_the_best(rival, left, averaged_over(std::hypot(err, rules::emulator_noise / 2)));
     } else if (!rival.fitted && rival.screened.weighed && best->screened.weighed && !is_arithmetic(rival)) {

@@ -238,8 +238,7 @@ TEST(Rival, WhatWasFittedShortlyIsWeighedByWhatThatLeft) {
   std::vector<Rival> without_short_fit = rivals;
   rivals[1].short_left = {Eigen::Vector2d(30, 40)};
   weigh_beside_the_best(rivals, known);
-  // What short fits err by: 1.3 times bounds them at 95 %.
-  const double error = std::hypot(0.3 / normal_95 * 2500 / 2, rules::emulator_noise / 2);
+  const double error = std::hypot(effort::short_fits_differ * 2500 / 2, rules::emulator_noise / 2);
   WITHIN(rivals[1].log_odds - rivals[0].log_odds,
          -2498.0 / 2 / std::sqrt(1 + std::numbers::pi / 8 * error * error), 1e-13, 5.4e-15);
   // Without one their signatures say less than they err by.
