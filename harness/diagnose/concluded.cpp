@@ -61,8 +61,9 @@ Refit with_other_valley(const DiagnosisState& apart, const std::vector<std::stri
 
 DiagnosisState concluded(const DiagnosisState& state, DiagnosisTools& tools, const std::string& stage) {
   DiagnosisState whole = state;
-  const Effort effort = tools.affordable(effort::conclude, effort::conclude_in_haste);
-  if (std::none_of(state.found.begin(), state.found.end(), is_joint)) {
+  const Effort effort = tools.affordable(state, effort::conclude, effort::conclude_in_haste);
+  const bool in_haste = effort.count < effort::conclude.count;
+  if (in_haste || std::none_of(state.found.begin(), state.found.end(), is_joint)) {
     whole.fit = tools.fit(state, stage, state.knobs(), effort);
     return whole;
   }

@@ -88,6 +88,7 @@ DiagnosisState Course::still_needed(DiagnosisState state, std::size_t added) {
   for (const std::string& effect : before)
     if (std::find(state.missing.begin(), state.missing.end(), effect) == state.missing.end())
       take_back(effect);
+  if (state.missing.size() < before.size()) added_last_ = 1;
   return state;
 }
 

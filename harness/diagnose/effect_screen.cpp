@@ -104,8 +104,8 @@ bool EffectScreen::glance(const Candidate& candidate, Weighed& one) {
   simulations_->look_at_the_middle(candidate, effort_.glance, one.looked);
   if (!one.looked.levels.empty()) weigh_again(candidate, one);
   // Beside nothing alone, while the best one is not known.
-  if (!effort_.middle_alone && !one.looked.whole &&
-      (one.looked.levels.empty() || may_be_missing(one.effect, 0))) {
+  if (!one.looked.whole &&
+      (one.looked.levels.empty() || (!effort_.middle_alone && may_be_missing(one.effect, 0)))) {
     simulations_->look(candidate, effort_.glance, one.looked);
     if (!one.looked.levels.empty()) weigh_again(candidate, one);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the simulations and the time of a diagnosis go. What decides here spares work; what decides between
-// hypotheses stands in rules.hpp.
+// Where the simulations and the time of a diagnosis go, and what its cheap looks are wrong by. What decides
+// between hypotheses that were fitted stands in rules.hpp.
 #pragma once
 #include <span>
 

@@ -91,8 +91,8 @@ double log_determinant(const std::vector<Eigen::MatrixXd>& covariances) {
 /// What short fits of one that is there may miss of its deviance.
 double short_fit_errs(const Rival& rival) { return (effort::short_fits_err - 1) * rival.short_own_chi2; }
 
-/// The data accept its short fit, and no longer one has taken that back.
-bool may_hold(const Rival& rival) { return rival.short_holds && (!rival.fitted || holds(rival)); }
+/// The data accept its short fit, and its longer one, which has not had its turn or was made.
+bool may_hold(const Rival& rival) { return rival.short_holds && (!rival.attempted || holds(rival)); }
 
 bool some_may_hold(const std::vector<Rival>& rivals) {
   return std::any_of(rivals.begin(), rivals.end(), may_hold);
@@ -209,7 +209,7 @@ void weigh_rival(Rival& rival, double candidates) {
 
 void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
   const auto counts = [](const Rival& rival) {
-    return is_found(rival) && std::isfinite(rival.log_ratio) && holds(rival);
+    return is_found(rival) && (std::isfinite(rival.log_ratio) || is_weighed_by_left(rival)) && holds(rival);
   };
   const Rival* best = nullptr;
   for (const Rival& rival : rivals)
@@ -221,8 +221,10 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
                of_best = chi2_of(left_by(best->state.fit), covariances), from = best->log_odds - prior(*best),
                signature = best->screened.log_evidence;
   // At least what its fit shows that the best one's was wrong by.
-  const double of_signatures = averaged_over(
-      std::max(signatures_err_by(signature), std::abs(best->log_ratio - best->nothing_gained - signature)));
+  const double gained = is_weighed_by_left(*best) ? (best->chi2_without - best->state.fit.judged_chi2) / 2
+                                                  : best->log_ratio,
+               of_signatures =
+                   averaged_over(std::max(signatures_err_by(signature), std::abs(gained - signature)));
   const auto beside_the_best = [&](const Rival& rival, double chi2, double factor) {
     return from + prior(rival) + factor * (of_best - chi2) / 2;
   };
@@ -247,7 +249,8 @@ std::vector<Rival*> in_question(std::vector<Rival>& rivals) {
   const bool only_those_that_may_hold = some_may_hold(rivals);
   std::vector<Rival*> list;
   for (Rival& rival : rivals)
-    if (std::isfinite(rival.short_deviance) && (may_hold(rival) || !only_those_that_may_hold))
+    if (std::isfinite(rival.short_deviance) &&
+        (only_those_that_may_hold ? may_hold(rival) : !rival.short_holds))
       list.push_back(&rival);
   const auto best = std::min_element(list.begin(), list.end(), [](const Rival* a, const Rival* b) {
     return a->short_deviance < b->short_deviance;
@@ -268,7 +271,8 @@ bool is_alone_in_question(const std::vector<Rival>& rivals, const Rival& one) {
   return effort::short_fits_err * one.short_chi2 < one.chi2_without &&
          std::none_of(rivals.begin(), rivals.end(), [&](const Rival& rival) {
            return rival.candidate->effect != one.candidate->effect &&
-                  (may_hold(rival) || !only_those_that_may_hold) && rival.short_deviance <= as_likely;
+                  (only_those_that_may_hold ? may_hold(rival) : !rival.short_holds) &&
+                  rival.short_deviance <= as_likely;
          });
 }
 

@@ -86,7 +86,7 @@ void weigh_rival(Rival& rival, double candidates);
 /// a model that is wrong: 2 % of thousands. Fitted rivals which the data accept, and those that nothing but a
 /// fit weighs, are weighed beside the best by what each leaves, in the metric of that one; what was not
 /// fitted, by what its short fit leaves, or, where none was made, by the signatures of both; one that is
-/// arithmetic keeps its odds, for its signature is exact.
+/// arithmetic keeps its odds, for its signature is exact. A fit that the data reject gains nothing by it.
 void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates);
 
 /// Those whose fit has not had its turn and whose short fits made the data as likely as any as far as short

@@ -15,7 +15,7 @@ struct ScreenEffort {
   int nothing = 96;              ///< of the model without candidates
   LevelEffort glance{12, 8, 8};  ///< of every candidate
   LevelEffort look{24, 16, 12};  ///< more, of those that a glance leaves open
-  bool middle_alone = false;     ///< of each sign, and nothing more
+  bool middle_alone = false;     ///< of each sign, where that can be simulated
 };
 
 }  // namespace shakedown

@@ -156,8 +156,9 @@ class Round {
     sort_by_odds();
     std::vector<Rival*> open;
     for (Rival* rival : order_)
-      if (!is_arithmetic(*rival)) open.push_back(rival);
-    if (open.size() < 2) return;
+      // A length has no strength to begin with but that of its signature.
+      if (!is_arithmetic(*rival) && (rival->weighed || !rival->candidate->knobs.empty()))
+        open.push_back(rival);
     std::stable_sort(open.begin(), open.end(), [](const Rival* a, const Rival* b) {
       return a->candidate->plain_runs() < b->candidate->plain_runs();
     });
@@ -212,6 +213,7 @@ class Round {
 
   /// Null: none is worth a fit.
   Rival* next_to_fit(double promised) {
+    if (order_.empty()) return nullptr;
     sort_by_odds();
     // A model that the data reject is not what is there: while nothing was found, the best of a bad lot are
     // fitted whatever their odds.
@@ -274,6 +276,7 @@ class Round {
         lowest_ = std::min(lowest_, pair.second.state.fit.judged_chi2);
         if (holds(pair.second)) return;
       } catch (const BudgetSpent&) {
+        round_.not_tried.push_back(pair.words());
         return;
       } catch (const PhysicsError& error) {
         note_failure(pair.words(), error);

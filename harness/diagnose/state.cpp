@@ -212,14 +212,11 @@ Refit DiagnosisTools::fit(const DiagnosisState& state, const std::string& stage,
   options.judged_by = judged_by;
   options.look_again_below = look_again_below;
   const double spent = share_spent();
+  const std::int64_t before = runs_;
   const Refit fitted = refit(features(state.setup), knobs, workshop_, options);
-  share_of_a_simulation_ = (share_spent() - spent) / simulations_of(effort);
+  if (runs_ > before)
+    share_of_a_simulation_[state.missing] = (share_spent() - spent) / static_cast<double>(runs_ - before);
   return fitted;
-}
-
-Effort DiagnosisTools::affordable(const Effort& usual, const Effort& in_haste) const {
-  const double needed = share_of_a_simulation_ * (simulations_of(usual) + usual.count);
-  return needed > limit_ - share_spent() ? in_haste : usual;
 }
 
 Refit DiagnosisTools::fit_of_first(double seconds, const DiagnosisState& state, const Engine& engine,
@@ -250,6 +247,14 @@ std::int64_t different_setups(const Measurement& measurement) {
 }
 
 }  // namespace
+
+Effort DiagnosisTools::affordable(const DiagnosisState& state, const Effort& usual,
+                                  const Effort& in_haste) const {
+  const auto took = share_of_a_simulation_.find(state.missing);
+  if (limit_ < 1 || took == share_of_a_simulation_.end()) return usual;
+  const std::int64_t simulations = different_setups(measurement_) * (simulations_of(usual) + usual.count);
+  return took->second * static_cast<double>(simulations) > 1 - share_spent() ? in_haste : usual;
+}
 
 std::int64_t usual_budget(const Measurement& measurement) {
   constexpr std::int64_t for_each_setup = 10000, at_least = 4;

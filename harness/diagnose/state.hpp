@@ -3,6 +3,7 @@
 #pragma once
 #include <chrono>
 #include <ctime>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -75,9 +76,9 @@ class DiagnosisTools {
   Refit fit(const DiagnosisState& state, const std::string& stage, const std::vector<Knob>& knobs,
             Effort effort, const Refit* judged_by = nullptr,
             double look_again_below = std::numeric_limits<double>::infinity());
-  /// `usual` where what is left suffices for it and a round more, by what a simulation of the last fit took;
-  /// else `in_haste`.
-  Effort affordable(const Effort& usual, const Effort& in_haste) const;
+  /// Of the last fit of all, which may take all that is left: `usual` where that suffices for it and a round
+  /// more, by what simulations of the same effects took, else `in_haste`.
+  Effort affordable(const DiagnosisState& state, const Effort& usual, const Effort& in_haste) const;
   /// Beside the state's own fit, where that is doubtful: the better of both.
   Refit look_beside(const DiagnosisState& state, const std::string& stage);
 
@@ -94,7 +95,7 @@ class DiagnosisTools {
   SimulationPool pool_;
   Workshop workshop_;
   double limit_ = 1;
-  double share_of_a_simulation_ = 0;  ///< of each different setup, by the last fit
+  std::map<std::vector<std::string>, double> share_of_a_simulation_;  ///< beside these effects
   std::string stage_;
   int batch_ = 0;
   std::vector<DamperError> damper_errors_;

@@ -103,7 +103,7 @@ Rival shortly_fitted(const Candidate& candidate, double chi2, double without) {
 
 // Two films, what the model without left 3391 and 2561: in the one a restitution that falls with speed is
 // alone, in the other unequal grains seem to leave less.
-TEST(Rival, ThoseWhoseShortFitsLeaveLeastHaveTheirTurnFirst) {
+TEST(Rival, ThoseWhoseShortFitsMakeTheDataLikelyAreInQuestion) {
   const Candidate arc = named("arc"), law = named("law"), unequal = named("unequal"), other = named("other");
   std::vector<Rival> alone{shortly_fitted(arc, 4265, 3391), shortly_fitted(law, 693, 3391), {&other, {}}};
   EXPECT_EQ(in_question(alone), std::vector<Rival*>{&alone[1]});
@@ -138,8 +138,13 @@ TEST(Rival, ShortFitsThatTheDataAcceptHaveTheirTurnBeforeThoseThatLeaveLess) {
   EXPECT_FALSE(is_alone_in_question(rivals, rivals[1]));
   rivals[2].short_holds = false;
 
-  // Its turn: the data accept it, or reject it and the others are in question again.
-  rivals[1].attempted = rivals[1].fitted = true;
+  // No time for its turn: the others are in question again, however likely it seemed.
+  rivals[1].short_deviance = 300;
+  rivals[1].attempted = true;
+  EXPECT_EQ(in_question(rivals), std::vector<Rival*>{&rivals[0]});
+  EXPECT_TRUE(is_alone_in_question(rivals, rivals[0]));
+  // Its turn: the data accept it, or reject it.
+  rivals[1].fitted = true;
   rivals[1].state.fit.p_value = 0.5;
   EXPECT_TRUE(in_question(rivals).empty());
   rivals[1].state.fit.p_value = 0.001;
@@ -241,10 +246,26 @@ TEST(Rival, WhatWasFittedShortlyIsWeighedByWhatThatLeft) {
   const double error = std::hypot(effort::short_fits_differ * 2500 / 2, rules::emulator_noise / 2);
   WITHIN(rivals[1].log_odds - rivals[0].log_odds,
          -2498.0 / 2 / std::sqrt(1 + std::numbers::pi / 8 * error * error), 1e-13, 5.4e-15);
-  // Without one their signatures say less than they err by.
+  // Without one their signatures say less than they err by; both count from where the screen is.
+  for (Rival& rival : without_short_fit) rival.nothing_gained = 500;
   weigh_beside_the_best(without_short_fit, known);
   WITHIN(without_short_fit[1].log_odds - without_short_fit[0].log_odds,
          10645 / std::sqrt(1 + std::numbers::pi / 8 * 19757. * 19757.), 5e-13, 3.7e-14);
+}
+
+// A short fit of the law stands, for there was no time for more; an arc's signature is better and its short
+// fit was not: the film of 2698 of chi2 by a law, 3885 by the signature of an arc.
+TEST(Rival, AShortFitThatStandsIsWhatTheOthersAreWeighedBeside) {
+  const Candidate law = named("law"), arc = named("arc");
+  std::vector<Rival> rivals{fitted(law, 1, 1345, {1, 1}), {&arc, {}}};
+  rivals[0].log_ratio = std::nan("");
+  rivals[0].weighed_by_left = true;
+  rivals[0].chi2_without = 3391, rivals[0].state.fit.judged_chi2 = 693;
+  rivals[1].screened.weighed = true;
+  rivals[1].screened.log_evidence = rivals[1].log_odds = 1940;
+  rivals[1].short_left = {Eigen::Vector2d(30, 40)};
+  weigh_beside_the_best(rivals, known);
+  EXPECT_LT(rivals[1].log_odds, rivals[0].log_odds - 8);
 }
 
 // An error of the camera: what it gains over the model without is exact, whatever the best one's signature

@@ -156,16 +156,20 @@ TEST(Search, WithoutSimulationsNothingIsAddedAndAllIsAsProbableAsBefore) {
   EXPECT_TRUE(none_is_probable);
 }
 
-// The refit took 704 for the 368 that it is worth; the last fit is worth 352, and takes 192 more where its
-// solution leaves its box.
+// The refit took two looks of 352 simulations. The last fit is worth 352, and takes 192 more where its
+// solution leaves its box. While something is kept for it no fit is hasty, nor where nothing tells what it
+// costs.
 TEST(LastFit, TakesWhatIsLeft) {
-  EXPECT_EQ(simulations_of(effort::refit), 368);
-  const double needed = 704 / 368. * (352 + 192);
-  const auto taken = [](double budget) {
-    return Refitted(static_cast<int>(budget))
-        .tools.affordable(effort::conclude, effort::conclude_in_haste)
-        .count;
+  const auto taken = [](const Refitted& refitted, const DiagnosisState& state) {
+    return refitted.tools.affordable(state, effort::conclude, effort::conclude_in_haste).count;
   };
-  EXPECT_EQ(taken(704 + needed + 1), effort::conclude.count);
-  EXPECT_EQ(taken(704 + needed - 1), effort::conclude_in_haste.count);
+  constexpr int needed = 704 + 352 + 192;
+  Refitted enough(needed + 1), too_little(needed - 1);
+  EXPECT_EQ(taken(enough, enough.state), effort::conclude.count);
+  EXPECT_EQ(taken(too_little, too_little.state), effort::conclude_in_haste.count);
+  DiagnosisState other = too_little.state;
+  other.missing = {"grain_cohesion"};
+  EXPECT_EQ(taken(too_little, other), effort::conclude.count);
+  too_little.tools.limit_to(rules::for_the_search);
+  EXPECT_EQ(taken(too_little, too_little.state), effort::conclude.count);
 }
