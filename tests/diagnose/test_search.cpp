@@ -117,8 +117,7 @@ void expect_the_law(const SearchRound& round) {
   EXPECT_GT(round.next.fit.p_value, rules::holds);
   ASSERT_FALSE(round.next.found.empty());
   const double exponent = round.next.found.front().centre;
-  // Fits of 64, of 120 and of 288 simulations put it at 0.115 to 0.125.
-  WITHIN(exponent, 0.12, 0.02, 0.005);
+  WITHIN(exponent, 0.12, 6e-4, 6.1e-5);
   EXPECT_EQ(round.table.front().effects, Names{"velocity_dependent_restitution"});
 }
 
