@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "effects.hpp"
+#include "formula_engine.hpp"
 #include "random.hpp"
 #include "rules.hpp"
 #include "state.hpp"
@@ -25,10 +26,8 @@ double strength(const Setup& setup, std::string_view effect, std::string_view pa
 
 /// A decay by the restitutions, which a law of restitution slows with time, and drag speeds up; two shapes of
 /// chaos.
-class StandIn final : public Engine {
+class StandIn final : public FormulaEngine {
  public:
-  std::string_view name() const override { return "stand-in"; }
-  Capability can_model(const EffectRecord&) const override { return {Fidelity::exact, ""}; }
   Trajectory run(const Setup& setup, const RunOptions& options) const override {
     Random random(setup.run.seed, static_cast<std::uint64_t>(options.run), Stream::velocities);
     const double early = 3e-4 * random.normal(), late = 3e-4 * random.normal();
@@ -36,16 +35,12 @@ class StandIn final : public Engine {
                  rate = 0.3 * (1 - setup.restitution.grain_grain),
                  law = strength(setup, "velocity_dependent_restitution", "exponent"),
                  drag = strength(setup, "grain_air_drag", "linear") / 1e-3;
-    Trajectory trajectory;
-    for (int k = 0; k <= static_cast<int>(setup.run.duration * 500); ++k) {
-      const double t = k / 500.0, turned = law * std::sin(1.1 * t), faster = 0.02 * drag * std::sin(0.5 * t);
+    return sampled(setup, 500, [&](double t) {
+      const double turned = law * std::sin(1.1 * t), faster = 0.02 * drag * std::sin(0.5 * t);
       const double x = 0.1 * std::exp(-(rate + faster) * t) * std::cos(w * t + turned);
-      trajectory.time.push_back(t);
-      trajectory.x_box.push_back(x + early * std::sin(1.3 * t) + late * std::sin(0.7 * t + 1));
-      trajectory.x_com.push_back(0.9 * x + 0.01 * setup.restitution.grain_wall + late * std::cos(2 * t));
-    }
-    trajectory.v_box = trajectory.total_energy = trajectory.x_box;
-    return trajectory;
+      return std::pair(x + early * std::sin(1.3 * t) + late * std::sin(0.7 * t + 1),
+                       0.9 * x + 0.01 * setup.restitution.grain_wall + late * std::cos(2 * t));
+    });
   }
 };
 

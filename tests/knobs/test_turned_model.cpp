@@ -13,6 +13,7 @@
 
 #include "effects.hpp"
 #include "engines.hpp"
+#include "formula_engine.hpp"
 #include "parameter_knobs.hpp"
 #include "random.hpp"
 #include "setup_file.hpp"
@@ -23,23 +24,16 @@ using namespace shakedown;
 namespace {
 
 /// Decays by the restitution and by the damping of the box, with a little chaos.
-class Decay final : public Engine {
+class Decay final : public FormulaEngine {
  public:
-  std::string_view name() const override { return "stand-in"; }
-  Capability can_model(const EffectRecord&) const override { return {Fidelity::exact, ""}; }
   Trajectory run(const Setup& setup, const RunOptions& options) const override {
     Random random(setup.run.seed, static_cast<std::uint64_t>(options.run), Stream::velocities);
     const double chaos = 3e-4 * random.normal(), w = 2 * std::numbers::pi * setup.spring.frequency;
     const double rate = 0.4 * (1 - setup.restitution.grain_grain) + physics_of(setup).box.viscous.sum();
-    Trajectory trajectory;
-    for (int k = 0; k <= static_cast<int>(setup.run.duration * 250); ++k) {
-      const double t = k / 250.0;
-      trajectory.time.push_back(t);
-      trajectory.x_box.push_back(0.1 * std::exp(-rate * t) * std::cos(w * t) + chaos * std::sin(1.3 * t));
-      trajectory.x_com.push_back(0.9 * trajectory.x_box.back());
-    }
-    trajectory.v_box = trajectory.total_energy = trajectory.x_box;
-    return trajectory;
+    return sampled(setup, 250, [&](double t) {
+      const double box = 0.1 * std::exp(-rate * t) * std::cos(w * t) + chaos * std::sin(1.3 * t);
+      return std::pair(box, 0.9 * box);
+    });
   }
 };
 

@@ -8,32 +8,26 @@
 
 #include "effects.hpp"
 #include "emulator.hpp"
+#include "formula_engine.hpp"
 #include "physics.hpp"
 #include "random.hpp"
 
 namespace shakedown {
 
 /// Decay by the grains' restitution, frequency from the spring, chaos of half a millimetre in two shapes.
-class DampedOscillation final : public Engine {
+class DampedOscillation final : public FormulaEngine {
  public:
-  std::string_view name() const override { return "stand-in"; }
-  Capability can_model(const EffectRecord&) const override { return {Fidelity::exact, ""}; }
   Trajectory run(const Setup& setup, const RunOptions& options) const override {
     Random random(setup.run.seed, static_cast<std::uint64_t>(options.run), Stream::velocities);
     const double early = 5e-4 * random.normal(), late = 5e-4 * random.normal();
     const double w = 2 * std::numbers::pi * setup.spring.frequency,
                  rate = 0.3 * (1 - setup.restitution.grain_grain);
     const double drag = physics_of(setup).box.viscous.sum() / 2;
-    Trajectory trajectory;
-    for (int k = 0; k <= static_cast<int>(setup.run.duration * 500); ++k) {
-      const double t = k / 500.0;
+    return sampled(setup, 500, [&](double t) {
       const double x = 0.1 * std::exp(-(rate + drag * std::abs(std::sin(0.4 * t))) * t) * std::cos(w * t);
-      trajectory.time.push_back(t);
-      trajectory.x_box.push_back(x + early * std::sin(1.3 * t) + late * std::sin(0.7 * t + 1));
-      trajectory.x_com.push_back(0.9 * x + 0.01 * setup.restitution.grain_wall + late * std::cos(2 * t));
-    }
-    trajectory.v_box = trajectory.total_energy = trajectory.x_box;
-    return trajectory;
+      return std::pair(x + early * std::sin(1.3 * t) + late * std::sin(0.7 * t + 1),
+                       0.9 * x + 0.01 * setup.restitution.grain_wall + late * std::cos(2 * t));
+    });
   }
 };
 

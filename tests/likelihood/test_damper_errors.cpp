@@ -8,6 +8,7 @@
 
 #include "damper_errors.hpp"
 #include "effects.hpp"
+#include "formula_engine.hpp"
 #include "random.hpp"
 #include "within.hpp"
 
@@ -16,23 +17,16 @@ using namespace shakedown;
 namespace {
 
 /// A swing from where it was let go, slower with a heavier box, and noise that is the microstate's.
-class Swing final : public Engine {
+class Swing final : public FormulaEngine {
  public:
-  std::string_view name() const override { return "stand-in"; }
-  Capability can_model(const EffectRecord&) const override { return {Fidelity::exact, ""}; }
   Trajectory run(const Setup& setup, const RunOptions& options) const override {
     Random random(setup.run.seed, static_cast<std::uint64_t>(options.run), Stream::velocities);
     const double chaos = 1e-3 * random.normal();
-    Trajectory trajectory;
-    for (int k = 0; k <= static_cast<int>(setup.run.duration * 500); ++k) {
-      const double t = k / 500.0, drawn = chaos * std::sin(1.7 * t);
-      trajectory.time.push_back(t);
-      trajectory.x_box.push_back(setup.release.displacement * std::cos(7 * t) + 0.2 * setup.box.mass * t +
-                                 drawn);
-      trajectory.x_com.push_back(trajectory.x_box.back() + drawn);
-    }
-    trajectory.v_box = trajectory.total_energy = trajectory.x_box;
-    return trajectory;
+    return sampled(setup, 500, [&](double t) {
+      const double drawn = chaos * std::sin(1.7 * t);
+      const double box = setup.release.displacement * std::cos(7 * t) + 0.2 * setup.box.mass * t + drawn;
+      return std::pair(box, box + drawn);
+    });
   }
 };
 
