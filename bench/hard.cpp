@@ -23,7 +23,7 @@ std::int64_t all_impacts(const std::array<std::int64_t, contact_classes>& collis
   return collisions[0] + collisions[1] + collisions[2];
 }
 
-/// Rates are per CPU second.
+/// Adds the counters of a benchmark; rates are per CPU second.
 void count(benchmark::State& state, std::int64_t impacts, std::int64_t events) {
   const double n = static_cast<double>(impacts);
   state.counters["impacts/s"] = benchmark::Counter(n, benchmark::Counter::kIsRate);
@@ -32,7 +32,7 @@ void count(benchmark::State& state, std::int64_t impacts, std::int64_t events) {
   state.counters["events/impact"] = static_cast<double>(events) / n;
 }
 
-/// 30 s of the paper's damper with all its samples, as `shakedown run` does it.
+/// Runs 30 s of the paper's damper with all its samples, as `shakedown run` does it.
 void paper_damper(benchmark::State& state) {
   Setup setup;
   setup.box.length = static_cast<double>(state.range(0)) * 1e-3;
@@ -48,7 +48,7 @@ void paper_damper(benchmark::State& state) {
   count(state, impacts, events);
 }
 
-/// The first milliseconds of the paper's damper scaled to N grains: the layer is hit by the wall, the
+/// Runs the first milliseconds of the paper's damper scaled to N grains: the layer is hit by the wall, the
 /// costliest part of a period.
 void large_damper(benchmark::State& state) {
   Setup setup;
@@ -69,8 +69,8 @@ void large_damper(benchmark::State& state) {
   count(state, impacts, events);
 }
 
-/// Molten and ready. Kept between the calls that the benchmark library makes to find its number of
-/// iterations; one at a time.
+/// Returns a fluid that has molten. It is kept between the calls that the benchmark library makes to find its
+/// number of iterations; one at a time.
 HardSphereSystem& molten_fluid(int grains, int percent) {
   static std::unique_ptr<HardSphereSystem> kept;
   static std::pair<int, int> which;
@@ -83,7 +83,7 @@ HardSphereSystem& molten_fluid(int grains, int percent) {
   return *kept;
 }
 
-/// Elastic spheres in a periodic cube; an iteration is one impact a grain.
+/// Runs elastic spheres in a periodic cube; an iteration is one impact a grain.
 void periodic_fluid(benchmark::State& state) {
   const int grains = static_cast<int>(state.range(0));
   HardSphereSystem& system = molten_fluid(grains, static_cast<int>(state.range(1)));

@@ -12,7 +12,7 @@ using namespace shakedown;
 
 namespace {
 
-/// The paper's damper at L = 40 mm, scaled to N grains at the same filling.
+/// Returns the paper's damper at L = 40 mm, scaled to N grains at the same filling.
 Setup damper(int grains, double duration) {
   Setup setup;
   const double times = grains / 37.0;
@@ -35,7 +35,7 @@ void run(benchmark::State& state, const Engine& engine, const Setup& setup) {
       benchmark::Counter(steps, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-/// The dense phase, in which the layer is carried by the wall: the dearest second of a run.
+/// Runs the dense phase, in which the layer is carried by the wall: the dearest second of a run.
 void soft_dense_phase(benchmark::State& state) {
   const auto grains = static_cast<int>(state.range(0));
   run(state, *make_soft_engine(), damper(grains, grains > 1000 ? 0.02 : 0.6));

@@ -179,7 +179,7 @@ std::array<AllPairs::Touch, K> AllPairs::first_touches(const std::array<int, K>&
   return touches;
 }
 
-/// The same time that a lane of the vectorised search finds.
+/// Returns the touch of i with j, the same to the last bit as a lane of the vectorised search finds.
 template <bool Well>
 AllPairs::Touch AllPairs::touch_of(int i, int j) const {
   const Flight3 self = flight(i);
@@ -201,10 +201,10 @@ AllPairs::Touch AllPairs::touch_of(int i, int j) const {
   return {(over / under)[0], j, meeting};
 }
 
-/// Which grain is first is told by estimates, and the root taken of that one alone. Where they cannot tell
+/// Finds by estimates which grain is first, and takes the root of that one alone. Where estimates cannot tell
 /// (touches within 2^-11 of each other), or spheres overlap deeper than any before, everything is done in
-/// full; so the answer is the same to the last bit. No branches: whether any of eight grains may come first
-/// is as good as random.
+/// full; so the answer is the same to the last bit. There are no branches, as it is as good as random whether
+/// any of eight grains may come first.
 template <int K, bool Well>
 std::array<AllPairs::Touch, K> AllPairs::estimated_touches(const std::array<int, K>& who) {
   constexpr double above = 1 + 0x1p-11, below = 1 - 0x1p-11, tiny = 1e-300;

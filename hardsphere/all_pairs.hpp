@@ -4,8 +4,8 @@
 #pragma once
 #include <vector>
 
+#include "damper_state.hpp"
 #include "grain_event.hpp"
-#include "initial_state.hpp"
 #include "lanes.hpp"
 
 namespace shakedown {
@@ -26,7 +26,7 @@ class AllPairs {
     const std::size_t k = static_cast<std::size_t>(i);
     return {{x_[k], y_[k], z_[k]}, {vx_[k], vy_[k], vz_[k]}, time_[k]};
   }
-  /// After an impact: a new flight, and everything predicted with this grain is stale.
+  /// Gives a grain its flight after an impact; what was predicted with it is stale.
   void set_flight(int i, const Flight3& flight) {
     move_to(i, flight);
     ++count_[static_cast<std::size_t>(i)];
@@ -45,16 +45,16 @@ class AllPairs {
   }
   double radius(int i) const { return radius_[static_cast<std::size_t>(i)]; }
   double mass(int i) const { return mass_[static_cast<std::size_t>(i)]; }
-  /// The side walls are found elsewhere (EndWalls).
+  /// Leaves the side walls to EndWalls.
   void forget_side_walls() { half_width_ = {never, never}; }
-  /// Whether two grains are in each other's well, and how many pairs are.
+  /// Enters whether two grains are in each other's well; bonds() returns how many pairs are.
   void set_bond(int i, int j, bool bond);
   int bonds() const;
   std::array<double, 2> side_room(int i) const {
     return {half_width_[0] - radius(i), half_width_[1] - radius(i)};
   }
 
-  /// Asked twice an event: once for its time, once to execute it.
+  /// Returns the earliest event; kept, as the loop asks twice for each, for its time and to execute it.
   const Next& next() {
     if (next_.grain < 0) {
       const Smallest earliest = smallest(event_time_, padded_size_);
@@ -69,13 +69,14 @@ class AllPairs {
   bool is_stale(const GrainEvent& event) const {
     return event.partner >= 0 && count_[static_cast<std::size_t>(event.partner)] != event.partner_count;
   }
-  /// Found anew only after an impact: in long boxes most samples see none since the one before.
+  /// Returns the sums at time t, s. They are found anew only after an impact: in long boxes most samples see
+  /// none since the one before.
   GrainSums sums(double t);
   /// Predicts the next event of a grain, or of both grains of a pair, whose flights start now.
   void predict(int i);
   void predict(int i, int j);
   void predict_all();
-  /// The same, of grains whose flights all start now; what lies after `end` is left out.
+  /// Predicts all grains, whose flights must all start now, and may leave out touches after `end`, s.
   void predict_all_before(double end);
   void leave_neighbourhood(int, double) {}
   std::array<double, 3> separation(const Flight3& a, const Flight3& b) const {
@@ -83,7 +84,7 @@ class AllPairs {
   }
 
   double bytes_per_grain() const { return 10 * sizeof(double) + 3 * sizeof(std::int32_t); }
-  /// Largest overlap of two grains met so far, m.
+  /// Returns the largest overlap of two grains met so far, m.
   double deepest_overlap() const;
 
  private:
@@ -106,7 +107,7 @@ class AllPairs {
   bool bonded(int i, int j) const {
     return bond_[static_cast<std::size_t>(i) * padded_size_ + static_cast<std::size_t>(j)] != 0;
   }
-  /// Of grain i with those from j on.
+  /// Tells which grains from j on share a well with i.
   Lanes::mask_type bonds(int i, std::size_t j) const {
     return load(bond_, static_cast<std::size_t>(i) * padded_size_ + j) > Lanes(0.5);
   }

@@ -44,7 +44,7 @@ class BoxMotion {
     Point point;
     double spring_impulse;  ///< of the spring from the last kick to then, N s: -k integral of x
   };
-  /// Both from one sine and cosine.
+  /// Returns the point at time t and the spring's impulse since the last kick, both from one sine and cosine.
   PointAndImpulse at_with_impulse(double t) const {
     if (angular_frequency_ == 0) return {at(t), 0};
     const double phase = angular_frequency_ * (t - time_);
@@ -54,6 +54,7 @@ class BoxMotion {
             impulse_scale_ * (x_ * s + y_ * versine)};
   }
 
+  /// Returns the energy of box and spring, J; it stays the same between kicks.
   double energy() const { return stiffness_ * x_ * x_ / 2 + mass_ * v_ * v_ / 2; }
   double mass() const { return mass_; }
   double stiffness() const { return stiffness_; }
@@ -62,7 +63,7 @@ class BoxMotion {
   double amplitude() const { return amplitude_; }                               ///< m, of the present arc
   double top_speed() const { return amplitude_ * angular_frequency_; }          ///< m/s
   double top_acceleration() const { return top_speed() * angular_frequency_; }  ///< m/s^2, bound of |x''|
-  /// Time until which at() and the bounds hold without a restart, s: there is no end.
+  /// Returns the time until which at() and the bounds hold without a restart, s: there is no end.
   static constexpr double valid_until() { return std::numeric_limits<double>::infinity(); }
   double x() const { return x_; }        ///< at the last kick
   double v() const { return v_; }        ///< after the last kick

@@ -45,8 +45,8 @@ class CalendarQueue {
     if (cached_ != none && time < this->time(cached_)) cached_ = i;
   }
 
-  /// The earliest date; grain -1 when there is none. `tell(i, days)` is told of grains whose dates come up in
-  /// each of these numbers of days, a third as many events: time to bring what they need near.
+  /// Returns the earliest date; grain -1 when there is none. `tell(i, days)` is told of grains whose dates
+  /// come up in each of these numbers of days (a third as many events), to bring near what they need.
   template <std::size_t Looks, class Ahead>
   Next next(const std::array<int, Looks>& days_ahead, Ahead&& tell) {
     if (cached_ == none) find(days_ahead, tell);
@@ -59,12 +59,14 @@ class CalendarQueue {
 
   void prefetch(int i) const { __builtin_prefetch(&dates_[static_cast<std::size_t>(i)]); }
 
-  /// Sets the length of a day for this many events a second; dates may be scheduled already.
+  /// Sets the length of a day for this many events a second and begins the year at `now`, s; dates may be
+  /// scheduled already.
   void plan(double now, double events_per_second) {
     cached_ = none;
     rebuild(now, dates_a_day / events_per_second);
   }
 
+  /// Returns the date of grain i, s; `never` where it has none.
   double time(int i) const { return dates_[static_cast<std::size_t>(i)].time; }
   std::size_t bytes() const {
     return dates_.size() * sizeof(Date) + first_.size() * sizeof(std::int32_t) +
@@ -77,7 +79,7 @@ class CalendarQueue {
   /// A grain's date and its neighbours in the list of the day.
   struct Date {
     double time = never;
-    std::int32_t next = none, previous = none;  ///< previous: of the first date ~day
+    std::int32_t next = none, previous = none;  ///< of the first date of a day, `previous` is ~day
   };
   std::size_t days() const { return first_.size() - 1; }
 
@@ -115,7 +117,7 @@ class CalendarQueue {
     dated_[day / 64] &= ~(std::uint64_t{is_first && date.next == end_} << day % 64);
   }
 
-  /// The first day from `day` on that has a date, or the list beyond the year.
+  /// Returns the first day from `day` on that has a date, or days(), the list beyond the year.
   std::size_t next_dated(std::size_t day) const {
     std::size_t word = day / 64;
     std::uint64_t bits = dated_[word] & (~std::uint64_t{0} << day % 64);
@@ -159,7 +161,7 @@ class CalendarQueue {
     for (std::int32_t i = first_[days()]; i != end_; i = dates_[static_cast<std::size_t>(i)].next)
       earliest = std::min(earliest, time(i));
     if (earliest == never) return false;
-    // Few dates a day keep it short; too few, and more of them lie beyond the year.
+    // Few dates a day keep its list short; with too few of them more dates lie beyond the year.
     const double events_per_day = static_cast<double>(found_) / static_cast<double>(days());
     const bool tune = events_per_day > 2 * dates_a_day || events_per_day < dates_a_day / 2;
     rebuild(earliest,
@@ -174,6 +176,7 @@ class CalendarQueue {
     rebuild(now, day_length_ * 0.25);
   }
 
+  /// Begins a year at `start` (s) with days of this length (s) and files every date anew.
   void rebuild(double start, double day_length) {
     set_day_length(day_length);
     year_start_ = start;

@@ -13,7 +13,8 @@ namespace shakedown {
 
 class CellCrossings : public ScheduledGrains {
  public:
-  /// Whether the cell is wide enough, the grains are equal and not too few for it, as this needs.
+  /// Tells whether this class can hold the state: the domain is three grains wide at least, the grains are
+  /// equal, and they are not too few for so many cells.
   static bool can_hold(const State& state, const std::array<double, 3>& extent);
   /// `edge`: the least width of a cell in diameters, 0: the least possible.
   CellCrossings(const State& state, const std::array<double, 3>& extent, double edge = 0);
@@ -53,24 +54,27 @@ class CellCrossings : public ScheduledGrains {
   };
   using Others = std::array<std::int32_t, 512>;
   class Collector;
-  /// In a link to a grain: another follows it in its cell.
+  /// This bit of a link to a grain says that another follows it in its cell.
   static constexpr std::int32_t has_next = 1 << 30;
 
   std::size_t index_of(const std::array<std::uint16_t, 3>& cell) const {
     return offset_[0][cell[0] + 1u] + offset_[1][cell[1] + 1u] + offset_[2][cell[2] + 1u];
   }
-  /// Offsets along an axis of the cells before, at and after a grain's own.
+  /// Returns the offsets along an axis of the cells before, at and after a grain's own.
   const std::uint32_t* around(std::size_t i, std::size_t axis) const {
     return &offset_[axis][place_[i].cell[axis]];
   }
   void prefetch(int i, int days) const;
   void put_in_cell(std::size_t i);
   void take_from_cell(std::size_t i);
-  /// The grains of the 27 cells around, filled up with i.
+  /// Writes the grains of the 27 cells around grain i to `others`, filled up with i to a whole vector;
+  /// returns how many they are.
   std::size_t collect_around(std::size_t i, Others& others) const;
-  /// Those of the nine cells one step ahead along an axis.
+  /// Writes those of the nine cells one step ahead along an axis, likewise.
   std::size_t collect_ahead(std::size_t i, std::size_t axis, int step, Others& others) const;
+  /// Keeps the earliest impact of grain i, which was searched at `now`.
   void remember(std::size_t i, double now, const GrainLines::Touch& touch);
+  /// Finds when grain i crosses into the next cell, and schedules that or its impact, whichever is earlier.
   void schedule(std::size_t i, const Flight3& anchor, double now);
 
   AlignedVector<Place> place_;

@@ -9,8 +9,8 @@ namespace shakedown {
 
 namespace {
 
-/// Diameters: wide shells save renewals where grains fly far between impacts, narrow ones save pair tests
-/// where they do not.
+/// Returns the width of the shell in diameters: wide shells save renewals where grains fly far between
+/// impacts, narrow ones save pair tests where they do not.
 double shell_for(double packing_fraction) { return std::clamp(2.45 - 1.75 * packing_fraction, 1.45, 2.6); }
 
 double shell_of(const CellListsPlan& plan, double largest_reach) {
@@ -58,9 +58,10 @@ std::array<double, 3> CellLists<Periodic>::separation(const Flight3& a, const Fl
   return {nearest(b.x[0] - a.x[0], 0), nearest(b.x[1] - a.x[1], 1), nearest(b.x[2] - a.x[2], 2)};
 }
 
-/// When a grain is `leeway` away from the centre of its list, if that is within `wait`; or `wait`. Mostly it
-/// is not, and a look at the place where it would be then spares the root (9 % at packing fraction 0.5).
-/// Coordinates change by a period only together with the centre.
+/// Returns when a grain is `leeway` away from the centre of its list, s from the time of its flight, or
+/// `wait` if that is earlier. Mostly it is, and a look at the place where the grain would be then spares the
+/// root (9 % of the time at packing fraction 0.5). Coordinates change by a period only together with the
+/// centre.
 template <bool Periodic>
 double CellLists<Periodic>::time_to_leave(std::size_t i, const Flight3& flight, double wait) const {
   double a = 0, b = 0, c = -leeway_ * leeway_, later = 0;
@@ -99,8 +100,8 @@ void CellLists<Periodic>::remember(int i, const GrainEvent& next) {
   queue_.schedule(i, next.time);
 }
 
-/// Far ahead the grain's own lines, which say where to look later: at its neighbours and its partner, and at
-/// last at the partner's neighbours.
+/// Fetches far ahead the grain's own lines, which say where to look later: at its neighbours and its partner,
+/// and at last at the partner's neighbours.
 template <bool Periodic>
 void CellLists<Periodic>::prefetch(int i, int days) const {
   const std::size_t k = static_cast<std::size_t>(i);
@@ -130,8 +131,8 @@ void CellLists<Periodic>::add_neighbour(std::size_t i, std::int32_t neighbour) {
 /// Lists are compared a chunk at a time, so that the compiler does it in vector lanes.
 constexpr std::size_t chunk = 8;
 
-/// How many of a list, which goes on with something else up to a whole number of chunks, are j, weighted by
-/// one more than their place: the place of the only one, or 0 when there is none.
+/// Returns one more than the place of j in a list, which goes on with something else up to a whole number of
+/// chunks; 0 when j is not in it. (The sum over all entries that are j of one more than their place.)
 inline std::size_t one_beyond(const std::int32_t* list, std::size_t size, std::int32_t j) {
   std::int32_t found = 0;
   for (std::size_t first = 0; first < size; first += chunk)

@@ -59,12 +59,14 @@ class CellLists : public ScheduledGrains {
     std::uint32_t list_size = 0;
   };
 
+  /// Finds the next event of grain i among its neighbours, its leeway and the side walls.
   GrainEvent next_of(int i);
   void remember(int i, const GrainEvent& next);
   void prefetch(int i, int days) const;
   void prefetch_neighbours(std::size_t i) const;
   void add_neighbour(std::size_t i, std::int32_t neighbour);
   void remove_neighbour(std::size_t i, std::int32_t neighbour);
+  /// Makes room for eight more neighbours in every list.
   void widen_lists();
   double nearest(double r, std::size_t axis) const { return Periodic ? lines_.period().nearest(r, axis) : r; }
   double time_to_leave(std::size_t i, const Flight3& flight, double wait) const;

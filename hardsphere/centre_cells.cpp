@@ -77,7 +77,7 @@ void CentreCells::drop_block(std::int32_t block) {
   unused_ = block;
 }
 
-/// The first lane that holds a grain; block_size: none does.
+/// Returns the first lane that holds this grain; block_size where none does.
 template <class Grains>
 std::size_t lane_of(const Grains& grains, std::int32_t grain) {
   std::size_t lane = 0;

@@ -13,8 +13,8 @@
 
 namespace shakedown {
 
-/// How many cells a system is cut into at most: of a dilute one most are empty, and memory is all that more
-/// of them would take.
+/// Returns how many cells a system is cut into at most: in a dilute one most are empty, and more of them
+/// would only take memory.
 inline double most_cells_for(std::size_t grains) {
   return std::clamp(64.0 * static_cast<double>(grains), 0x1p24, 0x1p31 - 1);
 }
@@ -30,9 +30,12 @@ class CentreCells {
     std::array<int, 3> cell;
     std::array<float, 3> from_corner;  ///< m
   };
+  /// Returns the place of a centre (m).
   Place place(const std::array<double, 3>& centre) const;
 
+  /// Enters a grain's centre at this place.
   void put(std::int32_t grain, const Place& place);
+  /// Removes the centre of a grain that was put in.
   void take(std::int32_t grain);
   /// Writes the grains whose centres lie within reach of a place, and perhaps some a hundred thousandth (in
   /// wide cells more) beyond, to `near`, which grows as needed; returns how many.

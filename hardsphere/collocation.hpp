@@ -20,10 +20,10 @@ struct Collocation {
   Collocation();
 };
 
-/// Made once.
+/// Returns the tables, which are made at the first call.
 const Collocation& collocation();
 
-/// Sum of the rows of a matrix, each times its value.
+/// Returns the sum of the rows of a matrix, each times its value.
 inline Nodes combined(const std::array<Nodes, node_count>& rows, const Nodes& value) {
   Nodes sum{};
   for (std::size_t j = 0; j < node_count; ++j)

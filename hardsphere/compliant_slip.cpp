@@ -8,7 +8,7 @@
 namespace shakedown {
 
 namespace {
-/// As many of a contact: one to two microseconds an impact.
+/// Takes this many steps per contact, which costs one to two microseconds an impact.
 constexpr int steps = 400;
 
 }  // namespace
@@ -17,7 +17,7 @@ double dashpot_decay(double restitution) {
   return -std::log(std::clamp(restitution, 1e-4, 1.0)) / std::numbers::pi;
 }
 
-/// In units of the rate pi / contact time, the reduced mass, and mu times the closing speed.
+/// Computes in units of the rate pi / contact time, the reduced mass, and mu times the closing speed.
 double compliant_slip(const CompliantSlip& law) {
   constexpr double turning = 2.0 / 7, step = std::numbers::pi / steps;
   const double decay = dashpot_decay(law.restitution), across = dashpot_decay(law.tangential_restitution);

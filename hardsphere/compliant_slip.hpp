@@ -18,11 +18,11 @@ struct CompliantSlip {
   double tangential_restitution = 1;  ///< from 0 to 1: the tangential dashpot's
 };
 
-/// Rate at which a dashpot of this restitution takes speed, in units of pi over the contact time. Below 1e-4
-/// it is no stronger, as the soft engine's.
+/// Returns the rate at which a dashpot of this restitution takes speed, in units of pi over the contact time.
+/// Restitutions below 1e-4 count as 1e-4, as in the soft engine.
 double dashpot_decay(double restitution);
 
-/// Slip after over slip before, -1 to 1; to 3e-3, with a tangential dashpot to 7e-3.
+/// Returns the slip after the impact over that before, -1 to 1. Error: 3e-3, with a tangential dashpot 7e-3.
 double compliant_slip(const CompliantSlip& slip);
 
 }  // namespace shakedown

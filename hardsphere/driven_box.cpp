@@ -80,7 +80,7 @@ void DrivenBox::go_on() {
   restart(valid_until_, point.x, turning ? 0.0 : point.v);
 }
 
-/// All forces on the box but dry friction (-F sgn v) and grains, N.
+/// Returns the sum of all forces on the box but dry friction (-F sgn v) and grains, N.
 double DrivenBox::smooth_force(double x, double v, double t) const {
   const double force = forces_.newton(x, v, t, -stiffness_ * x * (1 + cubic_ * x * x)) + dahl_.newton(x);
   if (!std::isfinite(force)) refuse_force(x, v, t);
@@ -148,7 +148,8 @@ void DrivenBox::begin_stuck() {
   valid_until_ = time_ + std::clamp(safe, 1e-5, 1.0);
 }
 
-/// First time after the start at which the box stands still, found from below with a bound on its jerk.
+/// Returns the first time after the start at which the box stands still, s, found from below with a bound on
+/// its jerk, m/s^3.
 double DrivenBox::first_standstill(double jerk_bound) const {
   if (jerk_bound <= 0) return infinity;
   double t = time_;
@@ -268,7 +269,7 @@ void DrivenBox::write_dense(const Nodes& value) {
   }
 }
 
-/// All who ask for one moment share the answer: an impact asks six to twelve times.
+/// Keeps the last answer, as an impact asks six to twelve times for one moment.
 DrivenBox::Point DrivenBox::at(double t) const {
   if (t != here_.time) here_ = look(t);
   return here_.point;
@@ -298,8 +299,8 @@ DrivenBox::Here DrivenBox::look(double t) const {
   return {t, {x_ + v_ * s + u * u * x, v_ + u * v}, 1, 0, 1};
 }
 
-/// Integrals from the start of a closed piece to time t, each without the difference of large numbers that
-/// short times would make of it.
+/// Returns the integrals from the start of a closed piece to time t, each without the difference of large
+/// numbers that short times would make of it.
 DrivenBox::Flown DrivenBox::flown(double t) const {
   const double s = t - time_, w = damped_frequency_, g = decay_;
   const Point here = at(t);
@@ -322,8 +323,8 @@ DrivenBox::Flown DrivenBox::flown(double t) const {
   return {here.x - x_, moment, squares};
 }
 
-/// Work and impulse in closed form: constant forces and dry friction by the way, the spring's impulse by the
-/// integral of x, the work of damping by that of v^2.
+/// Books work and impulse in closed form: constant forces and dry friction by the way, the spring's impulse
+/// by the integral of x, the work of damping by that of v^2.
 void DrivenBox::account_closed(double t) {
   const Flown now = flown(t);
   const double way = now.way - booked_.way, time = t - accounted_;

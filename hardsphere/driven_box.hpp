@@ -15,8 +15,8 @@
 
 namespace shakedown {
 
-/// Whether anything acts besides linear spring and constant restitution; what acts costs only those setups
-/// that have it.
+/// Tells whether anything acts besides linear spring and constant restitution; what acts costs only those
+/// setups that have it.
 bool is_driven(const Physics& physics);
 
 class DrivenBox {
@@ -25,7 +25,7 @@ class DrivenBox {
 
   DrivenBox(const Physics& physics, double x, double v, double time = 0);
 
-  /// Position and velocity at time t, last kick <= t <= valid_until().
+  /// Returns position and velocity at time t, last kick <= t <= valid_until().
   Point at(double t) const;
   /// A kick: from time t on the box flies from (x, v). Work and impulse must have been accounted for up to t.
   void restart(double t, double x, double v);
@@ -38,10 +38,12 @@ class DrivenBox {
   double top_acceleration() const { return top_acceleration_; }
   /// Bounds of |x| and |x'| until valid_until(), m and m/s.
   Point top_reach() const { return top_reach_; }
-  /// Speed that the box would reach on its spring alone, m/s: the scale of the elastic limit at the walls.
+  /// Returns the speed that the box would reach on its spring alone, m/s: the scale of the elastic limit at
+  /// the walls.
   double top_speed() const { return top_speed_; }
   double angular_frequency() const { return angular_frequency_; }
-  /// Until valid_until() it swings about centre() with angular_frequency() and nothing else.
+  /// Tells whether it swings about centre() with angular_frequency() and does nothing else until
+  /// valid_until().
   bool is_harmonic() const { return piece_ == Piece::closed && decay_ == 0 && responses_.empty(); }
   double centre() const { return centre_; }  ///< m
   double mass() const { return mass_; }
@@ -74,6 +76,7 @@ class DrivenBox {
     double way = 0, moment = 0, squares = 0;
   };
 
+  /// Computes the box at time t from the present piece.
   Here look(double t) const;
   Flown flown(double t) const;
   void account_closed(double t);
@@ -81,6 +84,8 @@ class DrivenBox {
     if (effect >= 0) work_[static_cast<std::size_t>(effect)] += joules;
   }
   bool rubs() const { return forces_.dry_friction.sum() > 0 || dahl_.any(); }
+  /// Begin the next piece at the present state: whichever kind the forces ask for, and each of the three
+  /// kinds. `friction_force`: N, of dry friction in this piece.
   void begin();
   void begin_closed(double friction_force);
   void begin_stuck();

@@ -15,10 +15,11 @@ struct ElasticLimits {
       -1;  ///< m/s^2, acceleration that presses layers on walls and sets the last; negative: none does
 };
 
-/// The limits of a setup at release.
+/// Returns the limits of a setup at release.
 ElasticLimits elastic_limits(const Setup& setup, const Physics& physics);
 
-/// The limits where an acceleration of `pull` (m/s^2) presses grains of this diameter (m) on walls.
+/// Returns the limits, raised for an acceleration of `pull` (m/s^2) that presses grains of this diameter (m)
+/// on walls.
 ElasticLimits pressed_by(double pull, ElasticLimits limits, double diameter);
 
 }  // namespace shakedown

@@ -65,8 +65,9 @@ double EndWalls::bound_of(int grain, const Flight& flight, double room, const No
   return now.time + bound_at_wells(grain, room + apart, room - apart, rate, top);
 }
 
-/// The earliest of what lies ahead at the upper and the lower wall: the wall or the edge of its well, and of
-/// a grain in the well the edge from within. Four at a time, as which of them it is is as good as random.
+/// Returns a lower bound of the time, s from now, to what lies ahead at the upper and the lower wall: the
+/// wall or the edge of its well, and for a grain in the well the edge from within. All four are found at a
+/// time, as which of them comes first is as good as random.
 double EndWalls::bound_at_wells(int grain, double upper, double lower, double rate, double top) const {
   using Four = simd::simd<double, simd::simd_abi::deduce_t<double, 4>>;
   constexpr double far = 1e300;  // m, of what is not there, and opening
@@ -255,8 +256,8 @@ EndWalls::Edges EndWalls::edges_ahead(const Now& now, int grain, const Flight& f
   return ahead;
 }
 
-/// The nearer edge's root mostly comes before the other can be reached at all: 8 % of the time of the paper's
-/// damper.
+/// Finds the nearer edge's root first, which mostly comes before the other edge can be reached at all: this
+/// saves 8 % of the time of the paper's damper.
 EndWalls::Root EndWalls::harmonic_root(double centre, double angular_frequency, const Now& now, int grain,
                                        const Flight& flight, double room) const {
   const double x = flight.x + flight.v * (now.time - flight.time), w = angular_frequency;

@@ -34,12 +34,13 @@
 
 namespace shakedown {
 
-/// What a grain meets at a wall. Capture and escape are the edges of an attraction's square well.
+/// What happens to a grain at a wall or at another grain: a touch, or the edge of an attraction's square well
+/// from outside (capture) or from within (escape).
 enum class Meeting : std::int8_t { none, touch, capture, escape };
 
 class EndWalls {
  public:
-  /// What is known of a grain along the axis: straight flight x + v (t - time).
+  /// A grain along the axis, in straight flight x + v (t - time); m, m/s, s.
   struct Flight {
     double x, v, time;
   };
@@ -86,20 +87,22 @@ class EndWalls {
   bool is_inside(int i, int side) const {
     return range_ > 0 && inside_[static_cast<std::size_t>(2 * i + (side > 0))] != 0;
   }
-  /// A meeting of grain i turned out receding: look again a little later.
+  /// Looks for the next meeting of grain i from the time `until` (s) on, because the one predicted turned out
+  /// receding.
   void put_off(int i, double until);
-  /// The time at which a new window must be opened.
+  /// Returns the time at which a new window must be opened, s.
   double window_end() const { return window_end_; }
 
-  /// Earliest known meeting or bound.
+  /// Returns the earliest known meeting or bound.
   const Next& next() const { return next_; }
   /// Replaces the bound of next().grain by a sharper one or by its exact root; `limit`: time of the next
   /// other event.
   template <class Motion>
   void refine(const Motion& motion, double limit);
 
+  /// Returns how deep a watched grain was in a wall whenever all bounds were renewed, m; 0: never.
   double deepest_overlap() const { return -smallest_gap_; }
-  std::size_t watched() const { return count_; }
+  std::size_t watched() const { return count_; }  ///< number of grains that are not asleep
   double bytes_per_grain() const {
     return room_.empty() ? 0 : 6 * sizeof(double) + 2 * sizeof(std::int32_t) + 2;
   }
@@ -112,18 +115,24 @@ class EndWalls {
     Meeting meeting = Meeting::none;
   };
 
+  /// Finds the earliest meeting or bound of the watched.
   void find_next();
+  /// Renews the bound of every watched grain, in vector lanes; sweep() also adapts the budget.
   void bound_all(const Now& now);
   void sweep(const Now& now);
+  /// Returns a time, s, before which the grain meets nothing at these walls.
   double bound_of(int grain, const Flight& flight, double room, const Now& now) const;
   double bound_at_wells(int grain, double upper, double lower, double rate, double top) const;
-  /// The acceleration that bounds of times allow for.
+  /// Returns the acceleration that bounds of times allow for, m/s^2.
   double top_in_window(const Now& now) const { return std::max(window_top_, now.top_acceleration); }
+  /// Tells whether a grain cannot reach a wall before the window ends, with the slack allowed for.
   bool can_sleep(const Flight& flight, double room, const Now& now) const;
+  /// Puts grain i among the watched.
   void watch(int i, const Flight& flight);
   void note_inside(std::size_t slot, int i);
   /// Takes note of a new flight; false when the grain sleeps on.
   bool watch_changed(int i, const Flight& flight, const Now& now);
+  /// Begins a window with a length that makes sweeps over all grains and over the watched cost the same.
   void start_window(const Now& now);
   Root exact_root(const BoxMotion& box, const Now& now, int grain, const Flight& flight, double room,
                   double horizon) const;
@@ -220,9 +229,9 @@ void EndWalls::refine(const Motion& motion, double limit) {
   find_next();
 }
 
-/// Any motion with a bound on its acceleration: steps that cannot overshoot, which near the root converge
-/// like Newton's. No root is missed, because every stretch stepped over is proved free of one; what lies
-/// beyond the horizon is left for later.
+/// Finds the first root for any motion with a bound on its acceleration, by steps that cannot overshoot and
+/// that converge like Newton's near the root. No root is missed, because every stretch stepped over is proved
+/// free of one; what lies beyond the horizon is left for later.
 template <class Motion>
 EndWalls::Root EndWalls::exact_root(const Motion& motion, const Now& now, int grain, const Flight& flight,
                                     double room, double horizon) const {

@@ -58,7 +58,7 @@ void append(std::vector<std::uint8_t>& bytes, std::uint64_t number) {
   bytes.push_back(static_cast<std::uint8_t>(number));
 }
 
-/// Small for small steps of either sign.
+/// Codes a signed step so that small steps of either sign make small numbers; unzigzag() takes it back.
 std::uint64_t zigzag(std::uint64_t step) { return (step << 1) ^ (0 - (step >> 63)); }
 std::uint64_t unzigzag(std::uint64_t number) { return (number >> 1) ^ (0 - (number & 1)); }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Events of a run, packed. An entry is two numbers of 7-bit groups, low ones first:
-//   time     by how many units in its last place it lies after the time before (zigzag: rounding may set it
-//   back), so nothing is lost who      grain + N * partner; partners from N on are walls and other kinds, see
-//   code_of()
-// About 8 bytes an entry for 37 grains.
+//   time: the number of units in its last place by which it lies after the time before, so that nothing is
+//         lost; coded as zigzag, as rounding may set it back;
+//   who:  grain + N * partner; partners from N on are walls and other kinds, see code_of().
+// An entry takes about 8 bytes for 37 grains.
 #pragma once
 #include <cstdint>
 
@@ -28,16 +28,17 @@ struct LoggedEvent {
   Meeting meeting = Meeting::touch;
 };
 
-/// Entries between two digests of the state, for this number of grains: their cost stays small.
+/// Returns the number of entries between two digests of the state, for this number of grains: so many that
+/// digests cost little.
 std::int64_t digest_interval(std::size_t grains);
 
 class EventWriter {
  public:
   explicit EventWriter(State initial);
-  /// Returns true when a digest of the state is due.
+  /// Appends an event; returns true when a digest of the state is due.
   bool add(const LoggedEvent& event);
   void add_digest(std::uint64_t digest) { log_.digests.push_back(digest); }
-  /// The log until time t, at which the state has this digest.
+  /// Returns the log until time t (s), at which the state has this digest.
   CollisionLog finished(double t, std::uint64_t digest) const;
 
  private:
@@ -51,7 +52,7 @@ class EventReader {
   /// The log must outlive the reader.
   explicit EventReader(const CollisionLog& log) : log_(&log) {}
   bool done() const { return entry_ == log_->entries; }
-  /// The next event; throws FileError when the log is cut short or names what is not there.
+  /// Reads the next event; throws FileError when the log is cut short or names what is not there.
   LoggedEvent next();
   std::int64_t entry() const { return entry_; }  ///< number of events read
 

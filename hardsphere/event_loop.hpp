@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The event loop: takes the earliest of what the grains and the walls announce, executes it, and asks those
+// The event loop takes the earliest of what the grains and the walls announce, executes it, and asks those
 // concerned for their next events. `Grains` finds pair and side-wall events (AllPairs for few grains,
-// CellLists for many); EndWalls those with moving walls. With a driven box grains are described in a frame
-// that falls with them, and the side walls are EndWalls too where they move or attract.
+// CellLists or CellCrossings for many); EndWalls finds those with moving walls. With a driven box grains are
+// described in a frame that falls with them, and the side walls are EndWalls too where they move or attract.
 #pragma once
 #include <atomic>
 #include <bit>
@@ -15,6 +15,30 @@
 
 namespace shakedown {
 
+/// `Motion` is the box, BoxMotion or DrivenBox (scene.hpp). `Grains` is AllPairs, CellLists, CellCrossings,
+/// or ScriptedGrains for a replay. Such a type has these members (i and j number grains from 0; SI):
+///   size()                returns the number of grains
+///   flight(i)             returns the Flight3 of grain i
+///   set_flight(i, flight) gives grain i a new flight after an impact; what was predicted with it is stale
+///   move_to(i, flight)    describes the flight that grain i is on from another of its points
+///   radius(i), mass(i)    return the radius, m, and the mass, kg
+///   separation(a, b)      returns the vector from a to b, flights of one time; in periodic cells to the
+///                         nearest image of b
+///   sums(t)               returns the GrainSums at time t
+///   Next next()           returns {time, grain} of the earliest event that the grains know of
+///   event(i)              returns the GrainEvent of grain i, that of next() for next().grain
+///   is_stale(event)       tells whether the partner of the event has been deflected since it was predicted
+///   predict(i), predict(i, j), predict_all()
+///                         find the next events of these grains, whose flights start now
+///   predict_all_before(t) may be missing: predict_all() that may leave out touches after time t
+///   leave_neighbourhood(i, now)
+///                         executes an event whose partner is `leaves_neighbourhood`
+///   set_bond(i, j, bond), bonds()
+///                         enter whether two grains share a square well; return how many pairs do
+///   forget_side_walls()   leaves the side walls to EndWalls
+///   deepest_overlap()     returns the deepest overlap of two grains seen so far, m
+///   bytes_per_grain()     returns the memory held for each grain
+///   scripted              a static member that stands only in types whose events come from a log
 template <class Grains, class Motion>
 class EventLoop {
  public:
@@ -34,29 +58,36 @@ class EventLoop {
   void write_events_to(EventWriter* writer) { writer_ = writer; }
   /// Executes an event of a log (scripted loops only).
   void execute(const LoggedEvent& event);
-  /// Moves the clock on; no event of the log may lie before.
+  /// Moves the clock on to time t (s); no event of the log may lie before.
   void wait_until(double t) { scene_.now = t; }
-  /// Digest of the whole state: FNV-1a over the bits of all flights, spins and the box.
+  /// Returns a digest of the whole state: FNV-1a over the bits of all flights, spins and the box.
   std::uint64_t digest() const;
 
   double time() const { return scene_.now; }
-  /// At time().
+  /// Returns the motion at time(), and enters how far energy and momentum are off balance.
   Observation observe() { return accounts_.observe(held()); }
+  /// Returns grains and box at time t (s), each on its present flight; lab frame.
   State state(double t) const;
+  /// Returns the energy that contacts and effects have taken since the start, J.
   Ledger ledger() const { return accounts_.ledger(); }
+  /// Returns overlaps so far and the balances as observe() last found them.
   Health health() const;
+  /// Returns the number of impacts by ContactClass.
   const std::array<std::int64_t, contact_classes>& collisions() const { return accounts_.collisions(); }
+  /// Returns the number of steps so far: impacts, and everything else that the loop has dealt with.
   std::int64_t events() const { return events_; }
-  double initial_energy() const { return accounts_.initial_energy(); }
-  /// Sum over pair impacts of impulse times distance, N s m: 3 N k T (Z - 1) times the time it was summed
-  /// over.
+  double initial_energy() const { return accounts_.initial_energy(); }  ///< J
+  /// Returns the sum over pair impacts of impulse times distance, N s m: 3 N k T (Z - 1) times the time that
+  /// it was summed over.
   double virial() const { return impacts_.virial(); }
   double bytes_per_grain() const { return scene_.grains.bytes_per_grain() + walls_.bytes_per_grain(); }
 
  private:
   using Parts = Scene<Grains, Motion>;
 
+  /// Returns the time of the next event of any kind, s; `never` where there is none.
   double next_event_time();
+  /// `limit`: s, beyond which bounds at walls need not be made sharper.
   void step(double limit);
   bool step_of_walls(double next_of_grains, double limit);
   void step_of_motion();
@@ -64,6 +95,7 @@ class EventLoop {
   void touch_wall(int i, int axis, int side);
   void meet_wall(int axis, const EndWalls::Next& next);
   void next_piece();
+  /// Describes the flight of grain i from now on, and predicts its next event where asked to.
   void new_anchor(int i, bool predict);
   void check_progress();
   typename LoopAccounts<Parts>::Held held() const { return {impacts_.spin(), driven ? wells_.energy() : 0}; }
@@ -136,7 +168,8 @@ void EventLoop<Grains, Motion>::advance_impacts(std::int64_t n) {
   }
 }
 
-/// One event: the earliest of the grains' own, the walls', a window's end, and what drives box and grains.
+/// Executes one event: the earliest of the grains' own, the walls', a window's end, and what drives box and
+/// grains.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::step(double limit) {
   ++events_;
@@ -146,7 +179,8 @@ void EventLoop<Grains, Motion>::step(double limit) {
   grain_event(next.grain);
 }
 
-/// False when the grains' own next event is the earliest.
+/// Takes one step at the walls or of what drives box and grains; returns false, and does nothing, when the
+/// grains' own next event is the earliest.
 template <class Grains, class Motion>
 bool EventLoop<Grains, Motion>::step_of_walls(double next_of_grains, double limit) {
   const auto first = walls_.first(next_of_grains);
@@ -239,7 +273,8 @@ void EventLoop<Grains, Motion>::new_anchor(int i, bool predict) {
   if (predict) scene_.grains.predict(i);
 }
 
-/// Endless collisions in no time are a broken promise, not something to wait for.
+/// Throws PhysicsError when more than two million events and 20 000 a grain fall within 10 us of motion: the
+/// run would never end.
 template <class Grains, class Motion>
 void EventLoop<Grains, Motion>::check_progress() {
   const std::int64_t patience = 2'000'000 + 20'000 * static_cast<std::int64_t>(scene_.grains.size());

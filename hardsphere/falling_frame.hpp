@@ -25,22 +25,24 @@ class FallingFrame {
     at_rest_ = constant_.isZero() && harmonics_.empty();
   }
 
-  bool at_rest() const { return at_rest_; }
+  bool at_rest() const { return at_rest_; }  ///< nothing accelerates: the frame is the lab's
+  /// Returns S(t), m: how far the frame has fallen at time t, s after release.
   Vec3 displacement(double t) const {
     Vec3 s = constant_ * (t * t / 2);
     for (const Swing& h : harmonics_)
       s += h.amplitude * ((h.sine - std::sin(h.w * t + h.phase)) / (h.w * h.w) + h.cosine * t / h.w);
     return s;
   }
+  /// Returns S'(t), m/s.
   Vec3 velocity(double t) const {
     Vec3 v = constant_ * t;
     for (const Swing& h : harmonics_) v += h.amplitude * ((h.cosine - std::cos(h.w * t + h.phase)) / h.w);
     return v;
   }
   struct Point {
-    Vec3 x, v;
+    Vec3 x, v;  ///< m, m/s
   };
-  /// Both; all who ask for one moment share the answer.
+  /// Returns displacement and velocity at time t; the last answer is kept for others who ask for that moment.
   const Point& at(double t) const {
     if (!at_rest_ && t != time_) {
       here_ = {displacement(t), velocity(t)};
@@ -54,13 +56,13 @@ class FallingFrame {
     for (const auto& share : constants_.shares()) use(share.effect, share.strength);
     for (const Swing& h : harmonics_) use(h.effect, Vec3(h.amplitude * std::sin(h.w * t + h.phase)));
   }
-  /// Bound of the acceleration along an axis, m/s^2.
+  /// Returns a bound of the acceleration along an axis, m/s^2.
   double top(int axis) const {
     double sum = std::abs(constant_[axis]);
     for (const Swing& h : harmonics_) sum += std::abs(h.amplitude[axis]);
     return sum;
   }
-  /// Fastest angular frequency in it, rad/s.
+  /// Returns the highest angular frequency of the harmonics, rad/s; 0 without any.
   double top_frequency() const {
     double top = 0;
     for (const Swing& h : harmonics_) top = std::max(top, h.w);

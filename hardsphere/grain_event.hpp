@@ -9,20 +9,22 @@
 
 namespace shakedown {
 
-/// A grain in straight flight: where it is at its own `time`.
+/// A grain in straight flight: place (m) and velocity (m/s) at its own `time` (s).
 struct Flight3 {
   std::array<double, 3> x, v;
   double time;
+  /// Returns the coordinate at time t, m.
   double along(int axis, double t) const {
     return x[static_cast<std::size_t>(axis)] + v[static_cast<std::size_t>(axis)] * (t - time);
   }
+  /// Describes the same flight from time t on.
   void advance(double t) {
     for (std::size_t axis = 0; axis < 3; ++axis) x[axis] += v[axis] * (t - time);
     time = t;
   }
 };
 
-/// Sums over all grains: mass, kinetic energy, first moment of x at a time, momentum.
+/// Sums over all grains: mass, kg; kinetic energy, J; first moment of x at a time, kg m; momentum, kg m/s.
 struct GrainSums {
   double mass = 0, kinetic = 0, moment = 0;
   std::array<double, 3> momentum{};
@@ -48,9 +50,9 @@ struct GrainEvent {
   Meeting meeting = Meeting::touch;
 };
 
-/// Time until two spheres touch: separation r, relative velocity w; b = r.w, c = r^2 - reach^2, a = w^2. Both
-/// forms of the quadratic's root that cancel are avoided; spheres that touch (or overlap by rounding) and
-/// approach collide at once, separating ones never.
+/// Returns the time until two spheres touch, s: separation r, relative velocity w; b = r.w, c = r^2 -
+/// reach^2, a = w^2. Both forms of the quadratic's root that cancel are avoided; spheres that touch (or
+/// overlap by rounding) and approach collide at once, separating ones never.
 inline double time_to_touch(double a, double b, double c) {
   if (b >= 0) return never;
   if (c <= 0) return 0;
@@ -58,8 +60,8 @@ inline double time_to_touch(double a, double b, double c) {
   return discriminant < 0 ? never : c / (std::sqrt(discriminant) - b);
 }
 
-/// Earliest of the four fixed side walls at +-room about the axis. Which way a grain flies is as good as
-/// random: no branches on it.
+/// Returns the earliest meeting with one of the four fixed side walls, which leave the centre `room` (m) to
+/// either side. Which way a grain flies is as good as random, so no branch is taken on it.
 inline GrainEvent next_side_wall(const Flight3& flight, const std::array<double, 2>& room) {
   std::array<double, 2> time;
   for (std::size_t k = 0; k < 2; ++k) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Drag and formulas on grains: small impulses at even intervals, centred, so that the error is of second
-// order in the interval.
+// Drag and formulas act on grains as small impulses at even intervals, centred, so that the error is of
+// second order in the interval.
 #pragma once
 #include <string>
 #include <vector>
@@ -21,8 +21,9 @@ class GrainKicks {
     next_ = interval / 2;
   }
 
-  double next() const { return next_; }  ///< s
-  /// One kick of all grains at the scene's time.
+  double next() const { return next_; }  ///< s, time of the next kick; `never` where nothing kicks
+  /// Kicks all grains at the scene's time, and the box by the reaction of the air, and predicts every event
+  /// anew.
   void act();
 
  private:
@@ -42,8 +43,8 @@ class GrainKicks {
   const GrainForces forces_;
   double interval_ = never, next_ = never;
   std::vector<Reaction> reactions_;
-  /// Of the linear drag over the interval, kept for the mass of the grain before: s, and what is left of a
-  /// speed.
+  /// What the linear drag does over one interval, kept while grains have this mass, kg: the integral of the
+  /// decaying speed over the speed at the start, s, and the fraction of the speed that is left.
   struct {
     double mass = 0, time_lost = 0, left = 1;
   } linear_;
@@ -79,8 +80,8 @@ void GrainKicks<Scene>::act() {
   walls_.renew(0);
 }
 
-/// Drag of the air on one grain. Several effects share it as their forces do at the mean speed: second order
-/// in the interval.
+/// Changes the velocity (lab, m/s) of a grain by the drag of the air over one interval. Several effects share
+/// the change as their forces do at the mean speed, which is of second order in the interval.
 template <class Scene>
 void GrainKicks<Scene>::drag(double mass, const Vec3& air, Vec3& velocity) {
   const Vec3 before = velocity, wind = velocity - air;
@@ -104,7 +105,7 @@ void GrainKicks<Scene>::drag(double mass, const Vec3& air, Vec3& velocity) {
   }
 }
 
-/// The user's formulas on one grain.
+/// Changes the velocity (lab, m/s) of a grain at x (lab, m) by the user's formulas over one interval.
 template <class Scene>
 void GrainKicks<Scene>::push(double mass, double x, Vec3& velocity) {
   for (const FreeForce& force : forces_.free) {
@@ -122,7 +123,7 @@ void GrainKicks<Scene>::push(double mass, double x, Vec3& velocity) {
   }
 }
 
-/// The box, and what holds it on its arc, take the reaction of the air.
+/// Gives the reaction of the air to the box and to what holds it on its arc.
 template <class Scene>
 void GrainKicks<Scene>::kick_box(const BoxMotion::Point& box, double speed_across) {
   double impulse = 0;
@@ -138,7 +139,8 @@ void GrainKicks<Scene>::kick_box(const BoxMotion::Point& box, double speed_acros
   scene_.kick_box(jump);
 }
 
-/// What is left of a speed w after the interval of drag m w' = -c1 w - c2 w |w|, as a fraction (closed form).
+/// Returns the fraction of a speed w that is left after one interval of the drag m w' = -c1 w - c2 w |w|, in
+/// closed form.
 template <class Scene>
 double GrainKicks<Scene>::speed_left(double speed, double mass) {
   const AirDrag& drag = forces_.drag.sum();

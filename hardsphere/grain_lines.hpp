@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "damper_state.hpp"
 #include "errors.hpp"
 #include "grain_event.hpp"
-#include "initial_state.hpp"
 #include "lanes.hpp"
 
 namespace shakedown {
@@ -24,8 +24,8 @@ struct Period {
   std::array<double, 3> extent{}, inverse{};
   explicit Period(const std::array<double, 3>& e) : extent(e), inverse{1 / e[0], 1 / e[1], 1 / e[2]} {}
 
-  /// The shortest of r + n extent. A sum so large that it has no digits behind the point rounds to whole
-  /// numbers.
+  /// Returns the shortest of r + n extent. A sum so large that it has no digits behind the point rounds to
+  /// whole numbers.
   template <class Number>
   Number nearest(const Number& r, std::size_t axis) const {
     constexpr double whole = 0x1.8p52;
@@ -33,7 +33,7 @@ struct Period {
   }
 };
 
-/// Up to this many grains all that an event needs is near anyway, and looking ahead only costs.
+/// Up to this many grains all that an event needs stays in the cache, and looking ahead only costs.
 constexpr std::size_t fits_in_cache = 20'000;
 
 class GrainLines {
@@ -79,8 +79,8 @@ class GrainLines {
     double wait;           ///< s
     std::int32_t partner;  ///< -1: none before
   };
-  /// The earliest touch, before `wait`, of grain i flying as `self` with the grains `others`, an array that
-  /// goes on with i itself up to a whole number of vectors.
+  /// Returns the earliest touch, before `wait` (s), of grain i flying as `self` with the grains `others`, an
+  /// array that goes on with i itself up to a whole number of vectors.
   template <bool Periodic>
   Touch first_touch(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size,
                     double wait) {
@@ -149,10 +149,10 @@ GrainLines::Approach<L> GrainLines::approach(std::size_t i, const Self<L>& self,
   return {b, c, b * b - (wx * wx + wy * wy + wz * wz) * c};
 }
 
-/// Which grain is first is told by estimates, and the root taken of that one alone. Where they cannot tell
+/// Finds by estimates which grain is first, and takes the root of that one alone. Where estimates cannot tell
 /// (touches within 2^-11 of each other), or spheres overlap deeper than any before, everything is done in
-/// full; so the answer is the same to the last bit. No branches: whether any of eight grains may come first
-/// is as good as random. 5 % at packing fraction 0.5.
+/// full; so the answer is the same to the last bit. There are no branches, as it is as good as random whether
+/// any of eight grains may come first. Saves 5 % of the time at packing fraction 0.5.
 template <class L, bool Periodic>
 GrainLines::Touch GrainLines::estimated_touch_in(std::size_t i, const Flight3& flight,
                                                  const std::int32_t* others, std::size_t size, double wait) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "hard_sphere_system.hpp"
+#include "initial_state.hpp"
 #include "promise.hpp"
 
 namespace shakedown {
@@ -63,20 +64,22 @@ class HardEngine final : public Engine {
   }
 
  private:
-  /// Held to it while the run goes on, so that a run that is lost ends early.
+  /// Checks what is promised while the run goes on, so that a run that is lost ends early.
   struct Promise {
     const HardSphereSystem& system;
     double most_energy = 0;  ///< J, so far
 
     void see(double energy) { most_energy = std::isfinite(energy) ? std::max(most_energy, energy) : energy; }
-    /// While forces have put in little yet, rounding is a large part of it: the balance counts at the end.
+    /// Checks overlaps and finite numbers alone: while forces have put in little energy yet, rounding is a
+    /// large part of it, so the balance counts at the end.
     void check_on_the_way() const {
       if (system.health().deepest_overlap > most_overlap || !std::isfinite(most_energy)) check();
     }
     void check() const { expect_kept(system.health(), system.time(), most_energy); }
   };
 
-  /// False when stopped. Where samples are far apart, progress is told between them.
+  /// Moves the system on to `until`, s, and tells progress in between where samples are far apart; false when
+  /// stopped.
   static bool advance(HardSphereSystem& system, double until, double duration, const RunOptions& options) {
     const double piece = duration / 100;
     while (until - system.time() > 2 * piece) {
@@ -92,7 +95,7 @@ class HardEngine final : public Engine {
       series->reserve(samples);
     for (auto& series : trajectory.loss) series.reserve(samples);
   }
-  /// Returns the energy, J.
+  /// Appends one sample to the trajectory; returns its energy, J.
   static double append(const Observation& seen, const Ledger& ledger, Trajectory& trajectory) {
     trajectory.time.push_back(seen.time);
     trajectory.x_box.push_back(seen.x_box);

@@ -12,6 +12,7 @@
 #include "cell_lists.hpp"
 #include "centre_cells.hpp"
 #include "event_loop.hpp"
+#include "initial_state.hpp"
 
 namespace shakedown {
 
@@ -43,7 +44,8 @@ std::array<double, 3> cell_of(const Setup& setup) {
   return {setup.box.length, setup.box.width[0], setup.box.width[1]};
 }
 
-/// Periodic cells must hold three list cells along each axis, each as wide as a grain.
+/// Throws InputError for a periodic cell that does not hold three list cells along each axis, each as wide as
+/// a grain, or that holds no grain.
 void check_cell(const Setup& setup, const State& state) {
   if (state.size() == 0)
     throw InputError({{place_of(setup, "grains.count"), "grains.count",
@@ -57,7 +59,8 @@ void check_cell(const Setup& setup, const State& state) {
                          "make box.length and box.width larger, or the grains smaller or less unequal"}});
 }
 
-/// Also of states read from a file. Through cells, so that it costs no more than the first neighbour lists.
+/// Throws PhysicsError for grains that overlap by more than 1e-12 m, also in states read from a file. Looks
+/// through cells, so that it costs no more than the first neighbour lists.
 void check_overlap(const Setup& setup, const State& state) {
   if (state.size() < 2) return;
   constexpr double allowed = 1e-12;  // m

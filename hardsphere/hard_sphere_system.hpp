@@ -5,15 +5,11 @@
 #include <atomic>
 #include <memory>
 
-#include "initial_state.hpp"
+#include "damper_state.hpp"
+#include "observation.hpp"
 #include "trajectory.hpp"
 
 namespace shakedown {
-
-/// What a damper looks like at one moment, lab frame, SI.
-struct Observation {
-  double time, x_box, v_box, x_com, total_energy;
-};
 
 class HardSphereSystem {
  public:
@@ -35,19 +31,23 @@ class HardSphereSystem {
   /// The log that was written so far.
   CollisionLog collision_log() const;
 
-  double time() const;
+  double time() const;  ///< s
+  /// Returns the motion at time(), and enters how far energy and momentum are off balance into health().
   Observation observe();
-  State state() const;
+  State state() const;  ///< at time(), lab frame, SI
+  /// Returns the energy that contacts and effects have taken since release, J.
   Ledger ledger() const;
-  /// Errors in Health's units; also updated by every observe().
+  /// Returns how well the promises were kept so far; the balances are those that observe() has seen.
   Health health() const;
+  /// Returns the number of impacts by ContactClass.
   const std::array<std::int64_t, contact_classes>& collisions() const;
+  /// Returns the number of steps so far: impacts, and everything else that the event loop has dealt with.
   std::int64_t events() const;
-  double initial_energy() const;
-  /// Sum over pair impacts of impulse times distance, N s m; pressure of a periodic fluid: Z - 1 = virial /
-  /// (3 N k T time).
+  double initial_energy() const;  ///< J
+  /// Returns the sum over pair impacts of impulse times distance, N s m. It gives the pressure of a periodic
+  /// fluid: Z - 1 = virial / (3 N k T time).
   double virial() const;
-  /// Memory held per grain, bytes.
+  /// Returns the memory held per grain, bytes.
   double bytes_per_grain() const;
 
  private:

@@ -29,40 +29,45 @@ namespace shakedown {
 
 class HeldBonds {
  public:
-  /// Longest time between impacts that count as one rest, s. 0.1 ms gives the same slopes within the spread
+  /// Impacts no further apart than this count as one rest, s. 0.1 ms gives the same slopes within the spread
   /// of runs at up to twice the cost.
   static constexpr double quick = 1e-3;
-  /// m; how deep a soft contact of 0.3 ms is at 2 cm/s, the speed that a well of 20 mN and 0.02 mm gives.
-  /// There, from 0 to 5e-6, the slope at L = 40 mm goes from -8.44 to -8.16 mm/s (soft engine: -8.17). At 200
-  /// mN some runs of 8.5 s took over a minute without it.
+  /// After a free path shorter than this, m, impacts are elastic at any speed. A soft contact of 0.3 ms is as
+  /// deep at 2 cm/s, the speed that a well of 20 mN and 0.02 mm gives. With that well and paths from 0 to
+  /// 5e-6 m the slope at L = 40 mm goes from -8.44 to -8.16 mm/s (soft engine: -8.17). At 200 mN some runs
+  /// of 8.5 s took over a minute without it.
   static constexpr double hairbreadth = 2e-6;
 
   /// `range`: of the wells, m.
   HeldBonds(std::size_t grains, double range) : range_(range), last_touch_(grains, -1.0) {}
 
+  /// Returns the key of the bond of grains i and j, the same in either order.
   static std::uint64_t of_pair(int i, int j) {
     return static_cast<std::uint64_t>(std::min(i, j)) << 32 | static_cast<std::uint64_t>(std::max(i, j));
   }
+  /// Returns the key of the bond of grain i with the wall across `axis` (0 to 2) on this side (+1 or -1).
   static std::uint64_t of_wall(int i, int axis, int side) {
     return std::uint64_t{1} << 63 | of_pair(i, 0) << 8 | static_cast<std::uint64_t>(2 * axis + (side > 0));
   }
 
-  /// Below which closing speed an impact of grain i (and j) is elastic, where `limit` holds for grains at
-  /// rest.
+  /// Returns the closing speed below which an impact of grains i and j (j < 0: of i and a wall) at time `now`
+  /// is elastic, m/s: at least `limit` where one of them touched something less than `quick` ago, else 0.
   double elastic_below(double limit, int i, int j, double now) const {
     const double last = std::max(last_touch_[static_cast<std::size_t>(i)],
                                  j < 0 ? -1.0 : last_touch_[static_cast<std::size_t>(j)]);
     const double since = now - last;
     return since < quick ? std::max(limit, hairbreadth / since) : 0;
   }
+  /// Notes that grain i touches something at time `now`, s.
   void touches(int i, double now) { last_touch_[static_cast<std::size_t>(i)] = now; }
 
-  /// The two touched and part with this momentum (reduced mass times opening speed): nothing has pulled at
-  /// them yet.
+  /// Notes that the two of this bond touched at time `now` and part with this momentum, N s (reduced mass
+  /// times opening speed): nothing has pulled at them yet.
   void touched(std::uint64_t bond, double momentum, double now) { pulls_[bond] = {now, -momentum}; }
 
-  /// The two came to the edge of their well with too little energy. True: they were pulled with more than
-  /// their attraction `force`, N.
+  /// Judges two that came to the edge of their well with too little energy to leave; true when they were
+  /// pulled with more than their attraction `force`, N, and are let go. `reduced_mass`: kg; `opening_speed`:
+  /// m/s.
   bool gives_way(std::uint64_t bond, double force, double reduced_mass, double opening_speed, double now) {
     const double momentum = reduced_mass * opening_speed;
     Pull& pull = pulls_.try_emplace(bond, Pull{now, 0}).first->second;

@@ -29,8 +29,9 @@ struct NormalImpact {
   double impulse = 0;  ///< N s
 };
 
-/// `slip`: velocity of the touching point relative to the other's, tangential part, m/s; `mass`: per axis,
-/// what the slip feels, kg. Scaling both components alike keeps the loss positive for any masses.
+/// Returns the impulse of friction on the first body. `slip`: velocity of its touching point relative to the
+/// other's, tangential part, m/s; `mass`: kg along each axis, which the slip feels. Both components are
+/// scaled alike, which keeps the loss positive for any masses.
 inline Friction friction_impulse(const Vec3& slip, const Vec3& mass, double coefficient,
                                  const ContactLaw& law, const NormalImpact& normal) {
   const Vec3 stopping = mass.cwiseProduct(slip);
@@ -57,19 +58,19 @@ struct Rolling {
   double loss = 0;              ///< J
 };
 
-/// `turning`: spin relative to the partner's across the normal, rad/s; `inertia`: what it feels, kg m^2;
-/// `limit`: N m s.
+/// Returns the angular impulse of rolling resistance. `turning`: spin relative to the partner's across the
+/// normal, rad/s; `inertia`: kg m^2, which the turning feels; `limit`: N m s, largest angular impulse.
 inline Rolling rolling_impulse(const Vec3& turning, double inertia, double limit) {
   const double rate = turning.norm(), size = std::min(inertia * rate, limit);
   if (rate == 0 || limit <= 0) return {};
   return {turning * (-size / rate), size * (rate - size / (2 * inertia))};
 }
 
-/// Of a solid sphere, kg m^2.
+/// Returns the moment of inertia of a solid sphere, kg m^2.
 inline double inertia_of(double mass, double radius) { return 0.4 * mass * radius * radius; }
 
-/// Change of spin of a sphere by an impulse at its surface point in direction `normal` from its centre,
-/// rad/s.
+/// Returns the change of spin of a sphere, rad/s, by an impulse (N s) at its surface point in direction
+/// `normal` from its centre.
 inline Vec3 spin_change(const Vec3& normal, double radius, double mass, const Vec3& impulse) {
   return normal.cross(impulse) * (2.5 / (mass * radius));
 }

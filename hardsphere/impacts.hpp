@@ -13,25 +13,28 @@
 
 namespace shakedown {
 
-/// m: a tenth of the overlap that is promised, some thousand units in the last place of a position.
+/// A rebound goes at least this far, m: a tenth of the overlap that is promised, some thousand units in the
+/// last place of a position.
 constexpr double lowest_bounce = 1e-13;
 
-/// A bounce on an accelerated wall lower than positions resolve would never end, so every rebound goes at
-/// least `lowest_bounce` far. What that takes is booked (a loss below zero, 1e-14 of E0).
+/// Returns the restitution at a wall, raised where the rebound would not go `lowest_bounce` far: a bounce
+/// that positions do not resolve would never end on an accelerated wall. `closing`: m/s; `wall_acceleration`:
+/// m/s^2. The energy that this adds is booked (a loss below zero, 1e-14 of E0).
 inline double resolved(double restitution, double closing, double wall_acceleration) {
   return std::max(restitution, std::sqrt(2 * wall_acceleration * lowest_bounce) / closing);
 }
 
-/// m/s: what the components of both velocities are rounded by, some times over.
+/// Returns four epsilon times the sum of all components' sizes, m/s: some times what rounding does to them.
 inline double rounding_of(const MeetingPair& pair) {
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) sum += std::abs(pair.a.v[axis]) + std::abs(pair.b.v[axis]);
   return 4 * std::numeric_limits<double>::epsilon() * sum;
 }
 
-/// A pair whose impact is lost when velocities are rounded meets again at the same instant, without end: two
-/// grains that drift side by side closed at 1e-19 m/s (one plain run in 20 000). Larger than its restitution,
-/// then, so that they part. (A wall that moves without being accelerated would need it too; there is none.)
+/// Returns the restitution of a pair, raised where its impact would be lost when velocities are rounded, so
+/// that the two part: else they meet again at the same instant, without end. Two grains that drift side by
+/// side closed at 1e-19 m/s (one plain run in 20 000). A wall that moves without being accelerated would need
+/// this too; there is none.
 inline double resolved(double restitution, double closing, const MeetingPair& pair) {
   const double least = rounding_of(pair);
   if (closing >= least) [[likely]]
@@ -46,51 +49,67 @@ class Impacts {
   Impacts(Scene& scene, LoopWalls<Scene>& walls, LoopAccounts<Scene>& accounts, Partings<Scene>& partings,
           Wells<Scene>& wells)
       : scene_(scene), walls_(walls), accounts_(accounts), partings_(partings), wells_(wells) {}
-  /// The laws and limits of a setup, and the spins at release.
+  /// Sets the laws and limits of a setup, and the spins at release.
   void start(const State& state, const Physics& physics, const Setup& setup);
 
-  /// Two spheres: normal impulse mu (1 + eps) times the closing speed along the line of centres.
+  /// Executes the impact of grains i and j: the normal impulse is mu (1 + eps) times the closing speed along
+  /// the line of centres.
   void pair(int i, int j);
-  /// End wall on this side: the box takes the opposite impulse (paper, Sec. II B, with v_Box' = v_Box + dp /
-  /// M).
+  /// Executes the impact of grain i on the end wall of this side, +1 or -1; the box takes the opposite
+  /// impulse (paper, Sec. II B, with v_Box' = v_Box + dp / M).
   void end_wall(int i, int side);
-  /// Side wall on this side, which may move across (falling frame, arc) and along the axis with the box, on
-  /// which friction pulls.
+  /// Executes the impact of grain i on a side wall across `axis` 1 or 2. The wall may move across (falling
+  /// frame, arc), and along the axis with the box, on which friction pulls.
   void side_wall(int i, int axis, int side);
 
   const std::vector<Vec3>& spin() const { return spin_; }  ///< rad/s; empty without friction
-  /// Sum over pair impacts of impulse times distance, N s m.
+  /// Returns the sum over pair impacts of impulse times distance, N s m.
   double virial() const { return virial_; }
+  /// Return the number of impacts on walls, and between grains, that the elastic limits made elastic.
   std::int64_t elastic_walls() const { return elastic_walls_; }
   std::int64_t elastic_pairs() const { return elastic_pairs_; }
 
  private:
+  /// Returns the law's restitution at this closing speed, m/s, or 1 below `elastic_below`, m/s; the latter
+  /// counts in `rescues`.
   double restitution(ContactClass contact, double closing, double elastic_below, std::int64_t& rescues) const;
-  /// s since grain i (or j) last touched anything, before this touch, which counts from now on.
+  /// Returns the time since grain i (or j) last touched anything, s, and notes this touch. Where touches are
+  /// not noted it returns HeldBonds::quick.
   double since_touch(int i, int j = -1);
-  /// Below which closing speed an impact is elastic so long after the grains touched anything, s, where
-  /// `limit` holds at any time.
+  /// Returns the closing speed below which an impact is elastic, m/s: `limit`, or more where the free path
+  /// since the last touch, `since` seconds ago, was shorter than ElasticLimits::free_path.
   double elastic_below(double limit, double since) const {
     const bool is_rest = since < HeldBonds::quick && limits_.free_path > limit * since;
     return is_rest ? limits_.free_path / since : limit;
   }
+  /// Tells whether friction acts in an impact with this closing speed, m/s, where impacts below
+  /// `elastic_below`, m/s, are elastic; the last touch was `since` seconds ago.
   static bool rubs(double closing, double elastic_below, double since);
-  /// Whether contacts of this kind rub or resist rolling.
+  /// Tells whether contacts of this kind (a ContactClass) rub or resist rolling.
   bool touches_roughly(std::size_t kind) const {
     return law_.rubs(static_cast<ContactClass>(kind)) ||
            (law_.rolling_resistance[kind] > 0 && !spin_.empty());
   }
+  /// Apply friction, and in roll_pair() rolling resistance too, to the velocities in `pair` and to the spins;
+  /// return the energy that it takes, J. `contact`: its slip, normal and mass.
   double rub_pair(int i, int j, MeetingPair& pair, const NormalImpact& normal_impact);
   double roll_pair(int i, int j, MeetingPair& pair, const RollingContact& contact,
                    const NormalImpact& normal_impact);
+  /// Returns the velocity, m/s, that the spin of grain i gives to its surface in direction `normal` from the
+  /// centre.
   Vec3 surface_velocity(int i, const Vec3& normal) const {
     return spin_[static_cast<std::size_t>(i)].cross(normal) * scene_.grains.radius(i);
   }
+  /// Change the spin of grain i by the friction (in roll_on_wall() the rolling resistance too) of a wall, and
+  /// return the impulse on the grain and the energy taken. `slip`: m/s, of the grain's surface past the wall;
+  /// `mass`: kg along each axis, which the slip feels.
   Friction rub_wall(int i, const Vec3& normal, const Vec3& slip, const Vec3& mass,
                     const NormalImpact& normal_impact);
   Friction roll_on_wall(int i, const RollingContact& contact, const NormalImpact& normal_impact);
+  /// Do what side_wall() says, for a box on its spring alone and for a driven one.
   void fixed_side_wall(int i, int axis, int side);
   void moving_side_wall(int i, int axis, int side);
+  /// Lengthens the free path below which impacts are elastic while the box swings wider than at release.
   void press_by_the_swing();
 
   Scene& scene_;
@@ -126,14 +145,14 @@ double Impacts<Scene>::restitution(ContactClass contact, double closing, double 
   return 1;
 }
 
-/// Whether this impact rubs, where impacts below `elastic_below` are elastic. A layer pressed on a wall
+/// Impacts below `elastic_below` are elastic, and rub down to a tenth of it. A layer pressed on a wall
 /// consists of such impacts, and without friction in them it slips as none of soft contacts does: with
-/// coefficients of 0.41 (restitution 0.66, 128 runs) the peaks at 40 mm fell by 9.00 mm/s; soft contacts of
-/// 0.1 ms give 8.78, friction down to 0.3, 0.1 and 0.03 of the limit 8.85, 8.83 and 8.83, and first peaks
-/// within 0.15, 0.02 mm and less of each other. Down to nothing the layer collapses. And where grains touch
-/// again at once, as in a row that just fits between the side walls, friction takes what pushes the row
-/// apart: one run in 4000 made 22 million impacts of it. 1 us to 10 us without friction forbid that and give
-/// the same peaks within 0.1 mm.
+/// coefficients of 0.41 (restitution 0.66, 128 runs) the peaks at 40 mm fall by 9.00 mm/s, with soft contacts
+/// of 0.1 ms by 8.78. Friction down to 0.3, 0.1 and 0.03 of the limit gives 8.85, 8.83 and 8.83, and first
+/// peaks within 0.15, 0.02 mm and less of each other; friction without a lower limit makes the layer
+/// collapse. And where grains touch again at once, as in a row that just fits between the side walls,
+/// friction takes what pushes the row apart: one run in 4000 made 22 million impacts of it. To leave friction
+/// out for 1 us to 10 us after a touch forbids that and gives the same peaks within 0.1 mm.
 template <class Scene>
 bool Impacts<Scene>::rubs(double closing, double elastic_below, double since) {
   constexpr double slow = 0.1, at_once = 1e-5;  // of the limit; s
@@ -149,7 +168,7 @@ double Impacts<Scene>::since_touch(int i, int j) {
   return scene_.now - before;
 }
 
-/// Friction between two grains; returns what it takes, J.
+/// Friction between two grains.
 template <class Scene>
 double Impacts<Scene>::rub_pair(int i, int j, MeetingPair& pair, const NormalImpact& normal_impact) {
   const Vec3 normal = vec(pair.r) / pair.distance, apart = vec(pair.b.v) - vec(pair.a.v);
@@ -170,7 +189,7 @@ double Impacts<Scene>::rub_pair(int i, int j, MeetingPair& pair, const NormalImp
   return friction.loss;
 }
 
-/// Friction and rolling resistance of two grains; returns what they take, J.
+/// Friction and rolling resistance of two grains.
 template <class Scene>
 double Impacts<Scene>::roll_pair(int i, int j, MeetingPair& pair, const RollingContact& contact,
                                  const NormalImpact& normal_impact) {

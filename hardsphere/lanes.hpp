@@ -22,8 +22,8 @@ namespace simd = std::experimental;
 using Lanes = simd::native_simd<double>;
 constexpr std::size_t lane_count = Lanes::size();
 
-/// Aligned to 64 bytes, and large arrays on large pages: reached at random, their addresses stay in the
-/// processor's tables.
+/// Allocates memory aligned to 64 bytes, large arrays on large pages, so that addresses reached at random
+/// stay in the processor's tables; free_cache_lines() takes the same number of bytes.
 void* allocate_cache_lines(std::size_t bytes);
 void free_cache_lines(void* memory, std::size_t bytes);
 
@@ -60,16 +60,16 @@ L lane_index() {
 constexpr std::size_t few_count = lane_count > 4 ? lane_count / 2 : lane_count;
 using FewLanes = simd::simd<double, simd::simd_abi::deduce_t<double, few_count>>;
 
-/// Square roots from below, good to 2^-21, of numbers up to 1e30: in single precision they take a third of
-/// the time, on every machine alike.
+/// Returns square roots from below, good to 2^-21, of numbers up to 1e30: in single precision they take a
+/// third of the time, on every machine alike.
 inline Lanes roots_below(const Lanes& x) {
   using Single = simd::simd<float, simd::simd_abi::deduce_t<float, lane_count>>;
   const Single root = simd::sqrt(simd::static_simd_cast<Single>(simd::min(x, Lanes(1e30))));
   return simd::static_simd_cast<Lanes>(root) * Lanes(1 - 0x1p-22);
 }
 
-/// Whether the machine has the two below, within 2^-14 of the true value and many times cheaper than a root
-/// or a division.
+/// Tells whether the machine has the two estimates below, within 2^-14 of the true value and many times
+/// cheaper than a root or a division.
 #ifdef __AVX512VL__
 constexpr bool has_estimates = true;
 template <class L>
@@ -115,8 +115,8 @@ L gather(const double* first, const std::int32_t* index) {
   return L([&](auto lane) { return first[stride * static_cast<std::size_t>(index[lane])]; });
 }
 
-/// The first seven numbers of as many lines of eight numbers as there are lanes: number k of them all in one
-/// vector.
+/// Loads the first seven numbers of as many lines of eight numbers as there are lanes; returns number k of
+/// all lines in vector k.
 template <class L>
 std::array<L, 7> columns(const double* first, const std::int32_t* index) {
 #ifdef __AVX512F__

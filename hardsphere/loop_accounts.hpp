@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "hard_sphere_system.hpp"
+#include "observation.hpp"
 #include "open_book.hpp"
 #include "scene.hpp"
 
@@ -58,9 +58,12 @@ class LoopAccounts {
       outer_impulse_ += scene_.spring_impulse();
   }
 
+  /// Returns what contacts and effects have taken since open(), J.
   Ledger ledger() const;
+  /// Returns the number of impacts by ContactClass.
   const std::array<std::int64_t, contact_classes>& collisions() const { return collisions_; }
-  double initial_energy() const { return initial_energy_; }
+  double initial_energy() const { return initial_energy_; }  ///< J
+  /// Return how far energy and momentum were off balance at most when observe() was called (Health).
   double ledger_error() const { return energy_book_.error(initial_energy_); }
   double momentum_error() const { return momentum_book_.error(momentum_scale_); }
 

@@ -10,7 +10,8 @@
 
 namespace shakedown {
 
-/// Half the inner length less each grain's radius, m.
+/// Returns for each grain half the inner length less its radius, m: how far its centre can get from the
+/// middle.
 inline std::vector<double> rooms(const State& state, double length) {
   std::vector<double> room;
   for (const double radius : state.radius) room.push_back(length / 2 - radius);
@@ -25,6 +26,7 @@ class LoopWalls {
 
   LoopWalls(Scene& scene, const State& state, const Physics& physics, const Setup& setup);
 
+  /// Returns the walls across an axis; 1 and 2 only where has_sides().
   EndWalls& across(int axis) {
     return axis == 0 ? end_walls_ : side_walls_[static_cast<std::size_t>(axis - 1)];
   }
@@ -32,14 +34,16 @@ class LoopWalls {
     return axis == 0 ? end_walls_ : side_walls_[static_cast<std::size_t>(axis - 1)];
   }
   bool has_sides() const { return !side_walls_.empty(); }
-  /// The walls across an axis of a driven box now; an impact asks six to nine times.
+  /// Returns the walls across an axis of a driven box at the scene's time; kept, as an impact asks six to
+  /// nine times.
   const EndWalls::Now& now(int axis) {
     Kept& kept = kept_[static_cast<std::size_t>(axis)];
     if (kept.now.time != scene_.now || kept.flight != scene_.flights)
       kept = {scene_.flights, EndWalls::now(scene_.walls_across(axis), scene_.now)};
     return kept.now;
   }
-  /// Their velocity now, in the frame of the grains, m/s.
+  /// Returns the velocity of a driven box now, in the frame of the grains, m/s: along each axis that of the
+  /// walls across it.
   Vec3 velocity() { return {now(0).point.v, now(1).point.v, now(2).point.v}; }
 
   struct First {
@@ -47,7 +51,7 @@ class LoopWalls {
     double time;        ///< of it, or `before`
     double window_end;  ///< s, at which a window must be opened
   };
-  /// What comes first, and no later than `before`.
+  /// Returns the walls with the earliest meeting or bound, or `before`, s, where that is earlier.
   First first(double before) const {
     First found{0, std::min(before, end_walls_.next().time), end_walls_.window_end()};
     if constexpr (Scene::driven)
@@ -58,8 +62,8 @@ class LoopWalls {
       }
     return found;
   }
-  /// Makes the earliest bound of the walls across an axis sharper, or a time. `limit`: of the next other
-  /// event.
+  /// Makes the earliest bound of the walls across an axis sharper, or replaces it by the exact time of the
+  /// meeting. `limit`: s, time of the next other event.
   void refine(int axis, double limit) {
     if constexpr (Scene::driven)
       across(axis).refine(scene_.walls_across(axis), limit);
@@ -71,10 +75,11 @@ class LoopWalls {
   void open_windows(bool all = false);
   /// Renews every bound after a kick of the box (jump != 0), or when its motion goes on with another piece.
   void renew(double jump);
-  /// Tells the walls of a grain's new flight. A kick of the box that follows renews every bound of the end
-  /// walls, also this grain's.
+  /// Tells the walls that grain i is on a new flight, after every change of it. `kick_follows`: renew() is
+  /// called next, which renews the bounds of the end walls, so that this grain's need not be found here.
   void after(int i, bool kick_follows = false);
 
+  /// Returns how deep a grain was seen in a wall, m; 0: never.
   double deepest_overlap() const {
     double deepest = end_walls_.deepest_overlap();
     for (const EndWalls& walls : side_walls_) deepest = std::max(deepest, walls.deepest_overlap());

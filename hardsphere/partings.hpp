@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How grains leave a meeting: with new velocities, of which grains, walls and box are told.
+// Grains leave a meeting with new velocities; grains, walls and box are told of them.
 #pragma once
 #include "loop_accounts.hpp"
 #include "loop_walls.hpp"
@@ -11,7 +11,8 @@ inline void add(std::array<double, 3>& to, const Vec3& what) {
   for (std::size_t axis = 0; axis < 3; ++axis) to[axis] += what[static_cast<int>(axis)];
 }
 
-/// Two grains that meet now: r from the first to the second, m, and how fast they part along it.
+/// Two grains that meet now: r from the first to the second, m, and how fast they part along it (below zero
+/// when they close).
 struct MeetingPair {
   Flight3 a, b;
   std::array<double, 3> r;
@@ -25,21 +26,26 @@ class Partings {
   Partings(Scene& scene, LoopWalls<Scene>& walls, LoopAccounts<Scene>& accounts)
       : scene_(scene), walls_(walls), accounts_(accounts) {}
 
+  /// Returns grains i and j as they meet at the scene's time.
   MeetingPair pair_now(int i, int j) const;
+  /// Returns the flight of grain i as it goes on from the scene's time.
   Flight3 flight_now(int i) const {
     Flight3 flight = scene_.grains.flight(i);
     flight.advance(scene_.now);
     return flight;
   }
 
-  /// The two part with an impulse along r, given per metre of r (N s/m).
+  /// Lets the two part with an impulse along r, given per metre of r (N s/m; above zero it drives them
+  /// apart), and predicts their next events. `pair`: what else has changed their velocities is in it already.
   void part(int i, int j, MeetingPair& pair, double impulse_per_length);
-  /// A wall has thrown a grain back, and the box has taken `jump` (m/s).
+  /// Enters the flight of grain i that a wall has thrown back, kicks the box by `jump` (m/s; 0: not at all),
+  /// and predicts the next events.
   void part_from_wall(int i, const Flight3& flight, double jump);
-  /// A predicted meeting turned out receding (rounding): look again a little later. 1 ns of a box's
-  /// acceleration is 3e-18 m. `walls`: those that the grain was to meet; nullptr: none that EndWalls finds.
+  /// Predicts grain i anew after a predicted meeting turned out receding by rounding. `walls`: those that the
+  /// grain was to meet, where it is looked for again after 1 ns (a box's acceleration makes 3e-18 m of that);
+  /// nullptr: none that EndWalls finds.
   void refuse(int i, const Flight3& flight, EndWalls* walls);
-  std::int64_t refused() const { return refused_; }
+  std::int64_t refused() const { return refused_; }  ///< number of such meetings so far
 
  private:
   Scene& scene_;

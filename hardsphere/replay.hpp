@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "damper_state.hpp"
 #include "event_log.hpp"
-#include "initial_state.hpp"
 
 namespace shakedown {
 

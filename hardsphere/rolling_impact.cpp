@@ -9,8 +9,8 @@ namespace {
 
 constexpr int steps_of_rolling = 200;
 
-/// Times are in contact times over pi, so that forces are impulses; turning as the velocity across the normal
-/// that it gives a surface at unit distance.
+/// Integrates one contact. Times are in contact times over pi, so that forces are impulses; turning is kept
+/// as the velocity across the normal that it gives a surface at unit distance.
 class Integration {
  public:
   Integration(const RollingContact& contact, const ContactLaw& law, const NormalImpact& impact)
@@ -53,7 +53,8 @@ class Integration {
     stretch_ += slip_ * (step / 2);
   }
 
-  /// As in softsphere/friction.cpp.
+  /// Returns the tangential force, at most `most` in size; a spring that slides keeps the stretch that its
+  /// share of the force stands for, as in softsphere/friction.cpp.
   Vec3 friction(double most) {
     const Vec3 wanted = -spring_ * stretch_ - dashpot_ * slip_;
     const double size = wanted.norm();

@@ -25,6 +25,7 @@ struct RollingImpact {
   Vec3 impulse = Vec3::Zero(), turning = Vec3::Zero();
   double loss = 0;
 };
+/// Returns what friction and rolling resistance do to the first body in one impact.
 RollingImpact rolling_impact(const RollingContact& contact, const ContactLaw& law,
                              const NormalImpact& normal_impact);
 

@@ -6,13 +6,14 @@
 #include <type_traits>
 
 #include "box_motion.hpp"
+#include "damper_state.hpp"
 #include "errors.hpp"
 #include "grain_event.hpp"
-#include "initial_state.hpp"
 #include "wall_motion.hpp"
 
 namespace shakedown {
 
+/// Makes the box at the place and with the velocity of a state.
 template <class Motion>
 Motion make_box(const Physics& physics, const State& state) {
   if constexpr (std::is_same_v<Motion, DrivenBox>)
@@ -32,7 +33,7 @@ class Scene {
 
   Scene(const State& state, const Physics& physics, const Setup& setup, Grains its_grains);
 
-  /// The box at `now` in the lab; all who ask during one event share the answer.
+  /// Returns the box at `now` in the lab; the answer is kept for others who ask during one event.
   BoxMotion::Point box_now() {
     if (now != box_time_) {
       if constexpr (driven) {
@@ -46,17 +47,17 @@ class Scene {
     }
     return box_point_;
   }
-  /// The walls across an axis as the grains see them.
+  /// Returns the walls across an axis as the grains see them.
   DrivenWalls walls_across(int axis) const {
     if constexpr (driven)
       return {&box, &frame, axis, arc_curvature, release_x};
     else
       return {};
   }
-  /// The box's own velocity across (on its arc) now, in the lab, m/s.
+  /// Returns the box's own velocity across (on its arc) now, in the lab, m/s.
   double speed_across() const { return walls_across(2).at(now).v + frame.velocity(now).z(); }
 
-  /// The box, at `now` with the state of box_now(), takes a velocity jump.
+  /// Gives the box a velocity jump, m/s, at `now`; box_now() must have been asked for that moment.
   void kick_box(double jump) {
     const BoxMotion::Point here = box_now();
     box.restart(now, here.x, here.v + jump);
@@ -64,15 +65,17 @@ class Scene {
     box_point_.v += jump;
     spring_impulse_ = 0;
   }
+  /// Lets the box go on with the next piece of its motion.
   void next_piece_of_box() {
     box.go_on();
     ++flights;
     box_time_ = -1;
   }
-  /// Impulse of the spring alone from the last kick to the moment of box_now(), N s.
+  /// Returns the impulse of the spring alone from the last kick to the moment of box_now(), N s.
   double spring_impulse() const { return spring_impulse_; }
 
-  /// Positions across the axis are seen from the box, along it from the lab.
+  /// Returns grains and box at time t, s: across the axis as seen from the box, along it as seen from the
+  /// lab.
   State state(double t) const;
 
   double now = 0;            ///< s

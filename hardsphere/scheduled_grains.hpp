@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What the systems of many grains have in common, however they find partners: one line a grain, and a
-// calendar with the next event of each.
+// Systems of many grains have this in common, however they find partners: one line a grain, and a calendar
+// with the next event of each.
 #pragma once
 #include "calendar_queue.hpp"
 #include "grain_lines.hpp"
 
 namespace shakedown {
 
+/// The part of `Grains` (event_loop.hpp says what each member does) that CellLists and CellCrossings share.
 class ScheduledGrains {
  public:
   using Next = CalendarQueue::Next;
@@ -18,6 +19,7 @@ class ScheduledGrains {
     ++lines_[static_cast<std::size_t>(i)].count;
   }
   void move_to(int i, const Flight3& flight) { lines_.move_to(static_cast<std::size_t>(i), flight); }
+  /// Must not be called: square wells need the table of pairs that AllPairs keeps.
   void set_bond(int, int, bool) { EXPECT(false && "wells need AllPairs"); }
   int bonds() const { return 0; }
   double radius(int i) const { return lines_.radius(static_cast<std::size_t>(i)); }
@@ -32,8 +34,8 @@ class ScheduledGrains {
   ScheduledGrains(const State& state, const std::array<double, 3>& extent)
       : lines_(state, extent), queue_(state.size()), prefetches_(state.size() > fits_in_cache) {}
 
-  /// The earliest event; `prefetch(i, days)` is told of grains whose turn comes in so many days of the
-  /// calendar, where their lines do not stay near by themselves.
+  /// Returns the earliest event. `prefetch(i, days)` is told of grains whose turn comes in so many days of
+  /// the calendar, in systems too large for the cache.
   template <std::size_t Looks, class Prefetch>
   Next next_event(const std::array<int, Looks>& days_ahead, const Prefetch& prefetch) {
     return prefetches_ ? queue_.next(days_ahead, prefetch) : queue_.next();

@@ -2,12 +2,14 @@
 #pragma once
 #include <vector>
 
+#include "damper_state.hpp"
 #include "grain_event.hpp"
-#include "initial_state.hpp"
 
 namespace shakedown {
 
-/// Grains whose events are known from a log: they fly, and predict nothing.
+/// Grains of a replay: they fly and predict nothing, because their events come from a log. Members mean what
+/// event_loop.hpp says of `Grains`; the four that find events (next, event, is_stale, leave_neighbourhood)
+/// are left out, as a scripted loop asks for none.
 class ScriptedGrains {
  public:
   static constexpr bool scripted = true;
@@ -32,6 +34,7 @@ class ScriptedGrains {
   std::array<double, 3> separation(const Flight3& a, const Flight3& b) const {
     return {b.x[0] - a.x[0], b.x[1] - a.x[1], b.x[2] - a.x[2]};
   }
+  /// Returns zeros: a replay balances no energy.
   GrainSums sums(double) const { return {}; }
 
   void set_bond(int, int, bool) {}

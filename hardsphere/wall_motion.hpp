@@ -17,6 +17,8 @@ struct DrivenWalls {
   int axis;
   double arc_curvature, release_x;
 
+  /// Returns place (m) and velocity (m/s) of the middle between the walls at time t, s, in the grains' frame.
+  /// Across axis 0 it is the box's; across the others the place counts from its value at release.
   BoxMotion::Point at(double t) const {
     const FallingFrame::Point& fallen = frame->at(t);
     const double s = fallen.x[axis], v = fallen.v[axis];
@@ -28,6 +30,7 @@ struct DrivenWalls {
     const BoxMotion::Point p = box->at(t);
     return {arc_curvature * (p.x * p.x - release_x * release_x) - s, 2 * arc_curvature * p.x * p.v - v};
   }
+  /// Returns a bound of the walls' acceleration until valid_until(), m/s^2.
   double top_acceleration() const {
     const double falling = frame->top(axis);
     if (axis == 0) return box->top_acceleration() + falling;
@@ -43,7 +46,8 @@ struct DrivenWalls {
   }
   double top_speed() const { return box->top_speed(); }
   double angular_frequency() const { return box->angular_frequency(); }
-  /// Where the walls swing harmonically until valid_until(): about what, m.
+  /// Returns the place, m, about which the walls swing harmonically until valid_until(); nothing where they
+  /// move otherwise.
   std::optional<double> harmonic_centre() const {
     if (axis != 0 || !box->is_harmonic() || frame->top(0) != 0) return std::nullopt;
     return box->centre();

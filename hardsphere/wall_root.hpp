@@ -30,13 +30,13 @@ struct HarmonicGap {
   }
 };
 
-/// Earliest time t >= 0, s, at which the gap closes from above; `never` when it does not (within 1e12
-/// periods). A gap that is zero (or below by rounding) and closing gives 0; one that is opening is followed
-/// to its next maximum first. Error: a few units in the last place of t.
+/// Returns the earliest time t >= 0, s, at which the gap closes from above; `never` when it does not (within
+/// 1e12 periods). A gap that is zero (or below by rounding) and closing gives 0; one that is opening is
+/// followed to its next maximum first. Error: a few units in the last place of t.
 double first_wall_root(const HarmonicGap& gap);
 
-/// A time before which no root can lie, whatever the phase: g(t) >= g + g' t - A t^2 / 2 with |g''| <= A. For
-/// A = 0 it is the root.
+/// Returns a time, s from now, before which no root can lie whatever the phase: g(t) >= g + g' t - A t^2 / 2
+/// with |g''| <= A. For A = 0 it is the root.
 inline double earliest_possible_root(double gap, double rate, double top_acceleration) {
   const double room = gap > 0 ? gap : 0;
   if (top_acceleration <= 0) return rate < 0 ? room / -rate : never;

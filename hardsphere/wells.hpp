@@ -26,42 +26,49 @@ class Wells {
   /// Finds out who starts in a well; the grains must have predicted their events.
   void start(const State& state, const Setup& setup);
 
+  /// Execute the arrival of grain i at the edge of the well of grain j, or of the wall across `axis` on this
+  /// side (+1 or -1): it is captured, escapes, or is thrown back.
   void pair_edge(int i, int j, Meeting meeting);
   void wall_edge(int i, int axis, int side, Meeting meeting);
 
-  bool act() const { return acts_; }
-  double energy() const {  ///< J
+  bool act() const { return acts_; }  ///< whether grains attract each other
+  /// Returns the energy that wells hold, J: below zero where any is filled.
+  double energy() const {
     return -(static_cast<double>(filled_) * force_ + static_cast<double>(filled_at_walls_) * wall_force_) *
            range_;
   }
-  /// Below which closing speed an impact of grain i (and j) is elastic, where `limit` holds without
-  /// attraction.
+  /// Returns the closing speed below which an impact of grain i (and j) is elastic, m/s; `limit`, m/s, holds
+  /// without attraction.
   double elastic_below(double limit, int i, int j = -1) const {
     if constexpr (Scene::driven)
       if (acts_)
         return std::max(j < 0 && wall_force_ == 0 ? limit : 0, held_.elastic_below(limit, i, j, scene_.now));
     return limit;
   }
-  /// Grains i and j (or i and a wall) have touched and part with this momentum.
+  /// Notes that grains i and j (or i and a wall) have touched and part with this momentum, N s. `bond`: their
+  /// key, HeldBonds::of_pair() or of_wall().
   void note_touch(std::uint64_t bond, double momentum, int i, int j = -1) {
     held_.touched(bond, momentum, scene_.now);
     held_.touches(i, scene_.now);
     if (j >= 0) held_.touches(j, scene_.now);
   }
+  /// Tells whether any bond gave way without paying for it.
   bool let_any_go() const { return let_go_ > 0; }
 
  private:
-  /// Opening speeds after the edge of a well of this force: of a capture, and of an escape that can pay.
+  /// Return the opening speed, m/s, behind the edge of a well of this force, N: after a capture, and after an
+  /// escape that can pay. `opening`: m/s, before; `reduced`: kg.
   double captured(double force, double opening, double reduced) const {
     return -std::sqrt(opening * opening + 2 * force * range_ / reduced);
   }
   double escaped(double force, double opening, double reduced) const {
     return std::sqrt(opening * opening - 2 * force * range_ / reduced);
   }
+  /// Tells whether the energy of opening is enough to leave a well of this force.
   bool can_pay(double force, double opening, double reduced) const {
     return reduced / 2 * opening * opening > force * range_;
   }
-  /// A bond of this force gives way without paying for it.
+  /// Books a bond of this force, N, that gives way without paying for it.
   void let_go(double force) {
     ++let_go_;
     accounts_.loss_of(effect_) -= force * range_;

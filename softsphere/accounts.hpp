@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a soft run keeps book of: work by class of contact, work of each effect, impulse from outside.
+// A soft run keeps book of work by class of contact, work of each effect, and impulse from outside.
 #pragma once
 #include <array>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace shakedown {
 
-/// Sum with the rounding carried along (Neumaier): millions of tiny works add up without drift.
+/// A sum that carries its rounding along (Neumaier), so that millions of tiny works add up without drift.
 class CompensatedSum {
  public:
   void operator+=(double term) {
@@ -31,6 +31,7 @@ struct Accounts {
   std::array<std::int64_t, contact_classes> collisions{};  ///< first touches
   double deepest_overlap = 0;                              ///< m
 
+  /// Adds work, J, to the line of an effect; an effect of -1 has none.
   void add_work(int effect, double work) {
     if (effect >= 0) effect_work[static_cast<std::size_t>(effect)] += work;
   }

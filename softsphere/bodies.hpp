@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Grains and box of a soft run as a structure of arrays: rows 0 .. N-1 are grains, row N is the box.
 #pragma once
-#include "initial_state.hpp"
+#include "damper_state.hpp"
 
 namespace shakedown {
 
@@ -18,17 +18,19 @@ struct Bodies {
   Column inverse_mass_across;  ///< along y and z: the box is guided, 0
   Column inverse_inertia;      ///< solid spheres, 5/(2 m R^2); 0 for the box
 
-  Eigen::Index box() const { return grains; }
+  Eigen::Index box() const { return grains; }  ///< row of the box
+  /// Return place and velocity of the box along x, m and m/s.
   double& x_box() { return position(grains, 0); }
   double& v_box() { return velocity(grains, 0); }
   double x_box() const { return position(grains, 0); }
   double v_box() const { return velocity(grains, 0); }
+  /// Return place (m), velocity (m/s) and spin (rad/s) of the body in this row, the box included.
   Vec3 position_of(Eigen::Index body) const { return position.row(body).matrix(); }
   Vec3 velocity_of(Eigen::Index body) const { return velocity.row(body).matrix(); }
   Vec3 spin_of(Eigen::Index body) const { return spin.row(body).matrix(); }
 };
 
-/// The state as arrays; `box_mass` 0 stands for a box that is held still.
+/// Returns the state as arrays; `box_mass`: kg, 0 for a box that is held still.
 inline Bodies bodies_of(const State& state, double box_mass) {
   Bodies bodies;
   const auto n = static_cast<Eigen::Index>(state.size());
@@ -57,7 +59,7 @@ inline Bodies bodies_of(const State& state, double box_mass) {
   return bodies;
 }
 
-/// The arrays as a state.
+/// Returns the arrays as a state.
 inline State state_of(const Bodies& bodies) {
   State state;
   for (Eigen::Index i = 0; i < bodies.grains; ++i) {

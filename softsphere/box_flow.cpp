@@ -60,8 +60,8 @@ double BoxFlow::force(double t, double x, double v) const {
   return forces_.newton(x, v, t, -stiffness_ * x * (1 + cubic_ * x * x)) + dahl_.newton(x);
 }
 
-/// `sliding`: which way the box slides where a friction acts, +1 or -1; 0 without it. Leaves in works_ what
-/// each force did.
+/// Integrates the motion over one step and leaves in works_ what each force did. `sliding`: which way the box
+/// slides where a friction acts, +1 or -1; 0 without it.
 BoxFlow::Phase BoxFlow::integrate(double time, double step, Phase from, double sliding) {
   Phase end = from;
   for (Work& work : works_) work.joule = 0;
@@ -84,7 +84,8 @@ BoxFlow::Phase BoxFlow::integrate(double time, double step, Phase from, double s
   return end;
 }
 
-/// First time within the step at which the velocity is zero, by bisection on the integrator itself.
+/// Returns the first time within the step at which the velocity is zero, s from its beginning, by bisection
+/// on the integrator itself.
 double BoxFlow::time_of_stop(double time, double step, Phase from, double sliding) {
   double low = 0, high = step;
   for (int round = 0; round < 60 && high - low > 1e-16 * step; ++round) {
@@ -103,7 +104,7 @@ void BoxFlow::advance_with_effects(double time, double step, Phase& now, Account
     rub(time + step * piece / pieces, step / pieces, now, accounts);
 }
 
-/// One step, with the stops that it holds where a friction acts.
+/// Takes one step, with the stops that it holds where a friction acts.
 void BoxFlow::rub(double time, double step, Phase& now, Accounts& accounts) {
   const double most = forces_.dry_friction.sum();
   const auto enter = [&](const Phase& phase) {

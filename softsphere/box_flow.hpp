@@ -16,6 +16,7 @@ class BoxFlow {
   explicit BoxFlow(const Physics& physics);
   /// Moves the box from `time` by `step`; the impulse and the work of its forces go into the accounts.
   void advance(double time, double step, double& x, double& v, Accounts& accounts);
+  /// Returns the energy of the spring with the box at x (m), J.
   double spring_energy(double x) const;
 
  private:

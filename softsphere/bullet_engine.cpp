@@ -5,6 +5,7 @@
 
 #include "box_flow.hpp"
 #include "bullet_world.hpp"
+#include "initial_state.hpp"
 #include "printed_text.hpp"
 #include "run_record.hpp"
 
@@ -86,15 +87,15 @@ class BulletRun {
     return true;
   }
 
-  /// The spring as users of Bullet write it: a force at the beginning of each step.
+  /// Takes a step with the spring as users of Bullet write it: a force at the beginning of each step.
   void advance_untouched(double step) {
     world_.step(step, held_ ? 0.0 : -physics_.stiffness * bodies_.x_box(), accounts_);
     world_.read(bodies_);
     if (asleep_since_ < 0 && !held_ && world_.box_sleeps()) asleep_since_ = time_ + step;
   }
 
-  /// Bullet resolves the contacts at the places of the beginning of the step; the flight to its end is ours,
-  /// and exact for the box.
+  /// Takes a step in which Bullet resolves the contacts at the places of its beginning; the flight to its end
+  /// is computed here, and exact for the box.
   void advance(double step) {
     const double x = bodies_.x_box();
     world_.step(step, 0, accounts_);
@@ -105,8 +106,8 @@ class BulletRun {
   }
 
   void fly_box(double from, double step) {
-    // By how far Bullet's overlap correction has moved the box: it did no work on velocities, but the spring
-    // feels it.
+    // Bullet's overlap correction has moved the box by this much: it did no work on velocities, but the
+    // spring feels it.
     const double pushed = bodies_.x_box() - (from + step * bodies_.v_box());
     double x = from;
     box_.advance(time_, step, x, bodies_.v_box(), accounts_);

@@ -20,9 +20,9 @@ class BulletWorld {
   /// semi-implicit Euler).
   void step(double seconds, double force_on_box, Accounts& accounts);
 
-  void read(Bodies& bodies) const;  ///< places, velocities and spins out of Bullet
-  void write_box(const Bodies& bodies);
-  bool box_sleeps() const;
+  void read(Bodies& bodies) const;       ///< copies places, velocities and spins out of Bullet
+  void write_box(const Bodies& bodies);  ///< copies place and velocity of the box into Bullet
+  bool box_sleeps() const;               ///< whether Bullet has put the box to sleep
 
  private:
   void write_grains(const Bodies& bodies);

@@ -43,13 +43,14 @@ double closing_speed(const Bodies& bodies, const Contact& contact) {
   return (bodies.velocity_of(contact.j) - bodies.velocity_of(contact.i)).dot(contact.normal);
 }
 
-/// Part of a step spent inside a range, from how far inside now (> 0) and how fast it deepened.
+/// Returns the part of a step spent inside a range, from how far inside it is now (m, > 0) and how fast it
+/// deepened (m/s).
 double part_of_step_inside(double depth, double rate, double step) {
   const double advance = rate * step;
   return advance > depth ? depth / advance : 1.0;
 }
 
-/// Part of a step spent inside a range that was left: depth before and (negative) depth now.
+/// Returns the part of a step spent inside a range that was left: depth before and (negative) depth now, m.
 double part_of_step_before_leaving(double before, double now) {
   return before > 0 ? before / (before - now) : 0.0;
 }
@@ -106,7 +107,8 @@ class Merge {
   void finish() { pass_by_until(~std::uint64_t{0}); }
 
  private:
-  /// Contacts of the step before that are no candidates any more: they have separated.
+  /// Takes over the contacts of the step before up to this key, which are no candidates any more; those that
+  /// have separated are marked `over`.
   void pass_by_until(std::uint64_t key) {
     for (; old_ != end_ && old_->key < key; ++old_) {
       now_.push_back(*old_);
@@ -164,7 +166,8 @@ class Merge {
   std::vector<Contact>& now_;
 };
 
-/// Whether any grain is within `range` of a wall across `axis`: one vector pass, as it is mostly false.
+/// Tells whether any grain is within `range` (m) of a wall across `axis`, in one vector pass, as it mostly is
+/// not.
 bool any_at_wall(const Bodies& bodies, int axis, double centre, double half, double range) {
   return ((bodies.position.col(axis).head(bodies.grains) - centre).abs() + bodies.radius).maxCoeff() >
          half - range;

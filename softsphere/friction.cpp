@@ -8,7 +8,8 @@
 namespace shakedown {
 
 namespace {
-/// Reduces the slip of a contact that sticks to the tangential restitution, 1/s.
+/// Returns the rate, 1/s, by which the dashpot reduces the slip of a contact that sticks to the tangential
+/// restitution.
 double tangential_decay(const ContactModel& model) {
   return -std::log(std::clamp(model.law.tangential_restitution, 1e-4, 1.0)) / model.contact_time;
 }
@@ -20,7 +21,7 @@ double tangential_stiffness(const ContactModel& model, const Contact& contact) {
          (as_stiff * contact.spring.stiffness + contact.reduced_mass * decay * decay);
 }
 
-/// What the dashpot makes of the slip, with its weight in the coming half kick, N.
+/// Returns the force of the dashpot against the slip, N, with its weight in the coming half kick.
 Vec3 dashpot_force(const ContactModel& model, const Bodies& bodies, const Contact& contact) {
   const double damping = 2 * ContactLaw::turning_ratio * contact.reduced_mass * tangential_decay(model);
   if (damping == 0) return Vec3::Zero();

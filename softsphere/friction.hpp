@@ -11,18 +11,18 @@
 // the impulse law to 0.05 for restitutions of 0.75 and 0.1 for 0.5, at any tangential restitution. With the
 // dashpot in the limit they are off by up to 0.2 and 0.4 where sticking turns into sliding.
 #pragma once
-#include "contacts.hpp"
+#include "contact.hpp"
 
 namespace shakedown {
 
-/// Whether surfaces of its kind have friction; where they have none there is no spring, and nothing is
+/// Tells whether surfaces of its kind have friction; where they have none there is no spring, and nothing is
 /// stored.
 bool rubs(const ContactModel& model, const Contact& contact);
 
-/// Energy stored in the tangential spring, J.
+/// Returns the energy stored in the tangential spring, J.
 double energy_of_stretch(const ContactModel& model, const Contact& contact);
 
-/// Velocity of i relative to j at their point of contact, across the normal, m/s.
+/// Returns the velocity of i relative to j at their point of contact, across the normal, m/s.
 Vec3 slip_velocity(const Bodies& bodies, const Contact& contact);
 
 /// Turns the spring into the new tangent plane, keeping its length, and stretches it by the slip during
@@ -32,11 +32,12 @@ void stretch_tangentially(const Bodies& bodies, double time, Contact& contact);
 /// Sets the tangential force for the current velocities.
 void set_friction(const ContactModel& model, const Bodies& bodies, Contact& contact);
 
-/// After the last evaluation: a spring that slides keeps the stretch that its share of the force stands for.
+/// Sets, after the last evaluation, the stretch of a spring that slides to what its share of the force stands
+/// for.
 void let_slide(const ContactModel& model, const Bodies& bodies, Contact& contact);
 
-/// Distance from the centre of i (or j) to the point of contact, m. The levers of a pair add up to the
-/// distance of the centres, so that friction conserves angular momentum.
+/// Return the distance from the centre of i, and of j, to the point of contact, m. The levers of a pair add
+/// up to the distance of the centres, so that friction conserves angular momentum.
 double lever_of_first(const Bodies& bodies, const Contact& contact);
 double lever_of_second(const Bodies& bodies, const Contact& contact);
 

@@ -10,7 +10,7 @@ namespace shakedown {
 
 namespace {
 
-/// Changes during a step of velocity and, beyond v step, of position.
+/// The change of velocity during a step (m/s), and of position beyond v step (m).
 struct Change {
   Vec3 velocity = Vec3::Zero();
   Vec3 position = Vec3::Zero();
@@ -29,8 +29,7 @@ Change by_harmonic(const GrainForces::HarmonicVector& harmonic, double time, dou
           harmonic.amplitude * ((cosine * step - (std::sin(later) - sine) / rate) / rate), harmonic.effect};
 }
 
-/// Adds a change common to all grains; exact work of each of several simultaneous changes: m change . (v +
-/// v') / 2.
+/// Adds changes common to all grains and books the exact work of each of them: m change . (v + v') / 2.
 void add_velocity(const std::vector<Change>& changes, Bodies& bodies, Accounts& accounts) {
   const Eigen::Index n = bodies.grains;
   Vec3 total = Vec3::Zero();
@@ -46,7 +45,7 @@ void add_velocity(const std::vector<Change>& changes, Bodies& bodies, Accounts& 
   accounts.outer_impulse += mass * total.x();
 }
 
-/// The accelerations' share alone, of grains that have already gone v step.
+/// Adds the share of the accelerations to grains that have already gone v step.
 void accelerate_grains(const GrainForces& forces, double time, double step, Bodies& bodies,
                        Accounts& accounts) {
   const Eigen::Index n = bodies.grains;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The grains between kicks: straight lines, bent by accelerations that are the same for all of them.
+// Between kicks the grains fly on straight lines, bent by accelerations that are the same for all of them.
 #pragma once
 #include "accounts.hpp"
 #include "bodies.hpp"
@@ -9,8 +9,9 @@ namespace shakedown {
 /// Moves the grains from `time` by `step` under constant and harmonic accelerations, in closed form.
 void advance_grains(const GrainForces& forces, double time, double step, Bodies& bodies, Accounts& accounts);
 
-/// A box that follows an arc goes across as 3/5 x^2 / l, so grains seen from it pick up -6/5 (x v) / l of
-/// transverse velocity. Enters the change of x v of the box since `before`.
+/// Gives the grains the transverse velocity that they pick up as seen from a box on an arc: the box goes
+/// across as 3/5 x^2 / l, so they pick up -6/5 (x v) / l. `before`: x v of the box when this was last done,
+/// m^2/s.
 void follow_arc(const GrainForces& forces, double before, Bodies& bodies, Accounts& accounts);
 
 }  // namespace shakedown

@@ -46,7 +46,8 @@ class HalfKick {
   }
 
  private:
-  /// Bodies may come up more than once: what is done to them must not mind.
+  /// Calls `action` for each body that takes part; a body may come up more than once, which the action must
+  /// bear.
   template <class Action>
   void for_each_body(Action action) {
     if (everywhere_) {
@@ -124,7 +125,7 @@ class HalfKick {
     for (int axis = 0; axis < 3; ++axis) rows(body, axis) += value(axis);
   }
 
-  /// Mean over before and after of a row.
+  /// Returns the mean of a body's row before and after.
   static Vec3 mean(const Bodies::Rows& before, const Bodies::Rows& after, Eigen::Index body) {
     return {(before(body, 0) + after(body, 0)) / 2, (before(body, 1) + after(body, 1)) / 2,
             (before(body, 2) + after(body, 2)) / 2};
@@ -148,7 +149,7 @@ class HalfKick {
           half_step_ * (contact.normal_force * contact.normal.x() + contact.tangential_force.x());
   }
 
-  /// Air that moves with the box, and formulas of the user.
+  /// Adds the drag of air that moves with the box, and the user's formulas.
   void add_field_forces() {
     const Eigen::Index n = bodies_.grains, box = bodies_.box();
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -183,7 +184,7 @@ class HalfKick {
     }
   }
 
-  /// Power of one effect's drag on all grains, W.
+  /// Returns the power of one effect's drag on all grains, W.
   double drag_power(const AirDrag& drag) const {
     const double box_speed = mean_velocity(bodies_.box()).x();
     double power = 0;

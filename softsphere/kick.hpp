@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Half kicks: velocities change by the forces at fixed positions, and every force's work is entered exactly.
+// In a half kick velocities change by the forces at fixed positions, and every force's work is entered
+// exactly.
 #pragma once
-#include "contacts.hpp"
+#include "contact.hpp"
 
 namespace shakedown {
 
@@ -22,7 +23,7 @@ struct KickedRun {
   Accounts& accounts;
 };
 
-/// One half kick at `time`, s.
+/// Executes one half kick at `time`, s, of `half_step` seconds.
 ///
 /// v' = v + F half_step / m, the forces taken at the velocities of the pass before; one pass is explicit,
 /// three passes solve the implicit equation to (beta step / 2)^3, 3e-7 at twenty steps per contact. Work of a

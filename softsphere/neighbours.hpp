@@ -21,9 +21,9 @@ class Neighbours {
   Neighbours(const Bodies& bodies, double range, double skin);
   ~Neighbours();
 
-  /// Every pair with centres within reach, and some more, sorted by (i, j).
+  /// Returns every pair with centres within reach, and some more, sorted by (i, j).
   const std::vector<Pair>& pairs(const Bodies& bodies);
-  std::int64_t searches() const { return searches_; }
+  std::int64_t searches() const { return searches_; }  ///< how often the tree was asked
 
  private:
   bool stale(const Bodies& bodies) const;

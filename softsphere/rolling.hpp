@@ -7,12 +7,12 @@
 // impulse over a whole contact, so the angular impulse is mu_r R times that of the normal, as hard impacts
 // have it.
 #pragma once
-#include "contacts.hpp"
+#include "contact.hpp"
 
 namespace shakedown {
 
-/// On i, N m; on j the opposite. `spin`: rad/s of all bodies at the beginning of the half kick of `half_step`
-/// seconds.
+/// Returns the torque on i, N m; j gets the opposite. `spin`: rad/s of all bodies at the beginning of the
+/// half kick of `half_step` seconds.
 Vec3 rolling_torque(const ContactModel& model, const Bodies& bodies, const Contact& contact,
                     const Bodies::Rows& spin, double half_step);
 

@@ -16,7 +16,7 @@ double centre_of_mass(const Bodies& bodies) {
   return sum_in_order(bodies.mass * bodies.position.col(0).head(bodies.grains)) / sum_in_order(bodies.mass);
 }
 
-/// M Omega Delta0; without a spring or its displacement the sum of m |v|.
+/// Returns M Omega Delta0, kg m/s; without a spring or its displacement the sum of m |v|.
 double scale_of_momentum(const Setup& setup, const Bodies& bodies, double box_mass) {
   const double rate = 2 * std::numbers::pi * setup.spring.frequency;
   if (box_mass > 0 && setup.release.displacement != 0)
@@ -54,7 +54,7 @@ double RunRecord::momentum(const Bodies& bodies) const {
   return sum_in_order(bodies.mass * bodies.velocity.col(0).head(bodies.grains)) + box_mass_ * bodies.v_box();
 }
 
-/// Dissipated: what contacts took, less what their springs have gained since the start.
+/// Returns as dissipated what contacts took, less what their springs have gained since the start.
 Ledger RunRecord::ledger(const Accounts& accounts, const StoredEnergy& stored) const {
   Ledger ledger;
   for (std::size_t kind = 0; kind < contact_classes; ++kind)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every engine on Bullet writes down: samples, ledger, and how well energy and momentum balance.
+// Every engine on Bullet writes down samples, ledger, and how well energy and momentum balance.
 #pragma once
 #include <cmath>
 #include <functional>
@@ -20,11 +20,13 @@ class RunRecord {
   RunRecord(const Setup& setup, std::string engine, double box_mass,
             std::function<double(double)> spring_energy);
 
-  /// The state at release, from which the balances count.
+  /// Takes the state at release, from which the balances count.
   void begin(const Setup& setup, const Bodies& bodies, const StoredEnergy& stored);
+  /// Appends a sample at `time`, s, to the trajectory.
   void sample(double time, const Bodies& bodies, const Accounts& accounts, const StoredEnergy& stored);
   /// Enters the balances into the health; false when they are not numbers.
   bool check(const Bodies& bodies, const Accounts& accounts, const StoredEnergy& stored);
+  /// Completes the trajectory with ledger, counts and the state at `end_time`, s, and returns it.
   Trajectory finish(const Bodies& bodies, const Accounts& accounts, const StoredEnergy& stored,
                     double end_time);
 
@@ -60,12 +62,12 @@ void through_samples(const Setup& setup, const RunOptions& options, March march,
   if (rest * rate > 1e-9) march(rest, setup.run.duration);
 }
 
-/// Number of equal steps, none longer than `longest`, that fill an interval.
+/// Returns the number of equal steps, none longer than `longest`, that fill an interval.
 inline std::int64_t steps_that_fill(double interval, double longest) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(interval / longest * (1 - 1e-12))));
 }
 
-/// Asked every so many steps within a sample: tells the time, s, and returns whether the run goes on.
+/// Tells, at every so many steps, the time (s) as progress, and returns whether the run goes on.
 inline bool goes_on(const RunOptions& options, std::int64_t step, std::int64_t every, double time) {
   if (step % every != 0) return true;
   if (step > 0 && options.progress) options.progress(time);

@@ -7,7 +7,9 @@
 #include <span>
 
 #include "box_flow.hpp"
+#include "contacts.hpp"
 #include "grain_flow.hpp"
+#include "initial_state.hpp"
 #include "kick.hpp"
 #include "printed_text.hpp"
 #include "run_record.hpp"
@@ -22,7 +24,7 @@ constexpr double skin_in_diameters = 0.15;
 constexpr int implicit_passes = 3;
 /// With fewer steps the contact oscillator is not resolved (Verlet is unstable below pi / 2).
 constexpr double fewest_steps_per_contact = 5;
-/// Above this the bounce is visibly not what the setup says.
+/// An error of the restitution above this is told, as the bounce is then visibly not what the setup says.
 constexpr double largest_quiet_restitution_error = 5e-3;
 
 void expect_soft(const Setup& setup) {
@@ -145,7 +147,8 @@ class SoftRun {
     if (!finite || accounts_.deepest_overlap > setup_.grains.diameter / 4) fail();
   }
 
-  /// The work of every force is entered: what is open is a motion that the steps do not follow.
+  /// Throws PhysicsError where the balance is off: as the work of every force is entered, what is open then
+  /// is a motion that the steps do not follow.
   void expect_balanced(double ledger_error) const {
     constexpr double most = 1e-6;  // of the energy
     if (ledger_error <= most) return;
@@ -158,8 +161,8 @@ class SoftRun {
                 time_, ledger_error, most, setup_.soft.contact_time * 1e3));
   }
 
-  /// Contacts deeper than half a radius, or numbers that are none: the setup asks for more than soft contacts
-  /// can do.
+  /// Throws PhysicsError for contacts deeper than half a radius, or numbers that are none: the setup asks for
+  /// more than soft contacts can do.
   [[noreturn]] void fail() const {
     std::string text = text_of(
         "engine 'soft': contacts are too soft at t = %.6g s: deepest overlap %.3g mm of a diameter of %.3g "

@@ -11,11 +11,11 @@ struct SpringDashpot {
   double damping = 0;    ///< N s/m
 };
 
-/// Constants for a restitution in (0, 1], a reduced mass (kg) and a contact time (s).
+/// Returns the constants for a restitution in (0, 1], a reduced mass (kg) and a contact time (s).
 SpringDashpot spring_dashpot(double restitution, double reduced_mass, double contact_time);
 
-/// Largest error of the restitution over all phases of first touch within a step: 1.24 / n^2 for n steps per
-/// contact, measured at restitution 0.75 (n = 10 ... 200; tests/softsphere holds it).
+/// Returns the largest error of the restitution over all phases of first touch within a step: 1.24 / n^2 for
+/// n steps per contact, measured at restitution 0.75 (n = 10 ... 200; tests/softsphere holds it).
 double predicted_restitution_error(double steps_per_contact);
 
 }  // namespace shakedown

@@ -4,8 +4,8 @@
 
 namespace shakedown {
 
-/// The sum of a column, first to last. Eigen's own adds as many at a time as the processor's vectors hold, so
-/// that its last digits differ from one processor to the next.
+/// Returns the sum of a column, added from first to last. Eigen's own adds as many at a time as the
+/// processor's vectors hold, so that its last digits differ from one processor to the next.
 template <class Column>
 double sum_in_order(const Eigen::DenseBase<Column>& column) {
   double sum = 0;

@@ -52,6 +52,7 @@ class Draw {
   void another_damper(Random& random, int number, std::vector<Override>& truth, BlindCase& drawn) const;
   void film(Random& random, std::vector<Override>& truth, BlindCase& drawn) const;
   void hide_pair(Random& random, std::vector<Override>& truth, BlindCase& drawn) const;
+  void hide_twin(std::size_t number, Random& random, std::vector<Override>& truth, BlindCase& drawn) const;
   void hide_what_the_kind_says(Random& random, int index, std::vector<Override>& truth,
                                BlindCase& drawn) const;
 
@@ -62,8 +63,8 @@ class Draw {
   KnownEffects known_;
 };
 
-/// How a strength of this unit grows from the believed damper to another one, so that it does as much there.
-/// What happens inside contacts stays.
+/// Returns the factor by which a strength of this unit grows from the believed damper to another one, so that
+/// it does as much there. What happens inside contacts stays.
 double growth(std::string_view unit, const Setup& from, const Setup& to) {
   const double mass = to.box.mass / from.box.mass, rate = to.spring.frequency / from.spring.frequency,
                reach = to.release.displacement / from.release.displacement;
@@ -126,8 +127,8 @@ void Draw::hide(Random& random, const Hideable& hideable, double signal, std::ve
   drawn.signal_to_noise = drawn.signal_to_noise > 0 ? std::min(drawn.signal_to_noise, reached) : reached;
 }
 
-/// From metrology to a phone in a hand: each error drawn log-uniform by itself. The masses are off by as much
-/// as the experimenter says that they may be.
+/// Draws a camera, from metrology to a phone in a hand: each error log-uniform by itself. The masses are off
+/// by as much as the experimenter says that they may be.
 void Draw::film(Random& random, std::vector<Override>& truth, BlindCase& drawn) const {
   const auto log_between = [&](double low, double high) {
     return low * std::pow(high / low, random.uniform());
@@ -155,7 +156,8 @@ void Draw::film(Random& random, std::vector<Override>& truth, BlindCase& drawn) 
       truth.push_back({known.key, toml_of(known.value + known.error * random.normal(), "kg"), "blind suite"});
 }
 
-/// Its lengths leave the layer of grains free ways of a fifth to four fifths of the release.
+/// Draws another damper. Its lengths leave the layer of grains free ways of a fifth to four fifths of the
+/// release.
 void Draw::another_damper(Random& random, int number, std::vector<Override>& truth, BlindCase& drawn) const {
   const auto log_between = [&](double low, double high) {
     return low * std::pow(high / low, random.uniform());
@@ -196,7 +198,7 @@ void Draw::another_damper(Random& random, int number, std::vector<Override>& tru
   truth.insert(truth.begin(), damper.begin(), damper.end());
 }
 
-/// One from inside the contacts, and one that acts on the box, on everything or in the camera.
+/// Hides an effect inside the contacts, and one that acts on the box, on everything or in the camera.
 void Draw::hide_pair(Random& random, std::vector<Override>& truth, BlindCase& drawn) const {
   std::vector<const Hideable*> inside, outside;
   for (const Hideable& hideable : hideable_effects()) {
@@ -207,6 +209,31 @@ void Draw::hide_pair(Random& random, std::vector<Override>& truth, BlindCase& dr
   }
   hide(random, *outside[choice(random, outside.size())], 12, truth, drawn);
   hide(random, *inside[choice(random, inside.size())], 12, truth, drawn);
+}
+
+/// Hides an effect that another imitates, and plans runs that tell the two apart.
+void Draw::hide_twin(std::size_t number, Random& random, std::vector<Override>& truth,
+                     BlindCase& drawn) const {
+  const TwinPair& pair = twin_pairs()[number % twin_pairs().size()];
+  hide(random, *find_hideable(pair.hidden), twin_signal, truth, drawn);
+  drawn.twin = pair.twin;
+  drawn.trial.runs = twin_runs();
+  drawn.more = design_.runs;
+  drawn.more.push_back(
+      {"N60",
+       {{"box.length", "\"65 mm\"", ""}, {"grains.count", "60", ""}, {"run.duration", "\"12 s\"", ""}}});
+  drawn.more.push_back(
+      {"N20",
+       {{"box.length", "\"40 mm\"", ""}, {"grains.count", "20", ""}, {"run.duration", "\"20 s\"", ""}}});
+  drawn.more.push_back(
+      {"empty",
+       {{"box.length", "\"40 mm\"", ""}, {"grains.count", "0", ""}, {"run.duration", "\"12 s\"", ""}}});
+  // A late clock shifts the box by a distance that grows with the release; a push at release does not.
+  drawn.more.push_back(
+      {"half",
+       {{"box.length", "\"40 mm\"", ""},
+        {"release.displacement", toml_string(write_quantity(0.5 * believed_.release.displacement, "m")), ""},
+        {"run.duration", "\"12 s\"", ""}}});
 }
 
 void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Override>& truth,
@@ -246,28 +273,7 @@ void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Overri
       });
     case BlindKind::pair: return hide_pair(random, truth, drawn);
     case BlindKind::unlisted: return hide_next(hideable_forces(), 12, [](const Hideable&) { return true; });
-    case BlindKind::twins: {
-      const TwinPair& pair = twin_pairs()[number % twin_pairs().size()];
-      hide(random, *find_hideable(pair.hidden), twin_signal, truth, drawn);
-      drawn.twin = pair.twin;
-      drawn.trial.runs = twin_runs();
-      drawn.more = design_.runs;
-      drawn.more.push_back(
-          {"N60",
-           {{"box.length", "\"65 mm\"", ""}, {"grains.count", "60", ""}, {"run.duration", "\"12 s\"", ""}}});
-      drawn.more.push_back(
-          {"N20",
-           {{"box.length", "\"40 mm\"", ""}, {"grains.count", "20", ""}, {"run.duration", "\"20 s\"", ""}}});
-      drawn.more.push_back(
-          {"empty",
-           {{"box.length", "\"40 mm\"", ""}, {"grains.count", "0", ""}, {"run.duration", "\"12 s\"", ""}}});
-      // A late clock shifts the box by a distance that grows with the release; a push at release does not.
-      drawn.more.push_back({"half",
-                            {{"box.length", "\"40 mm\"", ""},
-                             {"release.displacement",
-                              toml_string(write_quantity(0.5 * believed_.release.displacement, "m")), ""},
-                             {"run.duration", "\"12 s\"", ""}}});
-    }
+    case BlindKind::twins: return hide_twin(number, random, truth, drawn);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cases of a blind suite, drawn at random.
+// Draws the cases of a blind suite at random.
 #pragma once
 #include <array>
 #include <map>
@@ -20,11 +20,10 @@ constexpr std::array<std::string_view, 9> blind_kind_names{
 /// How many of each kind.
 using BlindCounts = std::array<int, 9>;
 constexpr BlindCounts full_counts{60, 60, 120, 30, 30, 24, 20, 60, 60}, small_counts{2, 1, 3, 1, 1, 1, 0, 0};
-/// As long as a lunch: at half a minute of two cores a case, and some ten for the strengths, about 45
-/// minutes.
+/// These take about 45 minutes: half a minute of two cores a case, and some ten minutes for the strengths.
 constexpr BlindCounts lunch_counts{8, 8, 20, 6, 6, 6, 0, 12, 12};
 
-/// "nulls=10,singles=20": those kinds alone. Throws InputError.
+/// Reads "nulls=10,singles=20": those kinds alone. Throws InputError.
 BlindCounts parse_counts(std::string_view text, const std::string& origin = "--cases");
 
 struct BlindCase {
@@ -39,7 +38,7 @@ struct BlindCase {
                                  ///< half the release
 };
 
-/// From what nobody can see to what nobody can miss.
+/// Signals to noise are drawn from what nobody can see to what nobody can miss.
 constexpr double weakest_signal = 2, strongest_signal = 40;
 
 struct BlindDesign {
@@ -47,44 +46,46 @@ struct BlindDesign {
   std::vector<double> signals{};  ///< in turn; empty: log-uniform from weakest_signal to strongest_signal
   RecordingSettings recording;    ///< but for its noise, which is drawn
 };
-/// Five runs as the open cases have them, the longer boxes for as long as they swing.
+/// Returns five runs as the open cases have them, the longer boxes for as long as they swing.
 BlindDesign full_design();
-/// Two short runs and strong signals, for a first look and for tests.
+/// Returns two short runs and strong signals, for a first look and for tests.
 BlindDesign small_design();
 
-/// Of twin_pairs.csv. What is hidden, and what imitates it so well in twin_runs() that with the truth given
-/// the two lie less than three standard errors apart (distance_of_imitation(), at twin_signal).
+/// A row of twin_pairs.csv: what is hidden, and what imitates it so well in twin_runs() that with the truth
+/// given the two lie less than three standard errors apart (distance_of_imitation(), at twin_signal).
 struct TwinPair {
   std::string hidden, twin;
 };
 const std::vector<TwinPair>& twin_pairs();
 constexpr double twin_signal = 8;
 
-/// Too little to tell twins apart: one length, one release, ten seconds.
+/// Returns runs that are too little to tell twins apart: one length, one release, ten seconds.
 std::vector<PlannedRun> twin_runs();
 
 /// How a worse experiment is made of a design.
 constexpr std::array<std::string_view, 7> variant_names{
     "one-repeat", "two-lengths", "half-duration", "250fps", "missing", "outliers", "no-centre"};
 
-/// One run a length; the shortest and the longest box alone; half of each run; 250 frames/s; 2 % of the
-/// frames lost; 5 % of the positions jump; grains not tracked. Throws InputError for another name.
+/// Returns the design made worse, by name in this order: one run a length; the shortest and the longest box
+/// alone; half of each run; 250 frames/s; 2 % of the frames lost; 5 % of the positions jump; grains not
+/// tracked. Throws InputError for another name.
 BlindDesign varied(BlindDesign design, std::string_view variant, const std::string& origin = "--variant");
 
 /// Signal against strength of everything that can be hidden, by strength_name().
 using SignalLaws = std::map<std::string, SignalLaw, std::less<>>;
 
-/// In the twins' small experiment a strength is worth less than in the full one.
+/// Returns the name of a strength in that table; twins have their own, as in their small experiment a
+/// strength is worth less than in the full one.
 std::string strength_name(std::string_view id, BlindKind kind);
 
-/// Laboratory and diagnosis differ in parameters drawn at random (of nulls and of a quarter of all others but
-/// `parameters` the believed ones), in contact time, packing (three in five are as believed), camera noise
-/// and seed. Same arguments, same cases.
+/// Draws the cases. Laboratory and diagnosis differ in parameters drawn at random (of nulls and of a quarter
+/// of all others but `parameters` the believed ones), in contact time, packing (three in five are as
+/// believed), camera noise and seed. The same arguments give the same cases.
 std::vector<BlindCase> draw_cases(const Setup& believed, const BlindCounts& counts, const BlindDesign& design,
                                   const SignalLaws& laws, std::uint64_t seed, KnownEffects known);
 
-/// Those that this laboratory can make: an engine that does not model an effect does not hide it. Their names
-/// stay.
+/// Returns the cases that this laboratory can make: an engine that does not model an effect does not hide it.
+/// Their names stay.
 std::vector<BlindCase> cases_within_reach(std::vector<BlindCase> cases, const Engine& laboratory);
 
 }  // namespace shakedown

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The answers of a blind suite opened and counted.
+// Opens and counts the answers of a blind suite.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,14 +40,14 @@ auto of_kind(BlindKind kind) {
   return [kind](const OpenedCase& one) { return one.kind == kind; };
 }
 
-/// Singles whose signal is near `signal` (the drawn ones, or what the strongest sensible effect reaches).
+/// Selects singles whose signal is at least `low` and less than `high`.
 auto singles_at(double low, double high) {
   return [low, high](const OpenedCase& one) {
     return one.kind == BlindKind::single && one.signal >= low && one.signal < high;
   };
 }
 
-/// Of what was fitted: whether the intervals hold the truth.
+/// Counts, of what was fitted, the intervals that hold the truth.
 void count_covered(const OpenedCase& one, const std::map<std::string, double>& truth, Count& covered) {
   for (const auto& [key, value] : truth)
     if (const auto found = one.found.find(key); found != one.found.end()) {
@@ -56,7 +56,8 @@ void count_covered(const OpenedCase& one, const std::map<std::string, double>& t
     }
 }
 
-/// A strength has a truth only where the effect that it belongs to is hidden.
+/// Counts the strengths in exact answers whose intervals hold the truth: only there is the effect of each
+/// hidden.
 Count strengths_covered(const std::vector<OpenedCase>& cases) {
   Count covered;
   for (const OpenedCase& one : cases)
@@ -64,7 +65,8 @@ Count strengths_covered(const std::vector<OpenedCase>& cases) {
   return covered;
 }
 
-/// An interval under a wrong model need not hold the truth, but its reader does not know that it is wrong.
+/// The answers that count: an interval under a wrong model need not hold the truth, but its reader does not
+/// know that the model is wrong.
 enum class Of { exact_answers, all_answers };
 
 Count parameters_covered(const std::vector<OpenedCase>& cases, const char* key, Of which) {
@@ -213,7 +215,7 @@ void twins(const std::vector<OpenedCase>& cases, ScoreTable& table) {
           [](const OpenedCase& one) { return one.after_more->named; }));
 }
 
-/// Guesses scored on the same cases: an effect at random, always the effect hidden most often.
+/// Scores guesses on the same cases: an effect at random, and always the effect hidden most often.
 void baselines(const std::vector<OpenedCase>& cases, ScoreTable& table) {
   std::set<std::string> all;
   for (const Hideable& hideable : hideable_effects()) all.insert(std::string(hideable.effect->name));
@@ -278,7 +280,8 @@ void seconds(const std::vector<OpenedCase>& cases, ScoreTable& table) {
               Kept::not_measured);
 }
 
-/// Whether somebody had seen this seed before it was answered.
+/// Tells the ledger that the answers are opened, and returns whether somebody had seen this seed before it
+/// was answered.
 bool told_to_ledger(const fs::path& file, const LedgerKey& key, bool all_answered) {
   SeedLedger ledger(file);
   if (all_answered) ledger.answered(key);

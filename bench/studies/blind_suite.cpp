@@ -26,7 +26,8 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 using Seals = std::map<std::string, std::string>;  ///< digest of each case's sealed answer
 
-/// Options in which two plans differ: "--seed (8000 there, 1 here), --budget (14000 there, 100 here)".
+/// Returns the options in which two plans differ:
+/// "--seed (8000 there, 1 here), --budget (14000 there, 100 here)".
 std::string differences(const Json& there, const Json& here) {
   constexpr std::array<std::pair<const char*, const char*>, 10> options{
       {{"schema_version", "version of the plan"},
@@ -110,7 +111,7 @@ class Suite {
             {"fault", options_.fault}};
   }
 
-  /// Only the first of several processes measures strengths and seals.
+  /// Waits until the first of several processes, which alone measures strengths and seals, has done so.
   void wait_for_the_draw() const {
     using namespace std::chrono_literals;
     if (options_.share.index == 0) return;
@@ -121,7 +122,7 @@ class Suite {
     }
   }
 
-  /// A folder holds one suite. Its seals, or none of a suite that is to begin.
+  /// Returns the seals of the suite in the folder, none where a suite is to begin. A folder holds one suite.
   Seals open() const {
     const fs::path file = folder_ / "plan.json";
     if (!fs::exists(file)) return {};
@@ -193,7 +194,7 @@ class Suite {
     write_file(file, Json{{"schema_version", 2}, {"signals", values}}.dump(2) + "\n");
   }
 
-  /// Names of what these cases hide, found by drawing them once without a table of strengths.
+  /// Returns the names of what these cases hide, found by drawing them once without a table of strengths.
   std::vector<std::string> needed_ids() const {
     std::vector<std::string> ids;
     for (const BlindCase& one : drawn({}))
@@ -203,7 +204,7 @@ class Suite {
     return ids;
   }
 
-  /// An answer that was sealed is never sealed anew: what is diagnosed must be what it tells of.
+  /// Seals the answers. One that was sealed is never sealed anew: what is diagnosed must be what it tells of.
   void seal(const std::vector<BlindCase>& cases, const Seals& sealed_before) const {
     const bool begins = sealed_before.empty();
     Seals seals;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Diagnoses on trial by the hundred: cases are drawn, their answers written and closed, each case diagnosed
-// without them, and only then are the answers opened and scored. A folder holds it all, so that an
+// Puts diagnoses on trial by the hundred: cases are drawn, their answers written and closed, each case
+// diagnosed without them, and only then are the answers opened and scored. A folder holds it all, so that an
 // interrupted suite goes on where it stopped:
-//   plan.json            what was asked for, and a digest of every sealed answer
-//   strengths.json       signal to noise against strength of everything that can be hidden
+//   plan.json              what was asked for, and a digest of every sealed answer
+//   strengths.json         signal to noise against strength of everything that can be hidden
 //   sealed/case_0001.json  what is hidden
-//   answers/case_0001.json what the diagnosis says, and which program's it is; of twins case_0001_more.json
-//   with
-//                          the runs that decide
+//   answers/case_0001.json what the diagnosis says, and which program's it is; of twins also
+//                          case_0001_more.json, with the runs that decide
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -64,10 +63,10 @@ struct BlindScore {
 BlindScore score_blind_suite(const std::filesystem::path& folder, const TrialTools& tools,
                              const std::filesystem::path& ledger = {});
 
-/// Every case that is sealed there has an answer.
+/// Tells whether every case that is sealed there has an answer.
 bool all_answered(const std::filesystem::path& folder);
 
-/// The score as text for a terminal, and as JSON.
+/// Return the score as text for a terminal, and as JSON.
 std::string blind_score_text(const BlindScore& score);
 std::string blind_score_json(const BlindScore& score);
 

@@ -36,7 +36,8 @@ struct BlindSuiteArguments {
   JsonOutput json;
 };
 
-/// Before the folder is made: a name mistyped must not leave one behind.
+/// Throws InputError where a folder holds no suite, before it is made: a name mistyped must not leave one
+/// behind.
 void expect_suite(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder / "plan.json"))
     throw InputError({{{folder.string(), 0, 0},
@@ -45,7 +46,7 @@ void expect_suite(const std::filesystem::path& folder) {
                        "name the --out folder of a suite, or leave --score out to begin one"}});
 }
 
-/// A launcher starts one process a core.
+/// Returns the threads of this process: a launcher starts one process a core.
 int threads_of(const BlindSuiteArguments& arguments, const JobShare& share) {
   if (arguments.threads > 0) return arguments.threads;
   return share.of > 1 && share.source != "--shard" ? 1 : 0;
@@ -119,7 +120,7 @@ int blind_suite(const BlindSuiteArguments& arguments) {
   return interrupted ? exit_interrupted : exit_done;
 }
 
-/// What is hidden, and what the diagnosis has to bear.
+/// Adds the options that say what is hidden and what the diagnosis has to bear.
 void add_design_options(CLI::App& command, BlindSuiteArguments& a) {
   command
       .add_option(

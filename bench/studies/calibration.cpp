@@ -31,7 +31,7 @@ void row_of_scores(const std::string& what, const Mean& mean, ScoreTable& table)
               Kept::not_measured);
 }
 
-/// Answers of a program that tells no probabilities are not judged by them.
+/// Tells whether a case is judged by probabilities: answers of a program that tells none are not.
 bool tells_probabilities(const OpenedCase& one) { return one.lost || !one.hypotheses.empty(); }
 
 }  // namespace

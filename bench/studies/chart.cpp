@@ -29,7 +29,7 @@ struct Range {
   }
 };
 
-/// Ticks at 1, 2 or 5 times a power of ten, about six of them.
+/// Returns the step of about six ticks, 1, 2 or 5 times a power of ten.
 double tick_step(const Range& range) {
   const double raw = (range.high - range.low) / 6, power = std::pow(10, std::floor(std::log10(raw)));
   for (const double factor : {1.0, 2.0, 5.0})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Line charts as SVG, and the numbers in them as CSV.
+// Writes line charts as SVG, and the numbers in them as CSV.
 #pragma once
 #include <string>
 #include <vector>
@@ -29,10 +29,10 @@ struct Chart {
   std::vector<Panel> panels;  ///< one below the other
 };
 
-/// The chart as a file of its own.
+/// Returns the chart as an SVG file of its own.
 std::string svg_of(const Chart& chart);
 
-/// "panel,curve,x,y", where panel is the label of its y axis; ten significant digits.
+/// Returns the table "panel,curve,x,y", where panel is the label of its y axis; ten significant digits.
 std::string csv_of(const Chart& chart);
 
 }  // namespace shakedown

@@ -15,7 +15,7 @@ namespace shakedown {
 
 namespace {
 
-/// Samples before the first small peak; all when there is none.
+/// Returns the number of samples before the first small peak; all when there is none.
 std::size_t end_of_decay(const Trajectory& trajectory, const Observables& seen) {
   const double end = std::isnan(seen.first_small_peak) ? trajectory.time.back() : seen.first_small_peak;
   return static_cast<std::size_t>(std::lower_bound(trajectory.time.begin(), trajectory.time.end(), end) -
@@ -67,8 +67,8 @@ void read_energy(const Trajectory& trajectory, RunReading& reading) {
   reading.energy_flat = static_cast<double>(flat) / static_cast<double>(seen);
 }
 
-/// The first stroke: the box's top speed, and how fast the grains fly a tenth of the crossing time later,
-/// before they land.
+/// Reads the first stroke: the box's top speed, and how fast the grains fly from 0.3 to 0.7 of the crossing
+/// time later, before they land.
 void read_leaving(const Setup& setup, const Trajectory& trajectory, RunReading& reading) {
   const Theory theory = theory_of(setup);
   const double quarter = 0.25 / theory.loaded_frequency;
@@ -105,7 +105,7 @@ RunReading reading_of(const Setup& setup, const Trajectory& trajectory, const Ob
   return reading;
 }
 
-/// Mean over runs at each time, and the sum of squares about it.
+/// The mean over runs at each time, and the sum of squares about it.
 struct Average {
   std::vector<double> mean, squares;
   void add(const std::vector<double>& values, int number) {

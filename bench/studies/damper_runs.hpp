@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The paper's damper in its five lengths, with what its statements ask of each run.
+// Runs the paper's damper in its five lengths, with what its statements ask of each run.
 #pragma once
 #include <atomic>
 #include <functional>
@@ -22,7 +22,7 @@ struct RunReading {
   double energy_line_ratio =
       absent;  ///< rms of sqrt(E)(t) about that line over rms about the best exponential
   double energy_flat =
-      absent;  ///< share of that time in which energy falls slower than a fifth of the mean rate
+      absent;  ///< share of that time in which sqrt(E) falls slower than a fifth of its mean rate
   double leaving_speed_ratio =
       absent;  ///< speed of the grains' centre in free flight over the box's top speed before
   double leaving_phase =
@@ -40,12 +40,12 @@ struct DamperRuns {
   double rms_of_one_run_box = 0,
          rms_of_one_run_centre = 0;  ///< m, of a run about the mean, over time and runs
 
-  /// Mean and spread of this number over all runs.
+  /// Return mean and spread of this number over all runs.
   Statistic over(double RunReading::*what) const;
   Statistic over(const std::function<double(const RunReading&)>& what) const;
 };
 
-/// "L = 40 mm, hard"
+/// Returns "L = 40 mm, hard".
 std::string name_of(const DamperRuns& runs);
 
 struct RunsWanted {
@@ -53,7 +53,7 @@ struct RunsWanted {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Throws Interrupted.
+/// Simulates the runs. Throws Interrupted.
 DamperRuns damper_runs(const Engine& engine, const Setup& setup, const RunsWanted& wanted);
 
 }  // namespace shakedown

@@ -16,7 +16,8 @@ namespace shakedown {
 constexpr std::array<std::string_view, 5> fault_names{"none", "no-refit", "no-centre", "wrong-sign",
                                                       "smoothed"};
 
-/// Runs the setup with the restitution of grain on grain on the other side of the user's own.
+/// Makes an engine that runs the setup with the restitution of grain on grain on the other side of the user's
+/// own.
 std::unique_ptr<Engine> with_mirrored_restitution(const Engine& engine, double believed);
 
 /// Puts the faulty part of this name into `tools`, for as long as it lives.

@@ -32,7 +32,7 @@ Curve friction_position(const DamperRuns& runs) {
   return curve;
 }
 
-/// Figs. comp1 - comp4: positions of box and grains.
+/// Draws Figs. comp1 - comp4: positions of box and grains.
 Chart positions(const DamperRuns& hard, const DamperRuns& soft, int number) {
   Chart chart{fmt::format("comp{}_L{}", number, millimetres(hard)),
               "Box and centre of the grains, L = " + millimetres(hard) + " mm",
@@ -51,7 +51,7 @@ Chart positions(const DamperRuns& hard, const DamperRuns& soft, int number) {
   return chart;
 }
 
-/// Fig. EnergyLoss.
+/// Draws Fig. EnergyLoss.
 Chart energy_loss(const DamperRuns& hard, const DamperRuns& soft) {
   Panel panel{"t, s", "energy lost, mJ", {}};
   constexpr std::array<const char*, 3> names{"P-P", "P-E", "P-S"};
@@ -71,7 +71,7 @@ std::vector<double> derivative(const std::vector<double>& time, const std::vecto
   return v;
 }
 
-/// Fig. optimised: the first seconds at 311 mm.
+/// Draws Fig. optimised: the first seconds at 311 mm.
 Chart optimised(const DamperRuns& hard) {
   const auto until = static_cast<std::size_t>(8 * hard.setup.run.sample_rate);
   const auto head = [&](std::vector<double> values) {
@@ -96,8 +96,8 @@ Chart optimised(const DamperRuns& hard) {
              friction_velocity}}}};
 }
 
-/// Fig. optimalLSweep. Points where some run had not lost as much in 60 s stand apart, at the mean of the
-/// others.
+/// Draws Fig. optimalLSweep. Points where some run had not lost as much in 60 s stand apart, at the mean of
+/// the others.
 Chart length_sweep(const PaperRuns& runs) {
   Panel panel{"L, mm", "time to lose the share, s", {}};
   Curve censored{"some runs not within 60 s", {}, {}, false, true};
@@ -126,7 +126,7 @@ Chart length_sweep(const PaperRuns& runs) {
           {panel, near}};
 }
 
-/// Fig. energies, with the linear fit until half of the smallest amplitude counted is reached.
+/// Draws Fig. energies, with the linear fit until half of the smallest amplitude counted is reached.
 Chart energies(const PaperRuns& runs) {
   Panel panel{"t, s", "sqrt(E), sqrt(mJ)", {}};
   for (const DamperRuns& r : runs.hard) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether two formulas are the same force, as a damper feels it.
+// Tells whether two formulas are the same force, as a damper feels it.
 #pragma once
 #include <map>
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace shakedown {
 
-/// A formula's values (N) along a motion. Throws FormulaProblem.
+/// Returns a formula's values (N) along a motion. Throws FormulaProblem.
 std::vector<double> force_along(const std::string& formula, const std::map<std::string, double>& constants,
                                 const Trajectory& motion);
 
-/// |cos| of two series after a linear spring, a multiple of x, has been taken out of both: the spring's
-/// frequency is refitted anyway. 0 when nothing is left of one.
+/// Returns |cos| of two series after a linear spring, a multiple of x, has been taken out of both: the
+/// spring's frequency is refitted anyway. 0 when nothing is left of one.
 double force_likeness(std::vector<double> a, std::vector<double> b, const std::vector<double>& x);
 
 }  // namespace shakedown

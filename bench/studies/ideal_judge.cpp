@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 using Products = std::vector<std::vector<double>>;
 
-/// Products with negative eigenvalues, which are noise, set to nothing.
+/// Returns the products with negative eigenvalues, which are noise, set to nothing.
 Eigen::MatrixXd sensible(const Products& products) {
   const auto size = static_cast<Eigen::Index>(products.size());
   Eigen::MatrixXd matrix(size, size);
@@ -37,8 +37,8 @@ Eigen::MatrixXd sensible(const Products& products) {
          solver.eigenvectors().transpose();
 }
 
-/// ln of the integral of Cauchy(a) exp(b a - g a^2 / 2) over the strength a: on points of whichever of the
-/// two factors is the narrower.
+/// Returns ln of the integral of Cauchy(a) exp(b a - g a^2 / 2) over the strength a, summed on points of
+/// whichever of the two factors is the narrower.
 double log_evidence(double b, double g) {
   constexpr int points = 401;
   const double centre = b / g, width = 1 / std::sqrt(g);
@@ -57,7 +57,7 @@ double log_evidence(double b, double g) {
   return 0.5 * b * b / g + std::log(sum);
 }
 
-/// Effects of the list that move box and grains, each at its typical strength.
+/// Returns the effects of the list that move box and grains, each at its typical strength.
 std::vector<const Hideable*> candidates() {
   std::vector<const Hideable*> list;
   for (const Hideable& hideable : hideable_effects())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which seeds were drawn, answered and opened, by which program: a figure counts as unseen only where nobody
-// had opened the seed before it was answered. A table (CSV) that the studies write themselves.
+// Keeps which seeds were drawn, answered and opened, by which program: a figure counts as unseen only where
+// nobody had opened the seed before it was answered. The ledger is a table (CSV) that the studies write
+// themselves.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -30,11 +31,11 @@ class SeedLedger {
 
   /// Adds a suite that is drawn now and writes the file.
   LedgerKey begin(const std::string& study, std::uint64_t seed, const std::string& program);
-  /// All its cases are answered, its answers are opened; the first time counts. Writes the file. A suite that
-  /// the ledger does not know is added.
+  /// Note that all its cases are answered, and that its answers are opened; the first time counts. They write
+  /// the file. A suite that the ledger does not know is added.
   void answered(const LedgerKey& key);
   void opened(const LedgerKey& key);
-  /// Another suite of this study and seed had been opened before this one was answered.
+  /// Tells whether another suite of this study and seed had been opened before this one was answered.
   bool seen(const LedgerKey& key) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How long the damper needs to lose its energy, against the length of its box.
+// Finds how long the damper needs to lose its energy, against the length of its box.
 #pragma once
 #include <array>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace shakedown {
 
-/// 50, 75, 90, 95 % lost.
+/// Times are told for these shares of the energy lost.
 constexpr std::array<double, 4> lost_fractions{0.5, 0.75, 0.9, 0.95};
 
 struct LengthPoint {
@@ -20,11 +20,11 @@ struct LengthPoint {
 struct LengthSweep {
   Setup base;
   std::vector<LengthPoint> points;
-  /// Index of the point that loses 95 % soonest among those that no run was censored at.
+  /// Returns the index of the point that loses 95 % soonest among those that no run was censored at.
   std::size_t fastest() const;
 };
 
-/// Runs last 60 s times 1.23 Hz over the setup's frequency. Throws Interrupted.
+/// Simulates each length (m). Runs last 60 s times 1.23 Hz over the setup's frequency. Throws Interrupted.
 LengthSweep sweep_lengths(const Engine& engine, const Setup& base, const std::vector<double>& lengths,
                           const RunsWanted& wanted);
 

@@ -15,7 +15,7 @@ namespace shakedown {
 
 namespace {
 
-/// The emulators that two single simulations would give: each coefficient has the chaos of one, as if the
+/// Returns the emulators that single simulations would give: each coefficient has the chaos of one, as if the
 /// mean of many were not known.
 std::vector<Emulator> of_one_seed(std::vector<Emulator> emulators, std::size_t knobs) {
   for (Emulator& e : emulators) {
@@ -27,7 +27,7 @@ std::vector<Emulator> of_one_seed(std::vector<Emulator> emulators, std::size_t k
   return emulators;
 }
 
-/// What a feature counts: of the box alone, or by the camera's noise.
+/// Returns what each feature counts: by the camera's noise, or one for the box and nothing for the centre.
 Eigen::VectorXd weights_of(const std::vector<MeasuredFeatures>& measured, bool by_noise) {
   std::vector<double> weights;
   for (const MeasuredFeatures& m : measured)
@@ -36,7 +36,7 @@ Eigen::VectorXd weights_of(const std::vector<MeasuredFeatures>& measured, bool b
   return Eigen::Map<Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()));
 }
 
-/// Weighted square that the columns leave.
+/// Returns the weighted square of the residual that the columns leave.
 double left_by(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
                const Eigen::VectorXd& weights) {
   const Eigen::VectorXd values = weights.asDiagonal() * residual;
@@ -100,7 +100,7 @@ class Naive {
           linear_model(with, of_one_seed(emulators, theta_.size()), theta_.size()));
   }
 
-  /// The members' strengths scattered at once; each is then fitted beside the parameters with the others
+  /// Scatters the members' strengths at once; each is then fitted beside the parameters with the others
   /// absent.
   void offer_strengths(const std::vector<MeasuredFeatures>& measured,
                        const std::vector<Candidate>& candidates, const std::vector<std::size_t>& members,

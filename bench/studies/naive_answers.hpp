@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What simpler methods would name from the same measurements: what a diagnosis has to beat.
+// Finds what simpler methods would name from the same measurements, which a diagnosis has to beat.
 #pragma once
 #include <string>
 

@@ -64,7 +64,7 @@ std::set<std::string> with_look_alikes(const Json& diagnosis, const Names& missi
   return names;
 }
 
-/// Sorted, without what is no part of an answer (a packing).
+/// Returns the effects sorted, without what is no part of an answer (a packing).
 Names physics_and_camera(Names effects) {
   std::erase_if(effects, [](const std::string& effect) {
     const EffectRecord* record = find_effect(effect);
@@ -74,7 +74,8 @@ Names physics_and_camera(Names effects) {
   return effects;
 }
 
-/// In `films` every run has camera errors, which no answer needs to name: only physics is scored.
+/// Judges an answer of the kind `films` by physics alone: there every run has camera errors, which no answer
+/// needs to name.
 TrialJudgement judgement_of_physics(const std::string& verdict, const Names& missing, const Names& hidden) {
   Names truth = hidden;
   std::sort(truth.begin(), truth.end());
@@ -87,8 +88,7 @@ TrialJudgement judgement_of_physics(const std::string& verdict, const Names& mis
   return judgement;
 }
 
-/// Effects of the camera whose numbers stand out; of answers of older programs, which have no such list,
-/// none.
+/// Returns the effects of the camera whose numbers stand out; none from answers that have no such list.
 Names camera_standing_out(const Json& diagnosis) {
   std::vector<NuisanceFound> camera;
   for (const Json& number : diagnosis.value("camera", Json::array()))
@@ -104,14 +104,15 @@ TrialJudgement judgement_of(const Json& diagnosis, const OpenedCase& one) {
                diagnosis.at("missing").get<Names>(), camera_standing_out(diagnosis));
 }
 
-/// Sorted, without what is no part of an answer: a packing, and errors of the camera where none was hidden.
+/// Returns the effects sorted, without what is no part of an answer: a packing, and errors of the camera
+/// where none was hidden.
 Names part_of_an_answer(Names effects, BlindKind kind) {
   if (std::find(effects.begin(), effects.end(), "unknown") != effects.end()) return {"unknown"};
   return kind == BlindKind::camera || kind == BlindKind::twins ? physics_and_camera(std::move(effects))
                                                                : physics_among(effects, all_effects());
 }
 
-/// Sets that differ only in what is no part of an answer are one.
+/// Returns the hypotheses; sets that differ only in what is no part of an answer are one.
 std::vector<WeighedAnswer> hypotheses_of(const Json& diagnosis, BlindKind kind) {
   std::vector<WeighedAnswer> all;
   for (const Json& hypothesis : diagnosis.value("hypotheses", Json::array())) {
@@ -169,7 +170,7 @@ void read_answer(const Json& answer, OpenedCase& one) {
   if (answer.contains("naive")) one.naive = answer.at("naive").get<std::map<std::string, std::string>>();
 }
 
-/// A diagnosis that broke down is a wrong answer.
+/// Reads the answer with more runs; a diagnosis that broke down is a wrong answer.
 void read_answer_with_more_runs(const Json& answer, OpenedCase& one) {
   one.after_more =
       answer.contains("diagnosis") ? judgement_of(answer.at("diagnosis"), one) : TrialJudgement{};

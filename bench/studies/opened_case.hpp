@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One case of a blind suite: what is hidden, opened beside what the diagnosis says.
+// Opens one case of a blind suite: what is hidden beside what the diagnosis says.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace shakedown {
 
-/// 95 %, in the unit of the parameter's key.
+/// A 95 % interval, in the unit of the parameter's key.
 struct FoundInterval {
   double low = 0, high = 0;
 };
@@ -67,20 +67,21 @@ struct OpenedCase {
 
   bool exact() const { return judgement.named; }
   bool first_suspects_family_is_right() const;
-  /// One of the answers is what is hidden: a tie that is told counts as right here.
+  /// Tells whether one of the answers is what is hidden: a tie that is told counts as right here.
   bool among_the_answers() const;
-  /// The answer is what is hidden, or says of it and at most two others that they cannot be told apart.
+  /// Tells whether the answer is what is hidden, or says of it and at most two others that they cannot be
+  /// told apart.
   bool right_or_tied() const;
-  /// The probability that the answer gives to what is hidden; 0 where it has none for it.
+  /// Returns the probability that the answer gives to what is hidden; 0 where it has none for it.
   double probability_of_truth() const;
-  /// The most probable answer is what is hidden. False where there is none.
+  /// Tells whether the most probable answer is what is hidden. False where there is none.
   bool most_probable_is_right() const;
-  /// Something that is not the camera's is called missing.
+  /// Tells whether something that is not the camera's is called missing.
   bool names_physics() const;
 };
 
-/// Case `name` of the suite in `folder`, sealed with digest `seal` (FNV-1a). Throws FileError; InputError
-/// when the sealed answer is not the one that was sealed, or a file is damaged.
+/// Opens case `name` of the suite in `folder`, sealed with digest `seal` (FNV-1a). Throws FileError;
+/// InputError when the sealed answer is not the one that was sealed, or a file is damaged.
 OpenedCase open_case(const std::filesystem::path& folder, const std::string& name, const std::string& seal);
 
 /// Hands the text of one of the suite's answers to `read`. Throws FileError; InputError when it is damaged.

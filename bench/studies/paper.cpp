@@ -59,7 +59,8 @@ class Reproduction {
     if (options_.progress) options_.progress(stage, step_++ / steps);
   }
 
-  /// At the optimum runs differ most, and statements on two oscillations and on one second need their mean.
+  /// Runs the soft engine, more often at the optimum: there runs differ most, and statements on two
+  /// oscillations and on one second need their mean.
   DamperRuns soft_runs(double length) const {
     Setup setup = damper(length);
     const bool optimum = length > 0.2;

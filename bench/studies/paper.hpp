@@ -39,7 +39,7 @@ struct Paper {
   double seconds = 0;
 };
 
-/// Throws Interrupted.
+/// Simulates and judges all of it. Throws Interrupted.
 Paper reproduce_paper(const PaperOptions& options);
 
 // The parts of it, each from what was simulated.
@@ -48,7 +48,7 @@ std::vector<Statement> statements_of_decay(const PaperRuns& runs);
 std::vector<Statement> statements_of_optimum(const PaperRuns& runs);
 std::vector<Chart> charts_of(const PaperRuns& runs);
 
-/// Table I and the statements of the paper beside what was simulated, for files.
+/// Return, for files, Table I and the statements of the paper beside what was simulated.
 std::string table_1_csv();
 std::string statements_csv(const std::vector<Statement>& statements);
 std::string paper_json(const Paper& paper);

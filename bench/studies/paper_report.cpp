@@ -27,7 +27,7 @@ double at(const Curve& curve, double x) {
          (curve.y[i] - curve.y[i - 1]) * (x - curve.x[i - 1]) / (curve.x[i] - curve.x[i - 1]);
 }
 
-/// One x for all curves: those of the longest, thinned, and marks where they are.
+/// Returns one x for all curves: those of the longest, thinned, and marks where they are.
 std::vector<double> common_x(const Panel& panel) {
   const auto longest =
       std::max_element(panel.curves.begin(), panel.curves.end(),

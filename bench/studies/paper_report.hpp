@@ -5,7 +5,7 @@
 
 namespace shakedown {
 
-/// The paper on trial as one page: statements, figures, the puzzle, and the grains in each box.
+/// Makes one page of the paper on trial: statements, figures, the puzzle, and the grains in each box.
 Report report_of(const Paper& paper);
 
 }  // namespace shakedown

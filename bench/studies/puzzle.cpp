@@ -10,6 +10,8 @@
 #include "engines.hpp"
 #include "free_parameters.hpp"
 #include "measurements.hpp"
+#include "refit.hpp"
+#include "refit_options.hpp"
 #include "setup_file.hpp"
 
 namespace shakedown {
@@ -66,7 +68,7 @@ Experiment part_of(const Experiment& whole, bool fitted) {
   return part;
 }
 
-/// The model as it stands on the lengths that nobody fitted.
+/// Judges the model as it stands on the lengths that nobody fitted.
 PuzzleModel unfitted(const std::string& name, const Setup& setup, const Experiment& experiment,
                      const PuzzleOptions& options) {
   const std::unique_ptr<Engine> hard = engine_named("hard");
@@ -78,7 +80,7 @@ PuzzleModel unfitted(const std::string& name, const Setup& setup, const Experime
                             .runs);
 }
 
-/// The diagnosis when the restitution of the drop test is held fixed and only L = 40 mm was filmed.
+/// Returns the diagnosis when the restitution of the drop test is held fixed and only L = 40 mm was filmed.
 Diagnosis diagnosed(const Experiment& experiment, const PuzzleOptions& options) {
   DiagnoseOptions how;
   how.threads = options.threads;
@@ -90,7 +92,7 @@ Diagnosis diagnosed(const Experiment& experiment, const PuzzleOptions& options) 
                   *engine_named("hard"), how);
 }
 
-/// From the laboratory with friction back to the model, both ways: restitution fitted, and 0.95 with
+/// Goes from the laboratory with friction back to the model, both ways: restitution fitted, and 0.95 with
 /// friction.
 void repair(Puzzle& puzzle, const Experiment& experiment, const Fit& frictionless,
             const PuzzleOptions& options) {

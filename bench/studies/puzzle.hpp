@@ -46,11 +46,11 @@ struct PuzzleOptions {
   std::function<void(const std::string& stage)> progress{};
 };
 
-/// Interrupted and what engines throw pass.
+/// Solves the puzzle. Throws Interrupted, and what engines throw.
 Puzzle solve_puzzle(const PuzzleOptions& options);
 
-/// Smallest friction whose fitted restitution (95 % interval, and half a unit of the paper's last digit) is
-/// this; NaN when none is.
+/// Returns the smallest friction whose fitted restitution (95 % interval, and half a unit of the paper's last
+/// digit) is this; NaN when none is.
 double friction_that_looks_like(const Puzzle& puzzle, double restitution);
 
 }  // namespace shakedown

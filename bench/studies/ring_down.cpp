@@ -22,7 +22,7 @@ namespace {
 
 constexpr double least_signal = 4;  // what is weaker nobody can be asked for
 
-/// What a law's strength is measured by.
+/// The numbers of a damper by which a law's strength is measured.
 struct Scale {
   double mass, angular_frequency, release;  ///< kg, 1/s, m
 };
@@ -73,7 +73,7 @@ double log_between(Random& random, double low, double high) {
   return std::exp(between(random, std::log(low), std::log(high)));
 }
 
-/// Rate and length such that a frame is an eighth of a period at most and the table not too long.
+/// Draws rate and length such that a frame is an eighth of a period at most and the table not too long.
 void draw_frames(Random& random, double frequency, Setup& truth, RecordingSettings& recording) {
   constexpr double least_frames_a_period = 8, most_frames = 20000;
   do {
@@ -110,8 +110,8 @@ RingDownNoise draw_noise(Random& random, double release, RecordingSettings& reco
   return noise;
 }
 
-/// A second swing's other numbers: not so near the box's own that they beat, which the effect says it is not
-/// for, nor near a multiple of it.
+/// Draws a second swing's other numbers: its frequency not so near the box's own that they beat, which the
+/// effect says it is not for, nor near a multiple of it.
 void draw_second_swing(Random& random, KnownEffects known, Setup& truth) {
   constexpr double apart_from_own = 0.25, apart_from_multiples = 0.15;
   const auto is_apart = [](double ratio) {
@@ -139,7 +139,7 @@ void hide_law(const Law& law, Random& random, KnownEffects known, RingDown& draw
   if (drawn.hidden.back() == "second_mode") draw_second_swing(random, known, truth);
 }
 
-/// Edges of an encoder in place of a camera's frames, not more than a table should have.
+/// Draws edges of an encoder in place of a camera's frames, not more than a table should have.
 void draw_edges(Random& random, const Setup& truth, RecordingSettings& recording) {
   constexpr double most_rows = 20000;
   const double release = truth.release.displacement,
@@ -152,7 +152,7 @@ void draw_edges(Random& random, const Setup& truth, RecordingSettings& recording
   recording.frame_rate = 4 * release / recording.edge * truth.spring.frequency;
 }
 
-/// One attempt; its signals may be too small.
+/// Makes one attempt, whose signals may be too small.
 RingDown drawn_once(Random& random, unsigned which, const Engine& engine, KnownEffects known) {
   RingDown drawn;
   Setup& truth = drawn.trial.hidden.truth;
@@ -190,14 +190,14 @@ RingDown drawn_once(Random& random, unsigned which, const Engine& engine, KnownE
   return drawn;
 }
 
-/// Whether only the waveform's finest marks tell the two apart (a pendulum's sine and a cubic spring).
+/// Tells whether only the waveform's finest marks tell the two apart (a pendulum's sine and a cubic spring).
 bool look_alike(const std::string& one, const std::string& other, KnownEffects known) {
   const EffectRecord *a = known.find(one), *b = known.find(other);
   return a != nullptr && b != nullptr && !a->family.empty() && a->family == b->family &&
          (search_of(*a).in_waveform || search_of(*b).in_waveform);
 }
 
-/// What is named, a look-alike of something hidden that is not named by the name of that.
+/// Returns what is named, with a look-alike of something hidden that is not named put under the name of that.
 std::vector<std::string> as_hidden(std::vector<std::string> named, const std::vector<std::string>& hidden,
                                    KnownEffects known) {
   const auto among = [](const std::string& effect, const std::vector<std::string>& list) {
@@ -209,8 +209,9 @@ std::vector<std::string> as_hidden(std::vector<std::string> named, const std::ve
   return named;
 }
 
-/// A number that is none stands among those that could not be computed. A balance that was not possible (an
-/// encoder's rows are too uneven for it) has none, and says why.
+/// Tells whether a number of the answer is none: it stands among those that could not be computed. A balance
+/// that was not possible (an encoder's rows are too uneven for it) has none, and says why, which does not
+/// count.
 bool is_not_finite(const Diagnosis& diagnosis) {
   const nlohmann::json document = nlohmann::json::parse(diagnosis_json(diagnosis));
   const nlohmann::json none = document.value("not_computed", nlohmann::json::object());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Empty boxes ringing down, as people record them: every real experiment with grains begins with one. Drawn
-// at random, measured by the laboratory, diagnosed, scored.
+// Puts the diagnosis on trial with empty boxes ringing down, as people record them: every real experiment
+// with grains begins with one. They are drawn at random, measured by the laboratory, diagnosed, scored.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -30,8 +30,8 @@ struct RingDown {
   double weakest() const;  ///< signal; infinite with nothing hidden
 };
 
-/// Damper without grains, 0.4 to 4 Hz, released from 10 to 200 mm, seen 8 to 60 periods long at 5 to 1000
-/// frames a second (eight a period at least) from somewhere in the motion on, with an origin that nobody
+/// Draws a damper without grains, 0.4 to 4 Hz, released from 10 to 200 mm, seen 8 to 60 periods long at 5 to
+/// 1000 frames a second (eight a period at least) from somewhere in the motion on, with an origin that nobody
 /// knows; none, one, two or three of the four laws of a ring-down (linear, dry and quadratic damping, a cubic
 /// spring), in half the cases with one thing that rigs have beside them (a second swing, a spring stiffer to
 /// one side, a tilted camera, a pendulum's sine), each with a signal of 4 and more; one in seven by the edges
@@ -47,12 +47,12 @@ struct RingDownAnswer {
   double left = std::numeric_limits<double>::quiet_NaN();  ///< by the final model, times noise and spread
   bool holds = false;                                      ///< says its judgement
 };
-/// As a file keeps it, with the program that answered. `read_answer` throws InputError for what is no answer
-/// of that program.
+/// Write and read an answer as a file keeps it, with the program that answered. `read_answer` throws
+/// InputError for what is no answer of that program.
 std::string answer_json(const RingDownAnswer& answer, const std::string& program);
 RingDownAnswer read_answer(const std::filesystem::path& file, const std::string& program);
 
-/// An answer that is an exception is kept as `stopped`; only Interrupted is thrown on.
+/// Diagnoses a case. An exception is kept as `stopped` of the answer; only Interrupted is thrown on.
 RingDownAnswer answer_of(const RingDown& case_, const TrialTools& tools);
 
 struct RingDownResult {
@@ -63,11 +63,12 @@ struct RingDownResult {
   bool right = false;
   bool invented = false;  ///< physics is named that is not hidden, or a force of no list
 };
+/// Judges an answer.
 RingDownResult judged(RingDown drawn, RingDownAnswer answer, KnownEffects known);
 
-/// Counts by what was hidden, by signal, by noise and by frames a period.
+/// Returns counts by what was hidden, by signal, by noise and by frames a period.
 std::string ring_down_table(const std::vector<RingDownResult>& results);
-/// A line a case.
+/// Returns a line a case.
 std::string ring_down_csv(const std::vector<RingDownResult>& results);
 
 }  // namespace shakedown

@@ -31,7 +31,7 @@ struct RingDownArguments {
   std::uint64_t seed = 1;
 };
 
-/// From the folder where an earlier call left it, or found now and left there.
+/// Returns the answer that an earlier call left in the folder, or finds it now and leaves it there.
 RingDownAnswer kept_or_found(const RingDown& drawn, const TrialTools& tools,
                              const RingDownArguments& arguments) {
   if (arguments.out.empty()) return answer_of(drawn, tools);
@@ -43,7 +43,7 @@ RingDownAnswer kept_or_found(const RingDown& drawn, const TrialTools& tools,
   return answer;
 }
 
-/// The case as files that any program can be asked with, and its truth beside them.
+/// Writes the case as files that any program can be asked with, and its truth beside them.
 void write_case(const RingDown& drawn, const TrialTools& tools, const RingDownArguments& arguments) {
   const std::string name =
       fmt::format("{}/seed_{}_case_{:04}", arguments.cases_to, arguments.seed, drawn.number);
@@ -53,7 +53,7 @@ void write_case(const RingDown& drawn, const TrialTools& tools, const RingDownAr
   write_measurements(name, measured_in(drawn.trial, tools));
 }
 
-/// Several cases at a time, each on one thread.
+/// Answers several cases at a time, each on one thread.
 std::vector<RingDownResult> results_of(const RingDownArguments& arguments) {
   if (!arguments.out.empty()) const OutputFolder answers(arguments.out + "/answers");
   const std::unique_ptr<Engine> laboratory = engine_named(arguments.engine), model = engine_named("hard");

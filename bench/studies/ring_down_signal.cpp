@@ -11,7 +11,8 @@ namespace shakedown {
 
 namespace {
 
-/// The box as the camera of the setup has it but for noise, from `start` (s) on.
+/// Returns the positions of the box, m, as the camera of the setup has them but for noise, from `start` (s)
+/// on.
 Eigen::VectorXd seen(const Setup& setup, const RecordingSettings& recording, double start,
                      const Engine& engine) {
   Setup finely = setup;
@@ -58,7 +59,7 @@ class Whitener {
   Eigen::ArrayXd gain_, deviation_;
 };
 
-/// Change of what is seen per relative change of one key.
+/// Returns the change of what is seen per relative change of one key.
 Eigen::VectorXd relative_slope(const Setup& truth, const std::string& key, double step,
                                const RecordingSettings& recording, const Engine& engine, KnownEffects known) {
   const double value = get_number(truth, key, known);

@@ -29,7 +29,7 @@ std::string line(std::string_view what, const std::vector<RingDownResult>& resul
                      100 * share.value, 100 * share.low, 100 * share.high, invented, stopped, not_finite);
 }
 
-/// What right or wrong answers leave of the motion, and how many of them say that the model holds.
+/// Says what right or wrong answers leave of the motion, and how many of them say that the model holds.
 std::string answers_left_by(const std::vector<RingDownResult>& results, bool right) {
   std::vector<double> left;
   int hold = 0;

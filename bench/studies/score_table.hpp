@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rows of a score: what was counted, what was aimed at.
+// Keeps the rows of a score: what was counted, what was aimed at.
 #pragma once
 #include <string>
 #include <vector>
@@ -15,14 +15,15 @@ struct Count {
 
 class ScoreTable {
  public:
-  /// A row whose aim is a share of hits of at most, or at least, the limit.
+  /// Add a row whose aim is a share of hits of at most, or at least, the limit.
   void at_most(const std::string& what, const Count& count, double limit);
   void at_least(const std::string& what, const Count& count, double limit);
-  /// Told against the aim from 20 trials on: fewer cannot come between 90 and 98 %.
+  /// Adds a row whose aim is a share between the limits. It is judged from 20 trials on, as fewer cannot come
+  /// between 90 and 98 %.
   void between(const std::string& what, const Count& count, double low, double high);
   void plain(const std::string& what, const std::string& aim, const std::string& found,
              BlindFigure::Verdict kept);
-  /// A figure that has no aim.
+  /// Adds a figure that has no aim.
   void beside(const std::string& what, const Count& count);
 
   std::vector<BlindFigure> rows;

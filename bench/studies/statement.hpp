@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A statement of the paper, what we find for it, and the judgement.
+// Judges a statement of the paper by what we find for it.
 #pragma once
 #include <string>
 #include <vector>
@@ -28,10 +28,11 @@ struct Statement {
   std::string remark{};  ///< where the paper is wrong or imprecise
 };
 
-/// Mean over runs with the interval of the mean (Student); without an interval (NaN) from fewer than two.
+/// Returns the mean over runs with the interval of the mean (Student); without an interval (NaN) from fewer
+/// than two.
 Finding finding_of(std::string what, const Statistic& statistic, std::string unit, double factor = 1);
 
-/// A number that has no spread.
+/// Returns a number that has no spread.
 Finding exact(std::string what, double value, std::string unit);
 
 /// Holds when the whole interval lies within, fails when none of it does. NaN bounds: the value alone is

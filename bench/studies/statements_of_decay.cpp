@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The linear decay, the friction-damped oscillator, the fitted restitutions.
+// Judges statements on the linear decay, the friction-damped oscillator and the fitted restitutions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ Statement cycles(const PaperRuns& runs) {
   return s;
 }
 
-/// rms about the line over rms about the exponential, over the first peaks.
+/// Returns rms about the line over rms about the exponential, over the first peaks.
 double straightness(const RunReading& run) {
   std::vector<Peak> peaks = peaks_of_the_decay(run.seen.peaks, run.seen.small_peak);
   if (peaks.size() > regime_peaks) peaks.resize(regime_peaks);
@@ -41,7 +41,7 @@ double straightness(const RunReading& run) {
   return decay.linear.rms / decay.exponential.rms;
 }
 
-/// How much the slope changes over the decay, as a fraction of it.
+/// Returns how much the slope changes over the decay, as a fraction of it.
 double bending(const RunReading& run) {
   const std::vector<Peak> peaks = peaks_of_the_decay(run.seen.peaks, run.seen.small_peak);
   if (peaks.size() < 4) return absent;

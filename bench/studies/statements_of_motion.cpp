@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frequencies, stroke and landing, ensembles, the model's own rules.
+// Judges statements on frequencies, stroke and landing, ensembles, and the model's own rules.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace shakedown {
 
 namespace {
 
-/// How far the slope of the decay moves, %, with its 95 % interval.
+/// Returns how far the slope of the decay moves, %, with its 95 % interval.
 Finding change_of_slope(std::string what, const DamperRuns& plain, const DamperRuns& varied) {
   const auto slope = [](const RunReading& run) { return run.seen.slope; };
   const Statistic a = plain.over(slope), b = varied.over(slope);
@@ -20,8 +20,8 @@ Finding change_of_slope(std::string what, const DamperRuns& plain, const DamperR
   return {std::move(what), change, change - 2 * error, change + 2 * error, "%"};
 }
 
-/// "Unimportant", "unaffected": not more than one experiment beside another could show, two standard
-/// deviations of one run, %.
+/// Returns two standard deviations of one run's slope, %: what is "unimportant" or "unaffected" is not more
+/// than one experiment beside another could show.
 double seen_in_one_run(const DamperRuns& runs) {
   const Statistic slope = runs.over([](const RunReading& run) { return run.seen.slope; });
   return 200 * slope.sd / std::abs(slope.mean);

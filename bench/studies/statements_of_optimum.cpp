@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The optimal length and what happens there.
+// Judges statements on the optimal length and what happens there.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ const LengthPoint& point_at(const LengthSweep& sweep, double length) {
   return *std::min_element(sweep.points.begin(), sweep.points.end(), nearer);
 }
 
-/// Time to lose 95 % at 311 mm over the sweep's smallest.
+/// Returns the time to lose 95 % at 311 mm over the sweep's smallest.
 Finding over_the_best(std::string what, const LengthSweep& sweep) {
   const Statistic here = point_at(sweep, 0.311).seconds[at_95],
                   best = sweep.points[sweep.fastest()].seconds[at_95];

@@ -26,7 +26,7 @@ const T& value_of_kind(const EffectChoice& choice, ParameterKind kind) {
   return std::get<T>(choice.values.find(found->name)->second);
 }
 
-/// One of the formulas offered is the hidden force to within its strength.
+/// Tells whether one of the formulas offered is the hidden force to within its strength.
 bool form_is_offered(const OpenedCase& one, const TrialTools& tools) {
   if (one.lost || one.forces.empty()) return false;
   Setup truth = parse_setup(one.setup, one.name, tools.known);
@@ -47,7 +47,8 @@ bool form_is_offered(const OpenedCase& one, const TrialTools& tools) {
   return false;
 }
 
-/// The form is one that a diagnosis offers. Of answers that do not say which force was hidden it is.
+/// Tells whether the form is one that a diagnosis offers; so it is taken to be where the answer does not say
+/// which force was hidden.
 bool of_the_dictionary(const OpenedCase& one) {
   const Hideable* force = one.ids.empty() ? nullptr : find_hideable(one.ids.front());
   return force == nullptr || force->of_the_dictionary;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Forces that no list of effects has, as a blind suite scores them.
+// Scores forces that no list of effects has.
 #pragma once
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace shakedown {
 
-/// Told as such; and of those whose form a diagnosis can offer whether it was offered. The hidden force and
-/// those offered are compared along the motion that the model of `tools` makes of the truth.
+/// Adds how many were told as such, and of those whose form a diagnosis can offer how many were offered. The
+/// hidden force and those offered are compared along the motion that the model of `tools` makes of the truth.
 void unlisted_forces(const std::vector<OpenedCase>& cases, const TrialTools& tools, ScoreTable& table);
 
 }  // namespace shakedown

@@ -18,13 +18,14 @@
 #include "parameter_knobs.hpp"
 #include "swing.hpp"
 #include "swing_judged.hpp"
+#include "turned_model.hpp"
 #include "validation.hpp"
 
 namespace shakedown {
 
 namespace {
 
-/// How bad the misfit of a run is, in words.
+/// Says how bad the misfit of a run is.
 std::string_view severity(const RunComparison& run) {
   const double ratio = run.error_box / run.floor_box;
   if (std::isnan(run.chance_box) ? ratio < 1.3 : run.chance_box > features_rejected)
@@ -46,18 +47,18 @@ std::string readable(const std::vector<FailureCell>& cells) {
   return shown > 0 ? text : "  no run, time, phase, amplitude, landing or flight stands out\n";
 }
 
-std::string beside(const MeasuredNumber& number, double scale, int digits) {
+std::string beside(const MeasuredNumber& number, double scale, int digits, const char* unit = "") {
   if (!std::isfinite(number.measured) || !std::isfinite(number.model))
     return "not found (too few peaks or crossings)";
-  return fmt::format("{:.{}f} ({:.{}f} +- {:.{}f})", number.measured * scale, digits, number.model * scale,
-                     digits, number.spread * scale, digits);
+  return fmt::format("{:.{}f} ({:.{}f} +- {:.{}f}){}", number.measured * scale, digits, number.model * scale,
+                     digits, number.spread * scale, digits, unit);
 }
 
 std::string readable(const std::vector<DecayComparison>& decays) {
   std::string text = "  measured (model +- spread from run to run)\n";
   for (const DecayComparison& run : decays) {
-    text += fmt::format("    {:<12} frequency {} Hz, slope of |peaks| {} mm/s\n      peaks, mm:", run.run,
-                        beside(run.frequency, 1, 4), beside(run.slope, 1e3, 2));
+    text += fmt::format("    {:<12} frequency {}, slope of |peaks| {}\n      peaks, mm:", run.run,
+                        beside(run.frequency, 1, 4, " Hz"), beside(run.slope, 1e3, 2, " mm/s"));
     for (const MeasuredNumber& peak : run.peaks) text += " " + beside(peak, 1e3, 1);
     text += "\n";
     if (run.forced) text += "      forced: " + told(*run.forced) + "\n";
@@ -66,7 +67,7 @@ std::string readable(const std::vector<DecayComparison>& decays) {
   return text;
 }
 
-/// "-" where the grains' centre was not tracked.
+/// Returns a length in mm; "-" where the grains' centre was not tracked.
 std::string of_centre(const RunComparison& run, double metres) {
   return run.floor_centre > 0 ? fmt::format("{:.3f}", metres * 1e3) : "-";
 }
@@ -203,7 +204,7 @@ std::string compared_json(const Compared& compared) {
 
 namespace {
 
-/// Without grains; false where no run swings long enough.
+/// Compares boxes without grains; returns false where no run swings long enough.
 bool compare_by_waveform(const Setup& setup, const Measurement& recorded, const Engine& engine,
                          const std::vector<Knob>& knobs, Compared& compared) {
   std::optional<JudgedSwing> judged = judged_swing(setup, recorded, knobs, compared.momentum, all_effects());
@@ -251,7 +252,8 @@ Compared compared_with(const Setup& setup, const Measurement& recorded, const En
 
 namespace {
 
-/// Nothing was found and nothing is suspected: the parameters and the camera are there to be turned.
+/// Returns what a reader may turn: the parameters and the camera, as nothing was found and nothing is
+/// suspected.
 ReportKnobs knobs_of_comparison(const LastFit& last, const Setup& setup, const Engine& engine, int threads,
                                 const std::atomic<bool>* stop) {
   if (last.swing) return knobs_of(turned_numbers(*last.swing, setup, {}, all_effects()), last, setup);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Is the model acceptable for these measurements, and where does it fail? Nothing is fitted.
+// Tells whether the model is acceptable for these measurements, and where it fails. Nothing is fitted but
+// camera, clock and what two codes of one physics differ by.
 #pragma once
 #include <atomic>
 #include <functional>
@@ -11,11 +12,12 @@
 #include "judgement.hpp"
 #include "last_fit.hpp"
 #include "momentum.hpp"
-#include "refit.hpp"
+#include "refit_result.hpp"
 #include "report.hpp"
 
 namespace shakedown {
 
+/// Says how much is simulated.
 struct CompareOptions {
   int runs = 128;   ///< simulations of each different setup
   int threads = 0;  ///< 0: one for each core; the answer does not depend on it
@@ -23,6 +25,7 @@ struct CompareOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// Holds all that a comparison says.
 struct Compared {
   Measurement measurement;              ///< from the first turn of each run on
   std::vector<std::string> warnings;    ///< what the frames as recorded give reason to say
@@ -34,17 +37,17 @@ struct Compared {
   LastFit last;  ///< for the curves, and for what a reader may turn
 };
 
-/// `recorded`: the measurement of this setup. Throws InputError where the engine does not model the setup,
-/// Interrupted.
+/// Compares a setup with its measurement, `recorded`. Throws InputError where the engine does not model the
+/// setup, Interrupted.
 Compared compared_with(const Setup& setup, const Measurement& recorded, const Engine& engine,
                        const CompareOptions& options);
 
-/// The comparison as text for a terminal.
+/// Returns the comparison as text for a terminal.
 std::string compared_text(const Compared& compared);
-/// As JSON text (harness/README.md).
+/// Returns it as JSON text (harness/README.md).
 std::string compared_json(const Compared& compared);
 
-/// The page; its curves and what its knobs do are simulated here. Throws Interrupted.
+/// Returns the page; its curves and what its knobs do are simulated here. Throws Interrupted.
 Report report_of(const Compared& compared, const Setup& setup, const Engine& engine, int threads,
                  const std::atomic<bool>* stop);
 

@@ -14,6 +14,7 @@
 #include "parameter_knobs.hpp"
 #include "setup_file.hpp"
 #include "suggestion.hpp"
+#include "turned_model.hpp"
 
 namespace shakedown {
 
@@ -57,7 +58,7 @@ std::string amended_setup(const Diagnosis& diagnosis) {
 
 namespace {
 
-/// Suspects that a reader may want to turn: those that explain most, what was found left out.
+/// Returns the suspects that a reader may want to turn: those that explain most, what was found left out.
 std::vector<std::string> suspects_of(const Diagnosis& diagnosis) {
   constexpr std::size_t most = 6;
   std::vector<std::string> names;

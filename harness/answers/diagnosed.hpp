@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a diagnosis is asked and what comes of it beside its numbers.
+// Checks what a diagnosis is asked, and writes what comes of it beside its numbers.
 #pragma once
 #include <atomic>
 #include <string>
@@ -13,20 +13,22 @@ namespace shakedown {
 /// Throws InputError where a name is no effect, or no parameter that a diagnosis fits.
 void check_diagnosed_names(const std::vector<std::string>& effects, const std::vector<std::string>& fixed);
 
-/// The options of every diagnosis: all effects of the list, with the differences of the engines known.
+/// Returns the options of every diagnosis: all effects of the list, with the differences of the engines
+/// known.
 DiagnoseOptions usual_diagnose_options();
 
-/// The setup with effects and refitted values as TOML, and why.
+/// Returns the setup with effects and refitted values as TOML, and why.
 std::string amended_setup(const Diagnosis& diagnosis);
 
+/// Says how much is simulated for a page.
 struct PageOptions {
   int threads = 0;     ///< 0: one for each core
   double seconds = 0;  ///< of the diagnosis; what its knobs do has a fifth of that, and 20 s at least
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// The page; its curves and what its knobs do are simulated here. `given`: the setup as the user had it.
-/// Throws Interrupted.
+/// Returns the page; its curves and what its knobs do are simulated here. `given`: the setup as the user had
+/// it. Throws Interrupted.
 Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, const Setup& given,
                  const PageOptions& page);
 

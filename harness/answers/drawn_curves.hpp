@@ -6,8 +6,8 @@
 
 namespace shakedown {
 
-/// The curves of a report: each run as measured, beside the setup as `given` (null: none) and the final one.
-/// Throws Interrupted.
+/// Returns the curves of a report: each run as measured, beside the setup as `given` (null: none) and the
+/// final one. Throws Interrupted.
 std::vector<MeasuredAgainstModel> drawn_curves(const Measurement& measurement, const Setup* given,
                                                const Setup& final_setup, const Engine& engine, int threads,
                                                const std::atomic<bool>* stop);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "drop_tables.hpp"
 #include "missing_numbers.hpp"
 #include "quantity_option.hpp"
 
@@ -13,7 +14,7 @@ namespace shakedown {
 
 namespace {
 
-/// A quantity of an option in SI, more than 0; `none` where the option is not given.
+/// Returns the quantity of an option in SI, more than 0; `none` where the option is not given.
 double quantity_of(const char* option, const std::string& text, const char* unit, double none) {
   const double value = quantity_option(option, text, unit, none);
   if (!text.empty() && !(value > 0))
@@ -24,7 +25,7 @@ double quantity_of(const char* option, const std::string& text, const char* unit
   return value;
 }
 
-/// "2.5 m" or "2.5 m +- 5 mm".
+/// Holds "2.5 m" or "2.5 m +- 5 mm", in m.
 struct Height {
   double value = not_said, error = 0.01;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is asked of recordings of a bouncing ball, as people write it.
+// Reads what is asked of recordings of a bouncing ball, as people write it.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace shakedown {
 
-/// Texts are quantities with their unit ("2.7 g"); empty: not said.
+/// Holds the question. Texts are quantities with their unit ("2.7 g"); empty: not said.
 struct DropQuestion {
   std::vector<std::string> files;    ///< tables, tracks or sounds
   std::string as;                    ///< "intervals", "instants", "track" or "sound"; empty: guessed
@@ -25,7 +25,7 @@ struct DropQuestion {
 /// that holds no drops, FileError.
 BounceReading answer_of(const DropQuestion& question);
 
-/// As JSON text (harness/bounce/README.md).
+/// Returns the answer as JSON text (harness/bounce/README.md).
 std::string drops_json(const BounceReading& reading);
 
 }  // namespace shakedown

@@ -6,7 +6,7 @@
 
 namespace shakedown {
 
-/// The effect of this name. Throws InputError, with the name most like it, where there is none.
+/// Returns the effect of this name. Throws InputError, with the name most like it, where there is none.
 const EffectRecord& effect_asked(const std::string& name);
 
 }  // namespace shakedown

@@ -12,14 +12,17 @@
 #include "free_parameters.hpp"
 #include "knobs_report.hpp"
 #include "momentum.hpp"
+#include "refit.hpp"
+#include "refit_options.hpp"
 #include "swing.hpp"
 #include "swing_judged.hpp"
+#include "turned_model.hpp"
 
 namespace shakedown {
 
 namespace {
 
-/// The runs of these names, or the others.
+/// Returns the runs of these names, or the others. No names stand for all runs.
 Measurement part_of(const Measurement& whole, const std::vector<std::string>& names, bool others) {
   Measurement part = whole;
   if (names.empty()) {
@@ -32,7 +35,7 @@ Measurement part_of(const Measurement& whole, const std::vector<std::string>& na
   return part;
 }
 
-/// Boxes without grains; nothing where no run swings long enough.
+/// Fits boxes without grains; returns nothing where no run swings long enough.
 std::optional<Fit> by_waveform(const Setup& setup, const Measurement& recorded,
                                const std::vector<Knob>& knobs, const FitOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
@@ -84,7 +87,7 @@ Setup with_curves(const FitQuestion& asked, Setup setup) {
   return setup;
 }
 
-/// `setup`: with its curves.
+/// Returns the knobs that are asked for. `setup`: with its curves.
 std::vector<Knob> knobs_asked(const FitQuestion& asked, const Setup& setup) {
   std::vector<Knob> knobs = free_parameters(asked.free, setup, all_effects());
   for (const AskedCurve& curve : curves_asked(asked))
@@ -116,7 +119,7 @@ Fit fitted_by_ensembles(const Setup& setup, const Measurement& measurement, cons
     seconds += fit.seconds;
   }
   for (const AskedCurve& curve : curves) fit.curves.push_back(curve_of(*curve.law, fit, all_effects()));
-  // The runs left out are not foretold with it.
+  // The fit with a constant foretells no runs left out.
   const Fit level = fit_parameters(setup, part_of(measurement, options.on, false),
                                    free_parameters(asked.free, setup, all_effects()), engine, options);
   fit.constant = {level.p_value, level.scatter, level.judgement.standing, fit.judgement.standing};
@@ -160,7 +163,7 @@ Fit fitted_and_judged(const Setup& given, const Measurement& recorded, const Fit
 
 namespace {
 
-/// The keys that were fitted are there to be turned.
+/// Returns what a reader may turn: the keys that were fitted.
 ReportKnobs knobs_of_fit(const Fit& fit, const Measurement& measurement, const Engine& engine, int threads,
                          const std::atomic<bool>* stop) {
   if (fit.measured.empty()) return {};

@@ -8,12 +8,12 @@
 
 namespace shakedown {
 
-/// The options of every fit: all effects of the list.
+/// Returns the options of every fit: all effects of the list.
 FitOptions usual_fit_options();
 
-/// What is to be fitted: keys ("restitution.grain_grain,spring.frequency"; those joined by & move together),
-/// and restitution or friction as a free function of a speed, of these contacts (contact_curve.hpp; empty:
-/// not).
+/// Says what is to be fitted: keys ("restitution.grain_grain,spring.frequency"; those joined by & move
+/// together), and restitution or friction as a free function of a speed, of these contacts
+/// (contact_curve.hpp; empty: not).
 struct FitQuestion {
   std::string free, restitution_curve{}, friction_curve{};
 };
@@ -28,8 +28,8 @@ void check(const FitQuestion& asked, const Setup& setup);
 Fit fitted_and_judged(const Setup& setup, const Measurement& recorded, const FitQuestion& asked,
                       const Engine& engine, const FitOptions& options);
 
-/// The page; its curves, each run without grains from its first turn on, and what its knobs do are simulated
-/// here. Throws Interrupted.
+/// Returns the page; its curves, each run without grains from its first turn on, and what its knobs do are
+/// simulated here. Throws Interrupted.
 Report report_of(const Fit& fit, const Setup& given, const Measurement& recorded, const Engine& engine,
                  int threads, const std::atomic<bool>* stop);
 

@@ -31,7 +31,8 @@ void read_each(const std::vector<std::string>& texts, std::vector<Violation>& fo
   for (const std::string& text : texts) collect(found, [&] { read(text); });
 }
 
-/// A film in which what was to be hidden does nothing would tell of nothing.
+/// Refuses an effect that does nothing without another one that is not there: a film of it would tell of
+/// nothing.
 void expect_what_they_need(const Setup& truth) {
   std::vector<Violation> found;
   for (const EffectChoice& choice : truth.effects)

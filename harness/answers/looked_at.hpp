@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measured data as every question takes them: looked at before any model is asked.
+// Looks at measured data as every question takes them, before any model is asked.
 #pragma once
 #include "experiment.hpp"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Options whose value is a number with its unit.
+// Reads options whose value is a number with its unit.
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace shakedown {
 
-/// In SI, of the dimension of `unit`; `otherwise` where the text is empty: the option was not given. Throws
-/// InputError. `example`: a number that suits the unit.
+/// Returns the value in SI, of the dimension of `unit`; `otherwise` where the text is empty: the option was
+/// not given. Throws InputError. `example`: a number that suits the unit.
 double quantity_option(const char* option, const std::string& text, std::string_view unit, double otherwise,
                        std::string_view example = "1");
 

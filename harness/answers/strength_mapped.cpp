@@ -15,7 +15,7 @@ namespace shakedown {
 
 namespace {
 
-/// The things that are varied, each with its lines.
+/// Returns the things that are varied, each with its lines.
 std::vector<std::vector<std::size_t>> families_of(const StrengthMap& map) {
   std::vector<std::vector<std::size_t>> families;
   for (std::size_t l = 0; l < map.lines.size(); ++l) {
@@ -61,7 +61,7 @@ ReportTable table_of(const StrengthMap& map, const std::vector<std::size_t>& fam
   return table;
 }
 
-/// As it falls on typical strengths: what is above one is hardly found.
+/// Returns the bars of the experiment as planned, in typical strengths: what is above one is hardly found.
 ReportBars planned_bars(const StrengthMap& map) {
   ReportBars bars{
       "",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The map of smallest strengths as text, JSON and page.
+// Writes the map of smallest strengths as text, JSON and page.
 #pragma once
 #include <string>
 
@@ -8,11 +8,11 @@
 
 namespace shakedown {
 
-/// Tables, one for each thing that is varied.
+/// Returns tables, one for each thing that is varied.
 std::string map_text(const StrengthMap& map);
-/// harness/README.md lists its keys.
+/// Returns the map as JSON text; harness/README.md lists its keys.
 std::string map_json(const StrengthMap& map);
-/// `setup`: as believed; `design`: the experiment in a few words.
+/// Returns the page. `setup`: as believed; `design`: the experiment in a few words.
 Report report_of(const StrengthMap& map, const Setup& setup, const std::string& design);
 
 }  // namespace shakedown

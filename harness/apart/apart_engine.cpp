@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "initial_state.hpp"
 #include "motion.hpp"
 
 namespace shakedown {
@@ -44,7 +45,8 @@ void check(const Setup& setup) {
   if (!found.empty()) throw InputError(std::move(found));
 }
 
-/// The unloading of a contact takes e / (1 + e) of its time, and is to have its share of the steps.
+/// Returns the longest step, s: the unloading of a contact takes e / (1 + e) of its time, and is to have its
+/// share of the steps.
 double longest_step(const Setup& setup) {
   const double e = std::min(setup.restitution.grain_grain, setup.restitution.grain_wall),
                stiffer = std::min(1.0, 2 * e / (1 + e));
@@ -148,7 +150,7 @@ class ApartRun {
 class ApartEngine final : public Engine {
  public:
   std::string_view name() const override { return "apart"; }
-  /// By its own list: the records say what the others model.
+  /// Answers by its own list: the records say what the other engines model.
   Capability can_model(const EffectRecord& effect) const override {
     if (const std::string_view how = apart::known_effect(effect.name); !how.empty())
       return {Fidelity::to_stated_error, how};

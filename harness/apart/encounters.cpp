@@ -31,7 +31,7 @@ Encounters::Encounters(const Model& model, const State& state, double step)
       walls_(6 * state.size()),
       random_(model.seed) {}
 
-/// All pairs, seldom: a list is good until the two fastest grains could have met from beyond it.
+/// Looks at all pairs, seldom: a list is good until the two fastest grains could have met from beyond it.
 void Encounters::list_pairs(const State& state) {
   if (2 * wandered_ < skin_) return;
   wandered_ = 0;
@@ -135,9 +135,9 @@ void Encounters::begin(const Meeting& meeting, double rate, Memory& memory) {
   ++touches_[kind];
 }
 
-/// An impact is over where its force is: what follows is another one, with a restitution of its own, and its
-/// overlap counts from there. So a layer that is pressed loses in each of its small impacts, as hard spheres
-/// do, and not in the first one alone.
+/// Returns the normal force of the contact, N. An impact is over where its force is: what follows is another
+/// one, with a restitution of its own, and its overlap counts from there. So a layer that is pressed loses in
+/// each of its small impacts, as hard spheres do, and not in the first one alone.
 double Encounters::press(const Meeting& meeting, double rate, Memory& memory) {
   deepest_ = std::max(deepest_, meeting.overlap);
   if (meeting.overlap <= 0) {
@@ -161,8 +161,8 @@ double Encounters::press(const Meeting& meeting, double rate, Memory& memory) {
   return newton;
 }
 
-/// Mean over the step: the change of the well's energy over that of the gap. A step that crosses the edge
-/// takes its share.
+/// Returns the mean attraction over the step, N: the change of the well's energy over that of the gap. A step
+/// that crosses the edge takes its share.
 double Encounters::pull(const Meeting& meeting, double rate, Memory& memory) const {
   const double strength = meeting.j < 0 ? model_.pull_of_walls : model_.pull;
   if (!(strength > 0)) return 0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Who is near whom, what each of these contacts remembers, and the forces of a step.
+// Finds who is near whom, keeps what each of these contacts remembers, and computes the forces of a step.
 #pragma once
 #include <random>
 #include <vector>
 
-#include "initial_state.hpp"
+#include "damper_state.hpp"
 #include "model.hpp"
 
 namespace shakedown::apart {
@@ -30,15 +30,18 @@ struct Push {
 
 class Encounters {
  public:
+  /// `model` must outlive it; `step`: s, length of all steps.
   Encounters(const Model& model, const State& state, double step);
 
-  /// The forces with everything at the middle of a step and the velocities before it.
+  /// Returns the forces of a step from places at its middle and velocities before it.
   const std::vector<Push>& forces(const State& state);
   /// J, held by springs and wells of each class at the last step.
   const std::array<double, contact_classes>& stored() const { return stored_; }
+  /// Returns the number of impacts begun so far, by class.
   const std::array<std::int64_t, contact_classes>& touches() const { return touches_; }
+  /// Returns the deepest overlap so far, m.
   double deepest() const { return deepest_; }
-  /// To be told how far the fastest grain goes in a step, m.
+  /// Adds to the way that the fastest grain can have gone, m; to be called whenever grains have moved.
   void moved(double way) { wandered_ += way; }
 
  private:
@@ -54,10 +57,13 @@ class Encounters {
   };
   void list_pairs(const State& state);
   void at_walls(const State& state);
+  /// Adds the force of one contact. `rate` below: m/s, by which the overlap grows.
   void meet(const State& state, const Meeting& meeting, Memory& memory);
+  /// Begins an impact: draws its restitution and makes its springs.
   void begin(const Meeting& meeting, double rate, Memory& memory);
   double press(const Meeting& meeting, double rate, Memory& memory);
   double pull(const Meeting& meeting, double rate, Memory& memory) const;
+  /// Returns the force of friction on the first body, N. `slip`: m/s; `press`: N.
   Vec3 rub(const Meeting& meeting, const Vec3& slip, double press, double rate, Memory& memory) const;
 
   const Model& model_;

@@ -13,7 +13,7 @@ double pade_restitution(double u) {
 
 namespace {
 
-/// u at which the approximant has this value; it falls with u.
+/// Returns u at which the approximant has this value; it falls with u.
 double pade_argument(double restitution) {
   double low = 0, high = 10;
   for (int i = 0; i < 60; ++i) {

@@ -91,7 +91,7 @@ void enter(const EffectChoice& choice, int index, const Setup& setup, Model& mod
   }
 }
 
-/// Those that need the whole mass of the box or the restitutions of all others.
+/// Writes an effect into the model that needs the whole mass of the box or the restitutions of all others.
 void enter_last(const EffectChoice& choice, int index, Model& model) {
   const std::string_view name = choice.record->name;
   if (name == "constant_acceleration" || name == "oscillating_acceleration") {

@@ -47,14 +47,14 @@ struct Model {
   std::uint64_t seed = 0;
 };
 
-/// What this coding does differently of an effect that it knows; empty: it does not know it.
+/// Returns what this coding does differently of an effect that it knows; empty: it does not know it.
 std::string_view known_effect(std::string_view name);
 
-/// A parameter of an effect that this coding knows, which is neither at its default nor read here; empty:
-/// none.
+/// Returns a parameter, of an effect that this coding knows, which is neither at its default nor read here;
+/// empty: there is none.
 std::string_view unknown_parameter(const EffectChoice& choice);
 
-/// All effects of the setup are known. `run` is the number of the run.
+/// Returns the model of a setup all of whose effects are known. `run` is the number of the run.
 Model model_of(const Setup& setup, int run);
 
 }  // namespace shakedown::apart

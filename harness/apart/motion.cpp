@@ -68,8 +68,8 @@ void Motion::drift() {
   encounters_.moved(step_ / 2 * std::sqrt(fastest));
 }
 
-/// The air moves with the box, whose speed at the middle of the step is guessed from its last change. The
-/// drag is taken at the mean of the speeds before and after.
+/// Kicks the grains. The air moves with the box, whose speed at the middle of the step is guessed from its
+/// last change. The drag is taken at the mean of the speeds before and after.
 void Motion::kick_grains(double time) {
   Vec3 field = Vec3::Zero();
   for (const Field& one : model_.fields)
@@ -80,7 +80,7 @@ void Motion::kick_grains(double time) {
     Vec3 impulse = step_ * (force_[i] + m * field);
     Vec3& velocity = state_.velocity[i];
     if (air) {
-      // The second time with the mean of the speeds before and after the kick.
+      // The second pass takes the mean of the speeds before and after the kick.
       const Vec3 wind = velocity - Vec3(state_.v_box + box_change_ / 2, 0, 0);
       Vec3 dragged = Vec3::Zero(), between = wind + impulse / (2 * m);
       for (int pass = 0; pass < 2; ++pass) {
@@ -90,7 +90,7 @@ void Motion::kick_grains(double time) {
       }
       impulse += dragged;
       box_force_ -= dragged.x() / step_;
-      // What it takes from grain and box.
+      // This is what it takes from grain and box.
       effect_loss_[static_cast<std::size_t>(model_.air_effect)] -= dragged.dot(between);
     }
     const Vec3 mean = velocity + impulse / (2 * m);
@@ -117,7 +117,7 @@ double Motion::push_of(const BoxPush& push, double time) const {
   return 0;
 }
 
-/// What drags at this speed in proportion to it, N s/m.
+/// Returns the force that drags at this speed (m/s) over the speed, N s/m.
 double Motion::drag_at(double speed) const {
   double drag = 0;
   for (const BoxPush& push : model_.pushes) {
@@ -154,7 +154,8 @@ void Motion::kick_box(double time) {
   }
 }
 
-/// The box goes across as 3/5 x^2 / l: seen from it the grains pick up -6/5 (x v) / l.
+/// Gives the grains the transverse velocity that they pick up as seen from the box, -6/5 (x v) / l: it goes
+/// across as 3/5 x^2 / l.
 void Motion::follow_arc() {
   const double now = state_.x_box * state_.v_box, change = -1.2 * (now - arc_before_) / model_.arc_length;
   arc_before_ = now;
@@ -165,7 +166,7 @@ void Motion::follow_arc() {
   }
 }
 
-/// Force times the mean of the velocities before and after is the exact work of a kick.
+/// Books the work of the contacts: force times the mean of the velocities before and after, exact for a kick.
 void Motion::enter_contact_work() {
   for (const Push& push : *pushes_) {
     const auto i = static_cast<std::size_t>(push.i), j = static_cast<std::size_t>(std::max(push.j, 0));

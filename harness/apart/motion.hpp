@@ -10,15 +10,17 @@ namespace shakedown::apart {
 
 class Motion {
  public:
+  /// Begins at `state`. `model` must outlive it; `step`: s, length of all steps; `effects`: number of lines
+  /// in Setup::effects, to which losses are booked.
   Motion(const Model& model, State state, double step, std::size_t effects);
 
   /// Goes on by one step from this time, s.
   void advance(double time);
 
   const State& state() const { return state_; }
-  /// J: spring, box, grains, and what contacts hold.
+  /// Returns the energy of spring, box and grains and what contacts hold, J.
   double energy() const;
-  /// J, lost in contacts of each class and to each effect since the start.
+  /// Return what was lost in contacts of each class and to each effect since the start, J.
   std::array<double, contact_classes> contact_loss() const;
   const std::vector<double>& effect_loss() const { return effect_loss_; }
   const Encounters& encounters() const { return encounters_; }

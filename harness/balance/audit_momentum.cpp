@@ -12,11 +12,12 @@ namespace shakedown {
 
 namespace {
 
-/// Relative, of the spring's frequency: beyond it, forces that the stiffness scales (an origin) are worked
-/// out with the one found; 1 % makes 2 % of them.
+/// Relative change of the spring's frequency beyond which forces that the stiffness scales (an origin) are
+/// worked out with the one found; 1 % makes 2 % of them.
 constexpr double far_off = 0.01;
 
-/// What the runs are read with next: the nuisances found, and a frequency that lies far from the setup's.
+/// Returns what the runs are read with next: the nuisances found, and a frequency that lies far from the
+/// setup's.
 NuisanceValues values_of(const MomentumAudit& audit, double frequency) {
   NuisanceValues values;
   if (audit.frequency > 0 && std::abs(audit.frequency / frequency - 1) > far_off)
@@ -26,7 +27,8 @@ NuisanceValues values_of(const MomentumAudit& audit, double frequency) {
   return values;
 }
 
-/// Nuisances that moved by more than a part of their error from what the runs were read with.
+/// Tells whether the frequency, or a nuisance by more than a part of its error, moved from what the runs were
+/// read with.
 bool has_moved(const MomentumAudit& audit, const NuisanceValues& read_with, double frequency) {
   constexpr double part = 0.3;
   const auto stated = read_with.find("spring.frequency");
@@ -63,12 +65,12 @@ MomentumAudit audit_momentum(const Measurement& measurement, KnownEffects known,
     already = values_of(audit, frequency);
     audit = linear_audit(read_with(measurement, already, known), known, on_the_way, already);
   }
-  // What is not linear in the camera looks like a wander: it is chosen again where the camera has moved.
+  // What is not linear in the camera looks like a wander, which is chosen again where the camera has moved.
   MomentumOptions last = options;
   if (already.empty() || wander_known) last.wander = first.wander;
   if (!already.empty() || options.formulas)
     audit = linear_audit(read_with(measurement, already, known), known, last, already);
-  // What the setup says as it is, is seen with the camera as it is.
+  // The setup as it is, is judged with the camera as it is.
   audit.as_given = first.as_given;
   audit.refitted = first.refitted;
   audit.rest_as_given = first.rest_as_given;

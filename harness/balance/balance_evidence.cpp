@@ -21,7 +21,7 @@ bool is_chosen(const std::vector<ChosenTerm>& chosen, int term) {
   return std::any_of(chosen.begin(), chosen.end(), [&](const ChosenTerm& c) { return c.term == term; });
 }
 
-/// The fitted forces, run by run, whose derivatives carry the noise of positions into the balance.
+/// Returns the fitted forces, run by run, whose derivatives carry the noise of positions into the balance.
 std::vector<ForceSamples> fitted_forces(const SelectionProblem& p, const Selection& selection) {
   std::vector<ForceSamples> fitted(p.runs->size());
   for (std::size_t run = 0; run < p.runs->size(); ++run) {
@@ -36,7 +36,7 @@ std::vector<ForceSamples> fitted_forces(const SelectionProblem& p, const Selecti
   return fitted;
 }
 
-/// Strengths that are not quite linear are taken at the value just fitted.
+/// Derives the chosen strengths again at the values just fitted, because some are not quite linear.
 void derive_again(SelectionProblem& p, const Selection& selection) {
   Eigen::Index column = 0;
   for (const ChosenTerm& c : selection.chosen) {
@@ -49,14 +49,14 @@ void derive_again(SelectionProblem& p, const Selection& selection) {
   }
 }
 
-/// ln density of a strength beforehand: Cauchy about none with the typical strength as scale, so that one
-/// thirty times as strong is unlikely and not impossible.
+/// Returns the ln density of a strength beforehand: Cauchy about none with the typical strength as scale, so
+/// that one thirty times as strong is unlikely and not impossible.
 double log_prior(double strength, double typical, bool one_sided) {
   const double ratio = strength / typical;
   return std::log((one_sided ? 2 : 1) / (std::numbers::pi * typical * (1 + ratio * ratio)));
 }
 
-/// What the frequency and the nuisances cannot take up.
+/// Holds what the frequency, the sines and the nuisances cannot take up.
 struct Projected {
   std::vector<int> term;    ///< of the columns
   Eigen::MatrixXd gram;     ///< of the columns
@@ -64,8 +64,8 @@ struct Projected {
   double chi2 = 0, log_determinant = 0;
 };
 
-/// Where a term's column goes: at the end, or in the place of the same strength with another shape, of which
-/// the one that gains most alone is weighed.
+/// Returns where a term's column goes: at the end, or in the place of the same strength with another shape,
+/// of which the one that gains most alone is weighed.
 std::ptrdiff_t place_of(const SelectionProblem& p, const std::vector<int>& terms, int term) {
   const std::string& shape = p.known[static_cast<std::size_t>(term)].shape;
   return std::find_if(terms.begin(), terms.end(),
@@ -112,7 +112,7 @@ Projected projected(const SelectionProblem& p, const std::vector<ChosenTerm>& ba
   return out;
 }
 
-/// Every way to choose up to `most` of n, each in ascending order.
+/// Visits every way to choose up to `most` of n, each in ascending order.
 void each_set(std::size_t n, std::size_t most, std::vector<std::size_t>& set,
               const std::function<void(const std::vector<std::size_t>&)>& visit) {
   if (!set.empty()) visit(set);
@@ -129,15 +129,15 @@ double prior_odds(const SelectionProblem& p, double odds) {
   return std::log(each / (1 - each));
 }
 
-/// Two frictions that turn with the motion are one joint seen twice: of a yielding and a dry one any travel
-/// between could be mixed.
+/// Tells whether the set has two frictions that turn with the motion. These are one joint seen twice: of a
+/// yielding and a dry one any travel between could be mixed.
 bool rubs_twice(const SelectionProblem& p, const Projected& q, const std::vector<std::size_t>& set) {
   return std::count_if(set.begin(), set.end(),
                        [&](std::size_t i) { return p.known[static_cast<std::size_t>(q.term[i])].dry; }) > 1;
 }
 
-/// ln odds of a set over nothing; -infinity where a strength has the wrong sign, is out of its bounds, or is
-/// an effect twice.
+/// Returns ln odds of a set over nothing; -infinity where a strength has the wrong sign or is out of its
+/// bounds, or where two terms do the same. Sets `gain`.
 double log_odds_of(const SelectionProblem& p, const Projected& q, const std::vector<std::size_t>& set,
                    double& gain) {
   constexpr double impossible = -std::numeric_limits<double>::infinity();
@@ -298,7 +298,7 @@ SineFound best_sine(const SelectionProblem& p, const Selection& beside, double l
     if (!(normal.determinant() > rounding * normal(0, 0) * normal(1, 1))) return {};
     const Eigen::Vector2d right = pair.transpose() * residual, both = normal.inverse() * right;
     const double gain = right.dot(both), amplitude = both.norm();
-    // half-Cauchy in the amplitude, any phase
+    // The prior is half-Cauchy in the amplitude, with any phase.
     return {gain, gain / 2 + log_prior(amplitude, p.typical_sine, true) -
                       std::log(std::max(amplitude, 1e-300)) - std::log(normal.determinant()) / 2};
   };

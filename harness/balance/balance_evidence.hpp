@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which forces does the momentum balance ask for? Every set of up to four strengths is a hypothesis; its
+// Finds which forces the momentum balance asks for. Every set of up to four strengths is a hypothesis; its
 // evidence is in closed form (Laplace), with a prior for each strength about what is typical of the effect
 // and one for how many effects an experiment hides. The spring's frequency and the nuisances are in every
 // fit.
@@ -12,12 +12,14 @@
 
 namespace shakedown {
 
-/// One term in the fit: a known strength, a formula (lines beyond the known ones), or a sine (two columns).
+/// Names one term in the fit: a known strength, a formula (lines beyond the known ones), or a sine (two
+/// columns).
 struct ChosenTerm {
   int term = -1;         ///< -1: harmonic
   double frequency = 0;  ///< Hz
 };
 
+/// Holds the terms that were chosen, and their fit.
 struct Selection {
   std::vector<ChosenTerm> chosen;  ///< the spring's frequency first
   Regression fit;        ///< columns in the order of `chosen`, two for a harmonic, then the nuisances
@@ -28,7 +30,7 @@ struct Selection {
 /// called its look-alike.
 constexpr double as_good = 9;
 
-/// A set of strengths and how probable it is among all sets that were compared.
+/// Holds a set of strengths and how probable it is among all sets that were compared.
 struct BalanceHypothesis {
   std::vector<ChosenTerm> chosen;  ///< the spring's frequency first
   double log_odds = 0;             ///< ln of posterior over that of nothing beside frequency and nuisances
@@ -36,7 +38,7 @@ struct BalanceHypothesis {
   double probability = 0;
 };
 
-/// What is compared; the covariance of `problem` follows the fit.
+/// Holds what is compared; the covariance of `problem` follows the fit.
 struct SelectionProblem {
   MomentumProblem problem;
   std::vector<MomentumTerm> known;
@@ -44,47 +46,49 @@ struct SelectionProblem {
   const std::vector<MomentumRun>* runs = nullptr;
   double highest_frequency = 0;  ///< Hz, of a sine that these windows can see
   double typical_sine = 0;       ///< m/s^2; 0: no effect of the library is a sine
-  /// Samples of a known strength at another value than that of the terms.
+  /// Returns the samples of a known strength, one entry a run, at another value than that of the terms.
   std::function<std::vector<ForceSamples>(const MomentumTerm&, double strength)> derive;
 
   bool is_known(int term) const { return term >= 0 && term < static_cast<int>(known.size()); }
 };
 
-/// Whitened columns of the chosen terms, then the nuisances.
+/// Returns the whitened columns of the chosen terms, then the nuisances.
 Eigen::MatrixXd columns_of(const SelectionProblem& p, const std::vector<ChosenTerm>& chosen);
 
 /// Fits the chosen terms, taking their own noise into the covariance.
 Selection fit_terms(SelectionProblem& p, std::vector<ChosenTerm> chosen);
 
-/// All sets of known strengths beside what is in `base` (the spring's frequency, sines), most probable first.
-/// Probabilities are among these.
+/// Returns all sets of known strengths beside what is in `base` (the spring's frequency, sines), most
+/// probable first. Probabilities are among these.
 std::vector<BalanceHypothesis> compare_sets(const SelectionProblem& p, const std::vector<ChosenTerm>& base);
 
-/// The sets in question, each weighed with its own noise: a set whose forces let more of the frames' noise in
-/// pays for what it thereby seems to explain. Those that are hopeless beside the first are left out.
+/// Returns the sets in question, each weighed with its own noise: a set whose forces let more of the frames'
+/// noise in pays for what it thereby seems to explain. Those that are hopeless beside the first are left out.
 std::vector<BalanceHypothesis> with_own_noise(const SelectionProblem& p,
                                               const std::vector<BalanceHypothesis>& sets);
 
-/// The known strengths that leave a trace in the balance beside frequency and nuisances.
+/// Returns the known strengths that leave a trace in the balance beside frequency and nuisances.
 std::vector<int> terms_seen(const SelectionProblem& p);
 
-/// ln evidence of the wander of the track that the problem has, whatever acts on the box.
+/// Returns ln evidence of the wander of the track that the problem has, whatever acts on the box.
 double log_evidence_of_noise(const SelectionProblem& p);
 
-/// The sine that gains most beside `chosen`, with the ln odds that it brings over none, all frequencies
-/// between the two allowed for.
+/// Holds a sine: its frequency, Hz, and the ln odds that it brings over none.
 struct SineFound {
   double frequency = 0, log_odds = 0;
 };
+/// Returns the sine that gains most beside a selection, of frequencies from `lowest` to `highest` (Hz). Its
+/// ln odds allow for all frequencies looked at; they are -infinity where there are none. Not looked at is
+/// what the recording cannot resolve from a sine of the selection or from the swing of an empty box.
 SineFound best_sine(const SelectionProblem& p, const Selection& beside, double lowest, double highest);
 
-/// Fall of chi2 when a known strength joins (or, for one of the chosen, when it is there).
+/// Returns the fall of chi2 when a known strength joins (or, for one of the chosen, when it is there).
 Gain gain_of_term(const SelectionProblem& p, const Selection& selection, int term);
 
-/// Every term of `part` stands in `whole`.
+/// Tells whether every term of `part` stands in `whole`.
 bool is_part_of(const std::vector<ChosenTerm>& part, const std::vector<ChosenTerm>& whole);
 
-/// How many columns a chosen term has.
+/// Returns how many columns a chosen term has.
 inline Eigen::Index width_of(const ChosenTerm& c) { return c.term < 0 ? 2 : 1; }
 
 }  // namespace shakedown

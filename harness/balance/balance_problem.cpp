@@ -14,7 +14,7 @@ namespace shakedown {
 
 namespace {
 
-/// "camera_origin.origin of L040": the key, and the run whose own it is (empty: everyone's).
+/// Splits "camera_origin.origin of L040" into the key and the run whose own it is (empty: everyone's).
 std::pair<std::string, std::string> key_and_run(const std::string& name) {
   constexpr std::string_view of = " of ";
   const std::size_t at = name.find(of);
@@ -26,7 +26,8 @@ std::pair<std::string, std::string> key_and_run(const std::string& name) {
 
 namespace {
 
-/// A linear estimate may ask for more than there can be; the setup's keys have bounds.
+/// Returns the value within the bounds of its key, because a linear estimate may ask for more than there can
+/// be.
 double within_bounds(double value, const std::string& key, KnownEffects known) {
   const Parameter* parameter = known.find_parameter(key);
   return parameter == nullptr ? value : std::clamp(value, parameter->low, parameter->high);
@@ -64,8 +65,7 @@ BalanceProblem::BalanceProblem(const Measurement& measurement, KnownEffects know
                                const std::vector<std::string>& only)
     : measurement_(measurement), known_(known), already_(std::move(already)) {
   for (const Measurement::Run& run : measurement.runs) {
-    motion_.push_back(before_the_camera(run));
-    runs_.push_back(momentum_run(run, motion_.back()));
+    runs_.push_back(momentum_run(run));
   }
   if (measurement.runs.empty()) return;
   const Setup& first = measurement.runs.front().setup;
@@ -90,12 +90,12 @@ double BalanceProblem::noise() const {
   return noise;
 }
 
-/// The run with another setup. Most change no camera.
+/// Returns the run with another setup. Most change no camera.
 MomentumRun BalanceProblem::run_with(std::size_t run, Setup setup) const {
   const Measurement::Run& measured = measurement_.runs[run];
   const bool same_camera = physics_of(setup).camera == physics_of(measured.setup).camera;
-  const Measurement::Run changed{measured.recorded, measured.audit, std::move(setup)};
-  return same_camera ? momentum_run(changed, motion_[run]) : momentum_run(changed);
+  if (same_camera) return with_forces_of(setup, runs_[run]);
+  return momentum_run({measured.recorded, measured.audit, std::move(setup)});
 }
 
 std::vector<ForceSamples> BalanceProblem::samples_of(const MomentumTerm& term, double strength) const {
@@ -113,7 +113,7 @@ std::vector<ForceSamples> BalanceProblem::samples_of(const MomentumTerm& term, d
   return samples;
 }
 
-/// What is said of one camera, or of each run's own.
+/// Adds what is said of the one camera, or of each run's own.
 void BalanceProblem::add_camera(std::vector<BalanceNuisance>& list) const {
   for (const CameraNuisance& camera : camera_nuisances(measurement_, known_)) {
     // A scale of all lengths scales the whole balance, and would take up whatever is there.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every number with which the momentum balance decides.
+// Numbers with which the momentum balance decides. Those of a single step stand beside it: in
+// term_prices.hpp, foretold.hpp, grain_count.hpp, balance_evidence.hpp and linear_audit.cpp.
 #pragma once
 
 namespace shakedown {
@@ -16,8 +17,9 @@ constexpr double usual_wander = 0.1;
 /// mark to a tenth of a pixel has a bias of a third of a pixel at most (half a pixel would be the next one).
 constexpr double most_wander_of_noise = 3;
 
-/// ... or as a share of the largest excursion, whichever is more: half of what a usual lens does to it
-/// (camera_lens, 0.5 %, is a term of its own). What is more is no tracker's, and physics may not hide in it.
+/// Most that a track can wander by as a share of the largest excursion, where that is more: half of what a
+/// usual lens does to it (camera_lens, 0.5 %, is a term of its own). What is more is no tracker's, and
+/// physics may not hide in it.
 constexpr double most_wander_of_swing = 0.0025;
 
 /// The noise of a frame is known to 2 % of its variance: it is estimated from the frames.

@@ -33,7 +33,7 @@ double scale_of(const ShapeParameter& parameter, const MotionScales& scales) {
   return parameter.scale_of == ShapeOf::velocity ? scales.velocity : scales.position;
 }
 
-/// All combinations of the starting values.
+/// Returns all combinations of the starting values.
 std::vector<ShapeValues> starts_of(const ForceShape& shape, const MotionScales& scales) {
   std::vector<ShapeValues> starts{ShapeValues{}};
   for (std::size_t i = 0; i < shape.parameters.size(); ++i) {
@@ -48,10 +48,10 @@ std::vector<ShapeValues> starts_of(const ForceShape& shape, const MotionScales& 
   return starts;
 }
 
-/// A little beyond the starting values and no further: a very wide bump is a polynomial in disguise, and a
-/// width cannot pass zero.
+/// Tells whether the values lie no more than a little beyond the starting values: a very wide bump is a
+/// polynomial in disguise, and a width cannot pass zero.
 bool in_bounds(const ForceShape& shape, const ShapeValues& values, const MotionScales& scales) {
-  // Assumptions, but for the speed: below six of its errors it has no sign for sure.
+  // These are assumptions but for the speed: below six of its errors it has no sure sign.
   constexpr double beyond = 1.3, narrower = 1 / 3.0, wider = 1.5, sure = 6, narrowest = 0.005;
   for (std::size_t i = 0; i < shape.parameters.size(); ++i) {
     const ShapeParameter& parameter = shape.parameters[i];
@@ -121,7 +121,7 @@ Eigen::Index column_of(const Selection& selection, std::size_t which) {
   return column;
 }
 
-/// Columns of the fit and, behind them, the derivatives by the shape parameters of one formula.
+/// Returns the columns of the fit and, behind them, the derivatives by the shape parameters of one formula.
 Eigen::MatrixXd tangent_columns(const SelectionProblem& p, const Selection& selection, std::size_t which) {
   const PreparedTerm& term = p.terms[static_cast<std::size_t>(selection.chosen[which].term)];
   const double strength = selection.fit.strength[column_of(selection, which)];
@@ -142,7 +142,8 @@ Eigen::MatrixXd tangent_columns(const SelectionProblem& p, const Selection& sele
   return columns;
 }
 
-/// Gauss-Newton on a formula's shape beside all other strengths; keeps only steps that lower chi2.
+/// Improves a formula's shape beside all other strengths by steps of Gauss and Newton; keeps only those that
+/// lower the objective.
 void sharpen(SelectionProblem& p, const MotionScales& scales, Selection& selection, std::size_t which) {
   const auto line = static_cast<std::size_t>(selection.chosen[which].term);
   const std::size_t count = p.terms[line].shape->parameters.size();
@@ -191,7 +192,7 @@ ForceFormula described(const SelectionProblem& p, const Selection& selection, st
   return formula;
 }
 
-/// Families that would take this formula's place.
+/// Fills in the formula's gain, and the families that would take its place.
 void find_look_alikes(const SelectionProblem& p, ForceMap& map, const Selection& selection, std::size_t which,
                       ForceFormula& formula) {
   std::vector<ChosenTerm> others = selection.chosen;
@@ -205,7 +206,7 @@ void find_look_alikes(const SelectionProblem& p, ForceMap& map, const Selection&
       formula.look_alikes.push_back(shape.formula);
 }
 
-/// Formulas without shape parameters that would take a known term's place.
+/// Returns the formulas without shape parameters that would take a known term's place.
 std::vector<std::string> plain_formulas_like(const SelectionProblem& p, ForceMap& map,
                                              const Selection& selection, std::size_t which) {
   std::vector<ChosenTerm> others = selection.chosen;
@@ -234,7 +235,7 @@ BestShape best_shape(const SelectionProblem& p, const ForceMap& map) {
   return best;
 }
 
-/// One step of the selection; false when nothing is worth its price.
+/// Makes one step of the selection; returns false when nothing is worth its price.
 bool add_best(SelectionProblem& p, ForceMap& map, Selection& selection) {
   const Eigen::MatrixXd basis = orthonormal_basis(columns_of(p, selection.chosen));
   map.project_out(selection.fit.residual, basis);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When no effect of the library closes the momentum balance: which formula does, and which others would do as
-// well?
+// Finds a formula that closes the momentum balance where no effect of the library does, and which others
+// would do as well.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace shakedown {
 
-/// The balance explained with formulas among its terms.
+/// Holds the balance explained with formulas among its terms.
 struct FormulaFit {
   Selection selection;  ///< lines of `problem.terms` beyond the known ones are formulas
   SelectionProblem problem;
@@ -20,15 +20,16 @@ struct FormulaFit {
   double cost = 0;  ///< chi2 plus the price of each term; smaller is better
 };
 
-/// Forward selection over known terms and formulas together. A formula costs more than a known term, and its
+/// Selects forward, over known terms and formulas together. A formula costs more than a known term, and its
 /// shape parameters too.
 FormulaFit fit_formulas(SelectionProblem problem);
 
-/// For each term of a selection: formulas that would do as well in its place, chi2 at most as_good higher.
+/// Returns for each term of a selection the formulas without shape parameters that would do as well in its
+/// place, chi2 at most as_good higher.
 std::vector<std::vector<std::string>> formulas_like_known_terms(const SelectionProblem& problem,
                                                                 const Selection& selection);
 
-/// chi2 plus prices of a selection, to be compared with FormulaFit::cost.
+/// Returns chi2 plus prices of a selection, to be compared with FormulaFit::cost.
 double cost_of(const SelectionProblem& problem, const Selection& selection);
 
 }  // namespace shakedown

@@ -9,8 +9,8 @@ namespace shakedown {
 
 namespace {
 
-/// Antiderivative of g on an even grid, zero at its first node (trapezoidal rule; a grid step is far below
-/// every width searched).
+/// Returns the antiderivative of g on an even grid, zero at its first node (trapezoidal rule; a grid step is
+/// far below every width searched).
 Eigen::VectorXd antiderivative(const Eigen::VectorXd& g, double step) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(g.size());
   for (Eigen::Index i = 1; i < g.size(); ++i) sum[i] = sum[i - 1] + step * (g[i] + g[i - 1]) / 2;
@@ -19,8 +19,8 @@ Eigen::VectorXd antiderivative(const Eigen::VectorXd& g, double step) {
 
 std::size_t index_of(ShapeOf of) { return static_cast<std::size_t>(of); }
 
-/// 1 where the smoothed motion rests on measured frames alone, else 0: over a gap it makes speeds that
-/// nothing has.
+/// Returns 1 for each frame where the smoothed motion rests on measured frames alone, else 0: over a gap it
+/// makes speeds that nothing has.
 Eigen::ArrayXd known_motion(const MomentumRun& run) {
   const Eigen::Index n = run.time.size(), half = smoothing_half_width(run.interval);
   Eigen::ArrayXd known = Eigen::ArrayXd::Ones(n);
@@ -32,7 +32,7 @@ Eigen::ArrayXd known_motion(const MomentumRun& run) {
   return known;
 }
 
-/// Argument of the shape and what multiplies it, frame by frame.
+/// Holds the argument of the shape and what multiplies it, frame by frame.
 struct Arguments {
   Eigen::ArrayXd argument, factor;
   bool is_potential = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any force of one of the kinds of ShapeOf, as values on a grid: what families of formulas are tried against,
-// and what is drawn when none fits.
+// Describes any force of one of the kinds of ShapeOf by values on a grid: families of formulas are tried
+// against these, and they are drawn when none fits.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -12,20 +12,23 @@ namespace shakedown {
 
 constexpr int shape_kinds = 7;
 
-/// A whitened column of the balance for every node of a grid, for each kind; columns that are already in the
-/// fit projected out.
+/// Holds a whitened column of the balance for every node of a grid, for each kind, with columns that are
+/// already in the fit projected out.
 class ForceMap {
  public:
+  /// Makes the columns of each kind, rows of `problem` x nodes; the grids reach over what the runs show of
+  /// position, velocity and time. gain() and curve() need project_out() first.
   ForceMap(const MomentumProblem& problem, const std::vector<MomentumRun>& runs);
 
   const MotionScales& scales() const { return scales_; }
-  /// What is left of the impulses and of the map when `columns` are fitted.
+  /// Takes fitted columns out of the map. `residual`: what their fit leaves of the whitened impulses;
+  /// `orthonormal`: an orthonormal basis of theirs (orthonormal_basis()).
   void project_out(const Eigen::VectorXd& residual, const Eigen::MatrixXd& orthonormal);
 
-  /// Fall of chi2 when this shape joins.
+  /// Returns the fall of chi2 when this shape joins; 0 where it leaves no trace.
   double gain(const ForceShape& shape, const ShapeValues& values) const;
 
-  /// A curve through the residual force; a ridge keeps it smooth.
+  /// Returns a curve through the residual force; a ridge keeps it smooth.
   ForceCurve curve(ShapeOf of) const;
 
  private:
@@ -40,10 +43,11 @@ class ForceMap {
   std::array<Eigen::MatrixXd, shape_kinds> gram_;     ///< of what the fit leaves
   std::array<Eigen::VectorXd, shape_kinds> overlap_;  ///< with what the fit leaves of the impulses
 
+  /// Returns the values of a shape at the nodes of its grid; of damping_at_x their antiderivative.
   Eigen::VectorXd node_values(const ForceShape& shape, const ShapeValues& values) const;
 };
 
-/// Force of unit strength of a shape in a run, with the derivatives through which noise enters.
+/// Returns the force of unit strength of a shape in a run, with the derivatives through which noise enters.
 ForceSamples shape_samples(const ForceShape& shape, const ShapeValues& values, const MomentumRun& run);
 
 }  // namespace shakedown

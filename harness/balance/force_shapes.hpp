@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Forces that no effect of the library describes, as families of formulas for user_force. A new family is one
-// entry of the list.
+// Lists forces that no effect of the library describes, as families of formulas for user_force. A new family
+// is one entry of the list.
 #pragma once
 #include <array>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace shakedown {
 
-/// What a shape g depends on, and the force made of it.
+/// Says what a shape g depends on, and the force made of it.
 enum class ShapeOf {
   position,        ///< F = s g(x)
   damping_at_x,    ///< F = -s v g(x)
@@ -19,7 +19,7 @@ enum class ShapeOf {
   friction_at_x,   ///< F = -s sign(v) g(x)
 };
 
-/// The scales of the motion from which searches start.
+/// Holds the scales of the motion from which searches start.
 struct MotionScales {
   double position = 0;        ///< m, largest |x|
   double velocity = 0;        ///< m/s, largest |v|
@@ -30,6 +30,7 @@ struct MotionScales {
 constexpr int most_shape_parameters = 2;
 using ShapeValues = std::array<double, most_shape_parameters>;
 
+/// Describes a number that shapes a family.
 struct ShapeParameter {
   std::string name, unit;
   std::vector<double> start;  ///< values from which the search starts, in units of `scale_of`
@@ -37,6 +38,7 @@ struct ShapeParameter {
       ShapeOf::position;  ///< position, velocity or time; a pure number where the unit is empty
 };
 
+/// Describes a family of formulas.
 struct ForceShape {
   std::string sentence;
   std::string formula;  ///< as user_force writes it
@@ -46,7 +48,7 @@ struct ForceShape {
   double (*value)(double argument, const ShapeValues& shape) = nullptr;  ///< g
 };
 
-/// All families of formulas that are tried, in the order of the table.
+/// Returns all families of formulas that are tried, in the order of the table.
 const std::vector<ForceShape>& force_shapes();
 
 }  // namespace shakedown

@@ -7,7 +7,7 @@ namespace shakedown {
 
 namespace {
 
-/// First row and number of rows.
+/// First row of a stretch, and number of its rows.
 using FirstAndCount = std::pair<Eigen::Index, Eigen::Index>;
 
 std::vector<FirstAndCount> stretches_of(const MomentumProblem& problem) {

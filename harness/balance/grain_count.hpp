@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Were the grains counted right? One fewer or more changes the mass that moves against the box, which a bias
-// of the camera or a heavier blade imitates.
+// Tells whether the grains were counted right. One fewer or more changes the mass that moves against the box,
+// which a bias of the camera or a heavier blade imitates.
 #pragma once
 #include <span>
 #include <vector>
@@ -10,23 +10,24 @@
 
 namespace shakedown {
 
-/// The setup with another number of grains, and how likely the recording makes it.
+/// Names another number of grains, and says how likely the recording makes it.
 struct GrainCount {
   int difference = 0;   ///< from the setup's number, of every run with grains: -1 or 1
   double log_odds = 0;  ///< ln likelihood over that of the number as given, nothing missing in either
 };
 
-/// One grain fewer and one more, most likely first: spring's frequency and nuisances free in each, the noise
-/// as `audit` has found it. Empty where there is no balance, or a run with grains has one grain alone.
+/// Returns one grain fewer and one more, most likely first: spring's frequency and nuisances free in each,
+/// the noise as `audit` has found it. Empty where there is no balance, or a run with grains has one grain
+/// alone.
 std::vector<GrainCount> grain_counts(const Measurement& measurement, KnownEffects known,
                                      const MomentumAudit& audit);
 
-/// Miscounts by one that an experiment makes beforehand, each of the two: an assumption, one experiment in
-/// fifty is miscounted.
+/// Probability beforehand of a miscount by one, each of the two: an assumption, one experiment in fifty is
+/// miscounted.
 constexpr double miscounted = 0.01;
 
-/// The difference that is at least as probable as the set of effects that `audit` has found, or, where it has
-/// found none, as probable as none; 0: no such.
+/// Returns the difference that is at least as probable as the set of effects that `audit` has found, or,
+/// where it has found none, as probable as none; 0 where there is no such.
 int miscount_in_question(const std::vector<GrainCount>& counts, const MomentumAudit& audit);
 
 }  // namespace shakedown

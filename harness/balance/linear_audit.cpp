@@ -21,11 +21,11 @@ namespace {
 /// chi2 by which a force that no list has must beat every set of known ones, beyond the prices of its
 /// parameters: it is e^5 times less likely beforehand.
 constexpr double price_of_the_unlisted = 10;
-/// ... and ln odds of nine to one, with which known effects are added too (rules::adds_effect of a
-/// diagnosis).
+/// ln odds by which it must beat them besides: nine to one, with which known effects are added too
+/// (rules::adds_effect of a diagnosis).
 const double adds_the_unlisted = std::log(9.0);
 
-/// The error of the noise's variance widens chi2 like so many degrees fewer.
+/// Returns how good a fit is. The error of the noise's variance widens chi2 like so many degrees fewer.
 BalanceFit balance_of(double chi2, double degrees) {
   if (!(degrees > 0) || std::isnan(chi2)) return {chi2, degrees, std::nan("")};
   const double effective = 2 / (2 / degrees + error_of_noise_variance * error_of_noise_variance);
@@ -33,7 +33,7 @@ BalanceFit balance_of(double chi2, double degrees) {
 }
 BalanceFit balance_of(const Regression& fit) { return balance_of(fit.chi2, fit.degrees); }
 
-/// chi2 of the rows of one run.
+/// Returns how good a fit is in the rows of one run.
 BalanceFit balance_of_run(const MomentumProblem& problem, std::size_t run, const Eigen::VectorXd& residual,
                           double fitted) {
   return balance_of(
@@ -55,7 +55,8 @@ RunBalance run_as_given(const MomentumProblem& problem, std::size_t run) {
   return balance;
 }
 
-/// Sets that are probable enough to be in question, and terms of them that could stand in for this one.
+/// Returns the effects that could stand in for this term: those of sets that are probable enough to be in
+/// question and do without it.
 std::vector<std::string> look_alikes(const SelectionProblem& p, const std::vector<BalanceHypothesis>& sets,
                                      const std::vector<ChosenTerm>& best, int which) {
   constexpr double in_question = 0.05;
@@ -97,7 +98,8 @@ FoundTerm sine_found(KnownEffects known, double frequency, double sine, double c
   return found;
 }
 
-/// When the balance is not closed the noise is not the whole error.
+/// Returns the factor that widens errors when the balance is not closed: then the noise is not the whole
+/// error.
 double widened(const Regression& fit) { return std::sqrt(std::max(1.0, fit.chi2 / fit.degrees)); }
 
 FoundTerm term_found(const SelectionProblem& p, const Selection& selection, std::size_t which,
@@ -123,7 +125,7 @@ std::vector<SingleTerm> ranking_of(const SelectionProblem& p, const Selection& r
   }
   std::stable_sort(ranking.begin(), ranking.end(),
                    [](const SingleTerm& a, const SingleTerm& b) { return a.gain > b.gain; });
-  // Of one effect the shape that gains most.
+  // Keep the shape that gains most of each effect.
   for (auto one = ranking.begin(); one != ranking.end(); ++one)
     ranking.erase(std::remove_if(one + 1, ranking.end(),
                                  [&](const SingleTerm& other) { return other.effect == one->effect; }),
@@ -180,7 +182,8 @@ void describe_frequency(const Selection& selection, double frequency, Described&
   audit.frequency_high = at(spring + wide);
 }
 
-/// rms over the windows of what is left, as a displacement of the spring, m.
+/// Returns the rms over the windows of what is left, as a displacement of the spring, m. `selection`: what
+/// was fitted; null: nothing.
 double displacement_left(const SelectionProblem& p, const Selection* selection) {
   double sum = 0;
   for (std::size_t run = 0; run < p.problem.runs(); ++run) {
@@ -217,8 +220,8 @@ std::vector<FoundTerm> terms_found(const SelectionProblem& p, const Selection& s
   return found;
 }
 
-/// Sets that the balance finds less probable and cannot rule out: what the set found has too much in it, and
-/// what may stand in its place.
+/// Returns sets that the balance finds less probable and cannot rule out: parts of the set found, which may
+/// have too much in it, and what may stand in its place.
 std::vector<BalanceAlternative> alternatives_of(const SelectionProblem& p,
                                                 const std::vector<BalanceHypothesis>& sets, double frequency,
                                                 KnownEffects known) {
@@ -265,7 +268,7 @@ void describe(const SelectionProblem& p, const Selection& selection,
   audit.explained = 1 - selection.fit.chi2 / p.problem.impulse().squaredNorm();
 }
 
-/// Of this set, where no set's own noise is counted.
+/// Returns the ln odds of this set, no set's own noise counted.
 double log_odds_over_nothing(const std::vector<BalanceHypothesis>& sets, const BalanceHypothesis& one) {
   const auto same = std::find_if(sets.begin(), sets.end(), [&](const BalanceHypothesis& other) {
     return std::equal(other.chosen.begin(), other.chosen.end(), one.chosen.begin(), one.chosen.end(),
@@ -276,22 +279,24 @@ double log_odds_over_nothing(const std::vector<BalanceHypothesis>& sets, const B
   return same == sets.end() ? one.gain / 2 : same->log_odds;
 }
 
-/// Something was found, or the balance is not in order, or the track wanders more than tracks usually do.
+/// Tells whether something was found, or the balance is not in order, or the track wanders more than tracks
+/// usually do.
 bool is_in_doubt(const SelectionProblem& p, const Selection& selection, const MomentumOptions& options,
                  double usual) {
   return selection.chosen.size() > 1 || !(balance_of(selection.fit).p_value >= options.accept_p) ||
          p.problem.wander().deviation > usual;
 }
 
-/// Forces in no list beside the best set of known strengths.
+/// Holds forces in no list beside the best set of known strengths.
 struct FormulasTried {
   FormulaFit fit;
   double cost_of_known = 0;
   bool is_better = false;
 };
 
-/// A track that wanders more than tracks do takes up any force: formulas are tried beside the usual one. A
-/// formula that leaves the balance rejected or foretells nothing is no better than known forces that do.
+/// Tries formulas beside the best known set, with the usual wander at most: a track that wanders more than
+/// tracks do takes up any force. A formula that leaves the balance rejected, imitates a known force or
+/// foretells nothing is no better than known forces.
 FormulasTried formulas_beside(SelectionProblem p, const BalanceHypothesis& known, double usual) {
   p.problem.set_wander({std::min(usual, p.problem.wander().deviation), p.problem.wander().time});
   p.problem.set_covariance({});
@@ -306,7 +311,8 @@ FormulasTried formulas_beside(SelectionProblem p, const BalanceHypothesis& known
   return tried;
 }
 
-/// With frequency and nuisances alone, or with what the setup says of the frequency.
+/// Returns how good the balance is with frequency and nuisances alone, or with what the setup says of the
+/// frequency.
 BalanceFit without_effects(const SelectionProblem& p, bool free_frequency) {
   return balance_of(
       regress(p.problem.impulse(), free_frequency ? columns_of(p, {{0, 0}}) : p.problem.nuisance_columns()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The momentum balance, linear about what camera and weights were read with.
+// Audits the momentum balance, linear about what camera and weights were read with.
 #pragma once
 #include "balance_problem.hpp"
 #include "known_effects.hpp"
@@ -7,11 +7,12 @@
 
 namespace shakedown {
 
-/// `measurement` was read with `already` (read_with()).
+/// Audits the balance of a measurement that was read with `already` (read_with()).
 MomentumAudit linear_audit(const Measurement& measurement, KnownEffects known, const MomentumOptions& options,
                            const NuisanceValues& already);
 
-/// What explains most stands first; sines behind all others, for what is left of any law looks like one.
+/// Sorts the terms: what explains most stands first; sines behind all others, for what is left of any law
+/// looks like one.
 void by_what_they_explain(std::vector<FoundTerm>& terms);
 
 }  // namespace shakedown

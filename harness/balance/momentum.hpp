@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The momentum channel: which outside forces does the setup lack? Answered from the measured positions alone,
-// with no simulation, because whatever happens in the contacts, M x_box'' + N m x_com'' = -k x_box + F.
+// Asks the momentum channel which outside forces the setup lacks. It answers from the measured positions
+// alone, with no simulation, because whatever happens in the contacts, M x_box'' + N m x_com'' = -k x_box +
+// F.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -20,45 +21,46 @@
 
 namespace shakedown {
 
-/// Goodness of one version of the balance. The p-value allows for the noise being known to 2 % of its
+/// Says how good one version of the balance is. The p-value allows for the noise being known to 2 % of its
 /// variance only; NaN where it was not or could not be computed, which is never in order.
 struct BalanceFit {
   double chi2 = 0, degrees = 0, p_value = std::numeric_limits<double>::quiet_NaN();
   double chi2_per_degree() const { return degrees > 0 ? chi2 / degrees : 0; }
 };
 
-/// A term that the data ask for.
+/// Describes a term that the data ask for.
 struct FoundTerm {
   std::string effect, parameter, unit;
   TermKind kind = TermKind::physics;
   std::string key() const { return effect + "." + parameter; }
   double value = 0, low = 0, high = 0;  ///< of the parameter, SI, 95 % interval; what the setup has included
-  double gain = 0;                      ///< what chi2 loses without it
+  double gain = 0;                      ///< rise of chi2 without it
   double frequency = 0, phase = 0;      ///< Hz, rad; of a sine only
   std::vector<std::pair<std::string, double>> besides{};  ///< keys that its presence needs besides, SI
   std::vector<std::string> look_alikes{};  ///< terms whose columns differ by less than the noise can tell
 };
 
-/// Every term alone, whether it is needed or not: the ranking.
+/// Holds one term alone, whether it is needed or not, for the ranking.
 struct SingleTerm {
   std::string effect;
   double gain = 0, value = 0, error = 0;
 };
 
+/// Holds one constant of a formula.
 struct FormulaConstant {
   std::string name, unit;
   double value = 0, low = 0, high = 0;  ///< SI, 95 % interval
 };
 
-/// A force ready for user_force on the box.
+/// Holds a force ready for user_force on the box.
 struct ForceFormula {
   std::string formula, sentence;
   std::vector<FormulaConstant> constants;  ///< the strength first
-  double gain = 0;                         ///< what chi2 loses without it
+  double gain = 0;                         ///< rise of chi2 without it
   std::vector<std::string> look_alikes;    ///< formulas that fit as well, within the noise
 };
 
-/// The force that the known terms leave, as a curve s g(argument) (see ShapeOf) with standard errors.
+/// Holds the force that the known terms leave, as a curve s g(argument) (see ShapeOf) with standard errors.
 struct ForceCurve {
   ShapeOf of = ShapeOf::position;
   std::vector<double> argument, value, error;
@@ -66,6 +68,7 @@ struct ForceCurve {
   double parameters = 0;  ///< effective number
 };
 
+/// Holds the balance of one run.
 struct RunBalance {
   std::string run;
   BalanceFit as_given, final_fit;
@@ -73,13 +76,13 @@ struct RunBalance {
   double missing_force_noise = 0;  ///< N, one standard deviation of a window's mean force
 };
 
-/// A set of effects that may be missing, and how probable it is among all sets compared.
+/// Holds a set of effects that may be missing, and how probable it is among all sets compared.
 struct WeighedSet {
   std::vector<std::string> effects;  ///< empty: nothing is
   double probability = 0;
 };
 
-/// Another set that the balance cannot rule out: ensembles may.
+/// Holds another set that the balance cannot rule out; ensembles may.
 struct BalanceAlternative {
   double log_odds = 0;  ///< ln of its probability over that of the set found
   std::vector<FoundTerm> terms;
@@ -87,13 +90,14 @@ struct BalanceAlternative {
   BalanceFit final_fit;
 };
 
-/// What the fit says of something of the camera or of what was weighed.
+/// Holds what the fit says of something of the camera or of what was weighed.
 struct NuisanceFound {
   std::string name, unit;
   double deviation = 0;         ///< standard deviation beforehand
   double value = 0, error = 0;  ///< afterwards
 };
 
+/// Holds all that the balance says of a measurement.
 struct MomentumAudit {
   bool possible = false;
   std::string why_not;                                          ///< when there is no run with both positions
@@ -119,18 +123,21 @@ struct MomentumAudit {
   Wander wander;           ///< of the track, as the balance shows it
   double white_noise = 0;  ///< m, of a frame, the largest of all runs
   double most_wander = 0;  ///< m, that a track can wander by: what is more is physics that nothing explains
-  /// m, noise of a frame as a model may leave it.
+  /// Returns the noise of a frame as a model may leave it, m: white noise, and as much wander as a track can
+  /// have.
   double noise() const { return std::hypot(white_noise, std::min(wander.deviation, most_wander)); }
-  /// The track wanders by more than three times the white noise of its frames: that is itself an answer.
+  /// Tells whether the track wanders by more than three times the white noise of its frames: that is itself
+  /// an answer.
   bool wanders_much() const { return wander.deviation > most_wander_of_noise * white_noise; }
   double rest = 0;           ///< m, rms of what remains, as a displacement of the spring
   double rest_as_given = 0;  ///< m, the same of the setup as it is
   double explained = 0;      ///< share of chi2 as given that the final fit takes away
   bool only_moving = false;  ///< windows at rest left out, because a dry friction sticks there
-  /// As a test of the setup as it is, or of what was found.
+  /// Returns this balance as a test for the judgement. `fit`: of the setup as it is, or of what was found.
   ModelTest test_of(const BalanceFit& fit) const;
 };
 
+/// Says how the balance is asked.
 struct MomentumOptions {
   double window_periods = 0.6;  ///< length of a window in periods of the empty box (0.5 s at 1.23 Hz)
   double hop = 0.25;            ///< of a window
@@ -143,7 +150,7 @@ struct MomentumOptions {
   double lowest_frequency = 0.1, highest_frequency = 10;  ///< Hz, scan for forcing
 };
 
-/// `known`: the effects that may be missing.
+/// Asks the balance of a measurement. `known`: the effects that may be missing.
 MomentumAudit audit_momentum(const Measurement& measurement, KnownEffects known,
                              const MomentumOptions& options = {});
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "camera.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "known_effects.hpp"
 #include "least_squares.hpp"
 
@@ -20,7 +20,8 @@ constexpr double longest_filled_gap =
 constexpr double smoothing_half_time =
     0.02;  // s; longer smears the landings, shorter leaves 10 mm/s of noise in v
 
-/// Values at the grid's places from the frames next to each; false where they are too far apart.
+/// Fills in values at the grid's places from the frames next to each; where these lie more than `longest`
+/// frames apart the place is not usable.
 void fill(const std::vector<double>& place, const std::vector<double>& value, Eigen::ArrayXd& out,
           std::vector<char>& usable, std::vector<char>& filled, double longest) {
   std::vector<double> known_place, known_value;
@@ -50,13 +51,14 @@ void fill(const std::vector<double>& place, const std::vector<double>& value, Ei
   }
 }
 
-/// Frames enough, and of a box with grains their centre.
+/// Tells whether a run has frames enough and, with grains, their centre.
 bool tells_momentum(const Measurement::Run& run) {
   return run.recorded.time.size() >= MomentumRun::fewest_frames &&
          (run.setup.grains.count == 0 || run.recorded.has_com());
 }
 
-/// Before the release something holds the box: those frames are no motion of the model's.
+/// Returns the first frame of the motion: before the release something holds the box, and those frames are no
+/// motion of the model's.
 std::size_t first_of_the_motion(const Measurement::Run& run) {
   const double found = run.audit.release.start;
   const double start = starts_anywhere(run.recorded, run.setup) ? found : std::max(0.0, found);
@@ -83,8 +85,8 @@ void smooth(MomentumRun& run) {
     }
 }
 
-/// Force on the box of joints that yield, N, along its smoothed path. Where it turns between two frames comes
-/// from the velocities there.
+/// Returns the force on the box of joints that yield, N, along its smoothed path. Where it turns between two
+/// frames comes from the velocities there.
 Eigen::ArrayXd yielding_force(const MomentumRun& run, const std::vector<DahlFriction>& joints) {
   DahlState state(joints);
   Eigen::ArrayXd force = Eigen::ArrayXd::Zero(run.time.size());
@@ -102,8 +104,8 @@ Eigen::ArrayXd yielding_force(const MomentumRun& run, const std::vector<DahlFric
   return force;
 }
 
-/// Whether a force of no closed form turns with the motion faster than the velocity is known, as friction
-/// does: its slope at rest is then far above the one over the velocity's noise.
+/// Tells whether a force of no closed form turns with the motion faster than the velocity is known, as
+/// friction does: its slope at rest is then far above the one over the velocity's noise.
 bool turns_unseen(const std::vector<FreeForce>& forces, const MomentumRun& run) {
   constexpr Eigen::Index looks = 16;
   constexpr double small = 1e-5, steeper = 2;  // m/s, below any noise of v; a tanh of half the noise has 2.1
@@ -191,8 +193,10 @@ LocalCubic local_cubic(int half) {
   return {fit.row(0).transpose(), fit.row(1).transpose() / half};
 }
 
+namespace {
+
+/// Returns the positions before the camera; empty where there is no balance.
 Recording before_the_camera(const Measurement::Run& measurement) {
-  if (!tells_momentum(measurement)) return {};
   const MeasuredRun& measured = measurement.recorded;
   const RunAudit& audit = measurement.audit;
   const Setup& setup = measurement.setup;
@@ -200,33 +204,26 @@ Recording before_the_camera(const Measurement::Run& measurement) {
   return undone(physics_of(setup).camera, {measured.time, audit.x_box, empty ? audit.x_box : audit.x_com});
 }
 
-MomentumRun momentum_run(const Measurement::Run& measurement) {
-  return momentum_run(measurement, before_the_camera(measurement));
-}
-
-MomentumRun momentum_run(const Measurement::Run& measurement, const Recording& motion) {
-  const MeasuredRun& measured = measurement.recorded;
-  const RunAudit& audit = measurement.audit;
-  const Setup& setup = measurement.setup;
-  const Physics physics = physics_of(setup);
-  MomentumRun run;
-  run.name = measured.name;
+/// Fills in what the setup says besides forces.
+void set_constants(const Setup& setup, const Physics& physics, MomentumRun& run) {
   run.box_mass = physics.box_mass;
   run.grain_mass = setup.grains.count * setup.grains.mass;
   run.stiffness = physics.stiffness;
   run.displacement = setup.release.displacement;
+  run.effects.clear();
   for (const EffectChoice& choice : setup.effects) run.effects.emplace_back(choice.record->name);
-  run.interval = audit.frame_interval;
-  run.box_noise = audit.box;
-  run.com_noise = audit.com;
   run.com_gain = 1 / (1 - physics.camera.centre_bias);
   // A scale of the whole picture is left out: it scales the balance too, which would take up whatever is
   // there.
   run.plateau_gain = (1 - physics.camera.centre_bias) * (1 + physics.camera.depth);
-  if (!tells_momentum(measurement)) return run;
+}
 
+/// Fills in the frames, on an even clock, from the first of the motion; leaves them out where they are few.
+void set_frames(const Measurement::Run& measurement, const Physics& physics, MomentumRun& run) {
+  const MeasuredRun& measured = measurement.recorded;
   const std::size_t first = first_of_the_motion(measurement);
-  if (measured.time.size() < first + MomentumRun::fewest_frames) return run;
+  if (measured.time.size() < first + MomentumRun::fewest_frames) return;
+  const Recording motion = before_the_camera(measurement);
   std::vector<double> place;
   for (std::size_t i = first; i < measured.time.size(); ++i)
     place.push_back((measured.time[i] - measured.time[first]) / run.interval);
@@ -245,7 +242,29 @@ MomentumRun momentum_run(const Measurement::Run& measurement, const Recording& m
   fill(place, x_box, run.x_box, run.usable, run.box_filled, longest);
   fill(place, x_com, run.x_com, run.usable, run.com_filled, longest);
   smooth(run);
-  add_model_forces(physics, setup.grains.count, run);
+}
+
+}  // namespace
+
+MomentumRun momentum_run(const Measurement::Run& measurement) {
+  const RunAudit& audit = measurement.audit;
+  const Setup& setup = measurement.setup;
+  const Physics physics = physics_of(setup);
+  MomentumRun run;
+  run.name = measurement.recorded.name;
+  run.interval = audit.frame_interval;
+  run.box_noise = audit.box;
+  run.com_noise = audit.com;
+  set_constants(setup, physics, run);
+  if (tells_momentum(measurement)) set_frames(measurement, physics, run);
+  if (run.time.size() > 0) add_model_forces(physics, setup.grains.count, run);
+  return run;
+}
+
+MomentumRun with_forces_of(const Setup& setup, MomentumRun run) {
+  const Physics physics = physics_of(setup);
+  set_constants(setup, physics, run);
+  if (run.time.size() > 0) add_model_forces(physics, setup.grains.count, run);
   return run;
 }
 

@@ -13,7 +13,7 @@ namespace shakedown {
 
 namespace {
 
-/// Empty where nothing differs, so that what an effect does not touch costs nothing.
+/// Returns (a - b) / by; empty where nothing differs, so that what an effect does not touch costs nothing.
 Eigen::ArrayXd difference(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b, double by) {
   Eigen::ArrayXd d = (a - b) / by;
   return (d != 0).any() ? d : Eigen::ArrayXd();
@@ -27,9 +27,9 @@ double as_strength(double parameter, bool inverse) {
   return inverse ? 1 / (parameter * parameter) : parameter;
 }
 
-/// A length whose default stands for the release displacement (of a cubic spring's coefficient) would be
-/// another one in every run that has its own: it is fixed to the first run's. Known by doing nothing when it
-/// is set to that.
+/// Fixes a length whose default stands for the release displacement (of a cubic spring's coefficient) to the
+/// first run's: it would be another one in every run that has its own. Such a length is known by doing
+/// nothing when it is set to that displacement.
 void fix_scale_of_release(const EffectRecord& record, const Setup& setup, KnownEffects known,
                           MomentumTerm& term) {
   const double release = std::abs(setup.release.displacement);
@@ -72,8 +72,8 @@ MomentumTerm term_of(const EffectRecord& record, const Search& search, const Sea
   return term;
 }
 
-/// The term, or one for each value of its shape where the setup does not say it; of what acts on the box none
-/// has more than one shape.
+/// Adds the term, or one for each value of its shape where the setup does not say it; of what acts on the box
+/// none has more than one shape.
 void add_shapes(const EffectRecord& record, const Search& search, const MomentumTerm& term,
                 std::vector<MomentumTerm>& terms) {
   const std::string key =

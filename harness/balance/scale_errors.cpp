@@ -11,7 +11,7 @@ namespace shakedown {
 
 namespace {
 
-/// Something that multiplies the balance, with its standard deviation, SI.
+/// Describes something that multiplies the balance, with its standard deviation, SI.
 struct CommonFactor {
   std::string key;
   double deviation = 0, step = 0;  ///< step: by which it is moved to see what that does
@@ -31,7 +31,8 @@ std::vector<CommonFactor> factors_of(const Measurement& measurement, KnownEffect
 
 bool is_same(const MomentumTerm& term, const FoundTerm& found) { return term.key() == found.key(); }
 
-/// The values of the terms found, fitted once more to this measurement.
+/// Returns the values of the terms found, fitted once more to this measurement; empty where one has no
+/// column.
 std::vector<double> nuisance_values(const Measurement& measurement, KnownEffects known,
                                     const NuisanceValues& already, const MomentumOptions& options,
                                     const MomentumAudit& audit) {
@@ -76,7 +77,8 @@ void allow_for_scales(const Measurement& measurement, KnownEffects known, const 
     const std::vector<double> moved = nuisance_values(
         read_with(measurement, {{factor.key, factor.step}}, known), known, already, options, audit);
     for (std::size_t i = 0; i < moved.size(); ++i) {
-      // In parts of the value: the fit here may differ a little from the one that was told.
+      // The change is taken in parts of the value: the fit here may differ a little from the one that was
+      // told.
       FoundTerm& term = audit.terms[i];
       const double change = here[i] != 0 ? term.value * (moved[i] - here[i]) / here[i] : 0;
       const double wide = normal_95 * std::abs(change) * factor.deviation / factor.step;

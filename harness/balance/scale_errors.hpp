@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What multiplies the whole balance cannot be fitted in it: the scale of the camera, and the mass of a box
-// without grains. Its error widens the intervals of the forces that it multiplies.
+// Allows for what multiplies the whole balance and cannot be fitted in it: the scale of the camera, and the
+// mass of a box without grains. Its error widens the intervals of the forces that it multiplies.
 #pragma once
 #include "balance_problem.hpp"
 #include "known_effects.hpp"

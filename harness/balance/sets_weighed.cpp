@@ -12,8 +12,8 @@ namespace shakedown {
 namespace {
 
 constexpr Eigen::Index least_windows = 20;
-/// Standard deviations of the camera's noise. A box that sticks obeys no sgn v: where a dry friction acts, it
-/// is judged only where it moves by more.
+/// Standard deviations of the camera's noise by which a box must move to be judged where a dry friction acts:
+/// one that sticks obeys no sgn v.
 constexpr double moves = 30;
 
 class SetSearch {
@@ -65,7 +65,7 @@ class SetSearch {
     found_.problem.problem.set_covariance({});
   }
 
-  /// Sets of known strengths, with up to so many sines.
+  /// Weighs sets of known strengths, with up to most_sines sines.
   void weigh(std::vector<ChosenTerm> base = {{0, 0}}) {
     const SelectionProblem& p = found_.problem;
     found_.sets = compare_sets(p, base);
@@ -80,14 +80,15 @@ class SetSearch {
     }
   }
 
-  /// ln evidence of the best set beside `base`, up to a constant.
+  /// Returns ln evidence of the best set beside `base`, up to a constant.
   static double log_evidence(const SelectionProblem& p, const std::vector<ChosenTerm>& base,
                              const std::vector<BalanceHypothesis>& sets) {
     return sets.front().log_odds - regress(p.problem.impulse(), columns_of(p, base)).chi2 / 2;
   }
 
-  /// A sine was found beside the strengths that did best without it: its frequency again, with all sets that
-  /// may act beside it there, by steps that shrink to a fiftieth of a turn by the end of the recording.
+  /// Improves the frequency of the last sine, which was found beside the strengths that did best without it:
+  /// now with all sets that may act beside it there, by steps that shrink to a fiftieth of a turn by the end
+  /// of the recording.
   void sharpen(std::vector<ChosenTerm>& base) {
     const SelectionProblem& p = found_.problem;
     double most = log_evidence(p, base, found_.sets);
@@ -109,9 +110,10 @@ class SetSearch {
         }
   }
 
-  /// A wander takes up what it is not weighed beside: sines, more than two strengths, the noise that a force
-  /// lets in. Each step makes wander and set together more probable. Where the wander stays, what a friction
-  /// lets in is still to be known before sines are looked for: it looks like one.
+  /// Weighs wander and set beside each other: a wander takes up what it is not weighed beside (sines, more
+  /// than two strengths, the noise that a force lets in). Each step makes wander and set together more
+  /// probable. Where the wander stays, what a friction lets in is still to be known before sines are looked
+  /// for: it looks like one.
   void weigh_beside_what_acts() {
     constexpr int most_rounds = 4;  // set and wander may go to and fro between two that are as probable
     for (int round = 0; round < most_rounds && acting().size() > 1; ++round) {
@@ -122,7 +124,7 @@ class SetSearch {
     }
   }
 
-  /// Faster sines than these windows see need shorter ones, which must still hold ten frames.
+  /// Looks for faster sines than these windows see, in shorter ones, which must still hold ten frames.
   void look_for_fast_sines() {
     constexpr double least_frames = 10;
     const double shorter = window_ / 3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which sets of strengths may act on the box, with windows, wander and sines that go with them.
+// Finds which sets of strengths may act on the box, with windows, wander and sines that go with them.
 #pragma once
 #include <optional>
 #include <vector>
@@ -9,13 +9,14 @@
 
 namespace shakedown {
 
+/// Holds the sets and what they were weighed by.
 struct SetsWeighed {
   SelectionProblem problem;             ///< with the windows and the wander that the sets were weighed by
   std::vector<BalanceHypothesis> sets;  ///< most probable first; own noise not counted
   bool only_moving = false;             ///< windows at rest left out, because a dry friction sticks there
 };
 
-/// Nothing where there are too few windows. Refers to `balance`.
+/// Weighs all sets. Returns nothing where there are too few windows. The result refers to `balance`.
 std::optional<SetsWeighed> weigh_sets(const BalanceProblem& balance, const MomentumOptions& options);
 
 }  // namespace shakedown

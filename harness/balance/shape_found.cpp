@@ -15,7 +15,7 @@ double& shape_of(MomentumTerm& term) {
       ->second;
 }
 
-/// ln of the largest step to a neighbour among the values tried.
+/// Returns ln of the step to the nearest other value that is tried; 0 where there is none.
 double step_to_next(SelectionProblem& p, MomentumTerm& term) {
   double step = 0;
   for (MomentumTerm& other : p.known)
@@ -44,7 +44,7 @@ bool find_shapes(SelectionProblem& p, const std::vector<ChosenTerm>& chosen) {
       take(std::exp(log_shape));
       return regress(p.problem.impulse(), columns_of(p, chosen)).chi2;
     };
-    // Golden section.
+    // Search by golden section.
     constexpr double golden = 1 / std::numbers::phi;
     double low = from - step, high = from + step;
     double left = high - golden * (high - low), right = low + golden * (high - low);

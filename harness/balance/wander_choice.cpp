@@ -25,8 +25,8 @@ void take(SelectionProblem& p, const Wander& wander) {
   p.problem.set_covariance({});
 }
 
-/// ln of a half-Cauchy prior, by the logarithm of the strength; memories are equally likely. None has what
-/// lies below a quarter of the usual.
+/// Returns ln of a half-Cauchy prior, by the logarithm of the strength; memories are equally likely. No
+/// wander has the prior of what lies below a quarter of the usual.
 double log_prior_of(const Wander& wander, double usual) {
   if (wander.deviation == 0) return std::log(2 / std::numbers::pi * std::atan(0.25));
   const double ratio = wander.deviation / usual;
@@ -45,7 +45,7 @@ void choose_wander(SelectionProblem& p, double white) {
   Wander best;
   double most = probability(best);
   for (const double time : {0.1, 0.3, 1.0}) {
-    // Upwards from a quarter of the usual until it has fallen twice in a row.
+    // Go upwards from a quarter of the usual until it has fallen twice in a row.
     double last = -std::numeric_limits<double>::infinity();
     for (int step = 0, falls = 0; step < most_steps && falls < 2; ++step) {
       const Wander wander{0.25 * usual * std::pow(2, step), time};

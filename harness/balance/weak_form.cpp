@@ -15,7 +15,7 @@ void add_part(Eigen::ArrayXd& part, const Eigen::ArrayXd& added, double strength
   part += strength * added;
 }
 
-/// Of the frame `place`, when it is interpolated: the four measured frames next to it, as momentum_run fills
+/// Returns the four measured frames next to the frame `place`, which is interpolated, as momentum_run fills
 /// it.
 Eigen::Vector4d neighbours(const std::vector<char>& filled, Eigen::Index place) {
   Eigen::Vector4d found;
@@ -34,13 +34,13 @@ Eigen::Vector4d neighbours(const std::vector<char>& filled, Eigen::Index place) 
   return found;
 }
 
-/// Weights on a stretch of frames that begins at frame `first` of the run.
+/// Holds weights on a stretch of frames that begins at frame `first` of the run.
 struct Stretch {
   Eigen::Index first = 0;
   Eigen::VectorXd weight;
 };
 
-/// What weighs on an interpolated frame weighs on the measured ones it was made of.
+/// Moves the weight of each interpolated frame to the measured ones that it was made of.
 void move_to_measured(const std::vector<char>& filled, Stretch& stretch) {
   for (Eigen::Index i = 0; i < stretch.weight.size(); ++i) {
     if (!filled[static_cast<std::size_t>(stretch.first + i)] || stretch.weight[i] == 0) continue;
@@ -55,7 +55,7 @@ void move_to_measured(const std::vector<char>& filled, Stretch& stretch) {
   }
 }
 
-/// R w for the noise's correlation matrix R.
+/// Returns R w for the noise's covariance matrix R.
 Eigen::VectorXd coloured(const NoiseFound& noise, const Eigen::VectorXd& weight) {
   Eigen::VectorXd out = weight;
   for (int lag = 1; lag <= colour_lags; ++lag) {
@@ -68,8 +68,8 @@ Eigen::VectorXd coloured(const NoiseFound& noise, const Eigen::VectorXd& weight)
   return out * noise.standard_deviation * noise.standard_deviation;
 }
 
-/// R w for a wandering track, from where the stretch begins to `reach` frames beyond its end: only windows
-/// that begin no earlier are laid over it.
+/// Returns R w for the covariance matrix R of a wandering track, from where the stretch begins to `reach`
+/// frames beyond its end: only windows that begin no earlier are laid over it.
 Stretch wandered(const Wander& wander, double interval, const Stretch& stretch, Eigen::Index reach) {
   const double keep = std::exp(-interval / wander.time);
   const Eigen::Index inside = stretch.weight.size(), n = inside + reach;

@@ -61,7 +61,7 @@ std::string standing_text(const BounceAnswer& answer) {
           : "");
 }
 
-/// A ball that has this drag per mass, for people.
+/// Describes a ball that has this drag per mass, for people.
 std::string drag_in_words(double log_drag) {
   const double drag = std::exp(log_drag);
   return fmt::format("drag {:.3g}/m, terminal speed {:.0f} m/s", drag, std::sqrt(9.81 / drag));
@@ -171,8 +171,8 @@ std::string effect_lines(const BounceReading& reading) {
   return text;
 }
 
-/// The exponent as a number of the effect, at the speed at which the restitution is told; empty for laws that
-/// have none.
+/// Returns the exponent as a number of the effect, at the speed at which the restitution is told; empty for
+/// laws that have none.
 std::string exponent_lines(const BounceReading& reading) {
   const LawFit& best = reading.answer.best();
   const bool is_power = best.model.law == LawKind::power;

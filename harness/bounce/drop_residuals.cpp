@@ -25,7 +25,7 @@ Values values_of(const BounceModel& model, const Eigen::VectorXd& value) {
   return {model.flight(value), {value.data(), own}, model.heights ? value[value.size() - 1] : 0};
 }
 
-/// Speed of impact after a flight of this duration.
+/// Returns the speed of impact after a flight of this duration (s), m/s.
 double impact_speed(const Flight& flight, double duration) {
   return flight.landing(flight.takeoff(duration));
 }
@@ -39,7 +39,7 @@ double foretold(const BounceModel& model, const Values& values, double duration)
   return next_duration(model, values, impact_speed(values.flight, duration));
 }
 
-/// Duration after a fall from this height.
+/// Returns the duration of the flight after a fall from this height (m), s.
 double after_fall(const BounceModel& model, const Values& values, double height) {
   return next_duration(model, values, values.flight.fall(std::max(1e-4, height + values.height_offset)));
 }

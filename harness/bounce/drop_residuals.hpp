@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What a law leaves of the flights, and how timing and scatter make it vary. From the measured duration T_i
-// of a flight follow take-off, landing speed u, the next take-off e(u) u and the next duration F(T_i). The
-// residual r_i = T_(i+1) - F(T_i) holds the errors d of three instants, d_(i+1) - (1 + F') d_i + F' d_(i-1),
-// which it shares with its neighbours, and the scatter of e at the one impact between, (dT/dv) u xi. That is
-// the likelihood of all instants with the speed of the first flight integrated out; F is linear over an
-// error.
+// Computes what a law leaves of the flights, and how timing and scatter make it vary. From the measured
+// duration T_i of a flight follow take-off, landing speed u, the next take-off e(u) u and the next duration
+// F(T_i). The residual r_i = T_(i+1) - F(T_i) holds the errors d of three instants, d_(i+1) - (1 + F') d_i +
+// F' d_(i-1), which it shares with its neighbours, and the scatter of e at the one impact between, (dT/dv) u
+// xi. That is the likelihood of all instants with the speed of the first flight integrated out; F is linear
+// over an error.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -31,8 +31,10 @@ struct BounceModel {
   double height_error = 0.01;                 ///< m, common to all heights (one standard deviation)
   double release_error = 0.002;               ///< m, of each drop by itself
 
-  /// The law's parameters, then `drag factor` (ball) or `ln drag` (free), then `height offset`, m.
+  /// Returns the law's parameters, then `drag_factor` (ball) or `ln_drag` (free; of 1/m), then, with heights,
+  /// `height_offset`, m.
   std::vector<LawParameter> parameters() const;
+  /// Returns the flights of a ball in this air. `value`: of parameters(), in their order.
   Flight flight(const Eigen::VectorXd& value) const;
 };
 
@@ -55,6 +57,8 @@ struct Linearised {
   Eigen::MatrixXd slope;  ///< of the residual by the parameters
 };
 
+/// Computes residuals and slopes at `value`, a value of each of model.parameters() in their order. A row is
+/// an impact between two flights, before them of each Flights with a height the impact of the fall.
 Linearised linearised(const std::vector<Flights>& flights, const BounceModel& model,
                       const Eigen::VectorXd& value);
 

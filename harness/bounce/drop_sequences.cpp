@@ -9,7 +9,7 @@ namespace shakedown {
 
 namespace {
 
-// Neighbouring intervals of one drop have this ratio, but for scatter, at least.
+// An interval that is longer than the one before by this ratio begins another drop.
 constexpr double grows = 1.15;
 /// A drop from the same height begins with about the same interval again.
 constexpr double again = 0.75;
@@ -20,7 +20,8 @@ double ratio_at(const std::vector<double>& x, std::size_t i) {
   return i > 0 && i < x.size() ? x[i] / x[i - 1] : not_said;
 }
 
-/// An interval in two parts: their sum follows the interval before as those after follow each other.
+/// Tells whether interval i is the second part of one in two: their sum follows the interval before as the
+/// next follows their sum.
 bool is_second_part(const std::vector<double>& x, std::size_t i) {
   if (i < 2 || i + 1 >= x.size()) return false;
   const double whole = x[i - 1] + x[i];
@@ -39,7 +40,8 @@ bool begins_drop(const std::vector<double>& x, std::size_t i, bool labelled) {
   return ratio_at(x, i) > grows && !is_two_flights(x, i) && !is_second_part(x, i);
 }
 
-/// A fall from rest lasts half as long as a flight from the same speed: the first ratio is 2 e, the rest e.
+/// Tells whether the first interval is a fall from rest, which lasts half as long as a flight from the same
+/// speed: the first ratio is 2 e, the rest e.
 bool begins_with_fall(const std::vector<double>& x) {
   if (x.size() < 3) return false;
   const double first = x[1] / x[0], second = x[2] / x[1];

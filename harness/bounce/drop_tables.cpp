@@ -21,7 +21,7 @@ namespace {
 // Flights that a clock for people can tell, s.
 constexpr double shortest = 0.015, longest = 8;
 
-/// The last decimal digit that any of the values has; 0: more than nine.
+/// Returns the last decimal digit that any of the values has, e.g. 0.001; 0: more than nine digits.
 double last_digit(const std::vector<double>& values) {
   for (int digits = 0; digits <= 9; ++digits) {
     const double unit = std::pow(10, digits);
@@ -52,7 +52,8 @@ struct Seconds {
   std::string note;
 };
 
-/// Size of the table's unit: as the user says, as the header says, or such that flights last as they can.
+/// Returns the size of the table's unit, s: as the user says, as the header says, or such that flights last
+/// as they can.
 Seconds seconds_of(const Table& table, const Layout& layout, const DropReading& reading) {
   if (reading.rate > 0) return {1 / reading.rate, fmt::format("counts of {} Hz", reading.rate)};
   const std::string unit = reading.unit.empty() ? layout.unit : reading.unit;

@@ -26,7 +26,7 @@ struct Usual {
   }
 };
 
-/// Of all pairs of neighbours.
+/// Returns the usual ratio over all pairs of neighbours; zeros from fewer than three.
 Usual usual_ratio(const std::vector<Drop>& drops) {
   std::vector<double> ratios, off;
   const auto each_pair = [&](const auto& take) {
@@ -46,7 +46,7 @@ bool cut_at(const std::vector<Outlier>& outliers, std::size_t drop, int impact, 
   });
 }
 
-/// What its neighbours foretell of this interval; NaN without any.
+/// Returns what its neighbours foretell of this interval, s; NaN without any.
 double foretold_by_neighbours(const Drop& drop, std::size_t i, double ratio) {
   std::vector<double> foretold;
   if (i > 0) foretold.push_back(drop.interval[i - 1] * ratio);
@@ -54,7 +54,7 @@ double foretold_by_neighbours(const Drop& drop, std::size_t i, double ratio) {
   return foretold.empty() ? not_said : median(foretold);
 }
 
-/// An interval that holds two flights: it is as long as one and its follower.
+/// Tells whether an interval holds two flights: it is as long as one and its follower.
 bool holds_two(const Drop& drop, std::size_t i, const Usual& usual) {
   const auto& x = drop.interval;
   const double e = usual.ratio, foretold = foretold_by_neighbours(drop, i, e);
@@ -65,7 +65,7 @@ bool holds_two(const Drop& drop, std::size_t i, const Usual& usual) {
   return before && after;
 }
 
-/// Two intervals that are one flight.
+/// Tells whether interval i and the next are one flight.
 bool are_one(const Drop& drop, std::size_t i, const Usual& usual) {
   const auto& x = drop.interval;
   if (i + 1 >= x.size() || x.size() < 3 || !usual.far(x[i + 1], x[i] * usual.ratio)) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was recorded of balls that were dropped and went on bouncing.
+// Holds what was recorded of balls that were dropped and went on bouncing.
 #pragma once
 #include <cstddef>
 #include <limits>
@@ -44,11 +44,11 @@ struct Flights {
   double height = not_said;  ///< m, of the fall onto impact[0]
 };
 
-/// The drops cut where something is wrong: an impact that is no law's, an instant that is no impact's.
+/// Cuts the drops where something is wrong: an impact that is no law's, an instant that is no impact's.
 std::vector<Flights> usable_flights(const std::vector<Drop>& drops, const std::vector<Outlier>& outliers);
 
-/// Impacts that were missed (one interval as long as two) and instants too many (one interval in two parts),
-/// by the drop's neighbours and the file's usual ratio of intervals: no law and no noise is needed.
+/// Finds impacts that were missed (one interval as long as two) and instants too many (one interval in two
+/// parts), by the drop's neighbours and the file's usual ratio of intervals: no law and no noise is needed.
 std::vector<Outlier> gross_outliers(const std::vector<Drop>& drops);
 
 }  // namespace shakedown

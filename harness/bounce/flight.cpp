@@ -26,13 +26,13 @@ struct Air {
   }
 };
 
-/// Half a flight, from the highest point (falling) or backwards from it (rising), until the speed or the
-/// height is reached. In steps of the speed: dt/dv and dh/dv are smooth.
+/// Time and height of the rising half of a flight, integrated in steps of the speed from the highest point
+/// back: dt/dv and dh/dv are smooth.
 struct Half {
   double time = 0, height = 0;
 };
 
-/// direction +1: fall (drag against gravity), -1: rise.
+/// Returns dt/dv and dh/dv. `direction` +1: fall (drag against gravity), -1: rise.
 Half slope(const Air& air, double speed, double factor, int direction) {
   const double rate = air.gravity - direction * air.drag(speed, factor) * speed * speed;
   return {1 / rate, speed / rate};
@@ -51,8 +51,8 @@ Half risen(const Air& air, double speed, double factor) {
   return sum;
 }
 
-/// Time and speed of a fall through `height` from rest: Runge-Kutta of fourth order in the root of the depth,
-/// in which speed and time are smooth.
+/// Time and speed of a fall from rest through a height, by Runge-Kutta of fourth order in the root of the
+/// depth, in which speed and time are smooth.
 struct Fall {
   double time = 0, speed = 0;
 };
@@ -90,7 +90,8 @@ double sphere_drag_coefficient(double reynolds) {
          0.42 / (1 + 42500 * std::pow(reynolds, -1.16));
 }
 
-/// Four points of Lagrange in the logarithm of the speed; below the first speed the correction falls with it.
+/// Interpolates a table by four points of Lagrange in the logarithm of the speed; below the first speed the
+/// correction falls with it.
 double Flight::correction(const std::vector<double>& table, double speed) const {
   const double place = std::log(speed / slowest) / log_step;
   if (place <= 0) return 1 + (table.front() - 1) * speed / slowest;
@@ -126,7 +127,7 @@ double Flight::duration_slope(double takeoff) const {
 }
 
 namespace {
-/// The speed at which a function that grows with it has this value: secants from the vacuum's.
+/// Returns the speed at which a function that grows with it has this value, by secants from the vacuum's.
 template <class Function>
 double solved(Function of_speed, double value, double start) {
   double a = start, fa = of_speed(a) - value, b = start * 1.02;

@@ -9,8 +9,9 @@
 
 namespace shakedown {
 
-/// Drag coefficient of a smooth sphere, R. Clift and W. H. Gauvin (1971): 24/Re (1 + 0.15 Re^0.687)
-/// + 0.42/(1 + 42500 Re^-1.16). Within 6 % of the measurements for 0 < Re < 3e5.
+/// Returns the drag coefficient of a smooth sphere, R. Clift and W. H. Gauvin (1971):
+/// 24/Re (1 + 0.15 Re^0.687) + 0.42/(1 + 42500 Re^-1.16).
+/// It is within 6 % of the measurements for 0 < Re < 3e5.
 double sphere_drag_coefficient(double reynolds);
 
 struct Ball {
@@ -21,7 +22,7 @@ struct Ball {
 /// Air of 23 C and 1010 hPa, kg/m^3 and Pa s (ICAO standard atmosphere's law for the viscosity).
 constexpr double air_density = 1.19, air_viscosity = 1.83e-5;
 
-/// Duration of a flight and speed of landing by the speed of take-off.
+/// Computes the duration of a flight and the speed of landing from the speed of take-off.
 class Flight {
  public:
   /// Without air. `gravity` m/s^2.
@@ -45,14 +46,15 @@ class Flight {
       lower_;  ///< over vacuum's, at the speeds of BallFlights; empty: closed form
 };
 
-/// Flights of a sphere with the drag coefficient at each moment's Reynolds number, by Runge-Kutta from the
-/// highest point up and down; made once (5 ms).
+/// Flights of a sphere with the drag coefficient at each moment's Reynolds number, integrated from the
+/// highest point: back to take-off by Simpson's rule in steps of the speed, down by Runge-Kutta of fourth
+/// order. Made once (5 ms).
 class BallFlights {
  public:
   /// `gravity` m/s^2. Throws InputError where the ball is lighter than air.
   BallFlights(const Ball& ball, double gravity);
-  /// The drag times `factor` (1: the sphere's); quadratic between factors 0.8, 1, 1.2, error below 1e-5 of
-  /// duration and speed from 0.7 to 1.3.
+  /// Returns flights with the drag times `factor` (1: the sphere's); quadratic between factors 0.8, 1, 1.2,
+  /// error below 1e-5 of duration and speed from 0.7 to 1.3.
   Flight at(double factor) const;
 
  private:

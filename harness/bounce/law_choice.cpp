@@ -44,7 +44,7 @@ Speeds speeds_of(const std::vector<Flights>& all, const BounceModel& model) {
   return speeds;
 }
 
-/// Values to start from: the median restitution, what is believed of the rest.
+/// Returns values to start from: the median restitution, and what is believed of the rest.
 Eigen::VectorXd start_of(const std::vector<Flights>& flights, const BounceModel& model,
                          const std::vector<LawParameter>& parameters) {
   Eigen::VectorXd value(std::ssize(parameters));
@@ -66,7 +66,7 @@ double mean_square(const Eigen::VectorXd& residual) {
   return std::max(1e-18, residual.squaredNorm() / static_cast<double>(residual.size()));
 }
 
-/// Weights of hypotheses and their sum to one.
+/// Sets the probabilities of the laws, which sum to one, and puts the most probable first.
 void weigh(std::vector<LawFit>& laws, const std::vector<double>& priors) {
   double top = -1e300, sum = 0;
   for (std::size_t i = 0; i < laws.size(); ++i)
@@ -82,8 +82,8 @@ void weigh(std::vector<LawFit>& laws, const std::vector<double>& priors) {
                    [](const LawFit& a, const LawFit& b) { return a.probability > b.probability; });
 }
 
-/// The impact that stands out most, measured by the spreads of the others without any that is suspected (they
-/// would widen what they are measured by); empty: none does.
+/// Returns the impact that stands out most, measured by the spreads of the others without any that is
+/// suspected (they would widen what they are measured by); empty: none does.
 std::vector<Outlier> oddest(const std::vector<Drop>& drops, const BounceModel& model,
                             const TimingKnown& timing, const BounceAnswer& answer) {
   const LawFit fit = fit_law(answer.flights, model, timing);
@@ -115,7 +115,7 @@ void find_odd_ones(const std::vector<Drop>& drops, const BounceModel& model, con
   }
 }
 
-/// The law that explains all impacts best, odd ones with them: they are found beside it.
+/// Returns the law that explains all impacts best, odd ones with them: they are found beside it.
 LawKind likeliest_law(const std::vector<Flights>& flights, BounceModel model, const TimingKnown& timing) {
   double most = -1e300;
   LawKind best = LawKind::curve;

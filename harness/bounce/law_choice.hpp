@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which law of restitution the drops follow, with what numbers, whether it holds, and which impacts are odd.
+// Finds which law of restitution the drops follow, with what numbers, whether it holds, and which impacts are
+// odd.
 #pragma once
 #include <string>
 #include <vector>
@@ -27,8 +28,10 @@ struct LawFit {
   std::vector<Estimate> values;  ///< of the parameters
 
   std::string name() const;  ///< "power", "power and air"
-  /// Restitution of the law at a speed, with its 95 % interval.
+  /// Returns the restitution of the law at a speed (m/s), with its 95 % interval.
   Estimate restitution_at(double speed) const;
+  /// Returns the restitution at a speed (m/s) as a function of the parameters, to first order about `at`,
+  /// within 0 and 1 (2 for the free curve).
   LinearValue linear_at(double speed) const;
 };
 
@@ -53,27 +56,29 @@ struct BounceAnswer {
   double scatter_odds = 0, drop_scatter_odds = 0;  ///< averaged over the laws
   double holds_above = 0.01;                       ///< p-value
   const LawFit& best() const { return laws.front(); }
+  /// Tells whether the first law holds: it is no free curve, and its p-value is above `holds_above` or not
+  /// known.
   bool holds() const;
-  /// Restitution at a speed averaged over the laws, each with its probability.
+  /// Returns the restitution at a speed (m/s) averaged over the laws, each with its probability.
   Estimate averaged_at(double speed) const;
 };
 
-/// Needs three intervals in a row, or two after a known height, in one drop at least; throws InputError
-/// naming the file.
+/// Weighs all laws on the drops. Needs three intervals in a row, or two after a known height, in one drop at
+/// least; else throws InputError naming the file.
 BounceAnswer choose_law(const std::vector<Drop>& drops, const BounceOptions& options);
 
-/// One law fitted to flights; `start` may be empty.
+/// Fits one law to flights.
 LawFit fit_law(const std::vector<Flights>& flights, const BounceModel& model, const TimingKnown& timing);
 
-/// Impacts and instants that a fit did not expect, the worst first: candidates, of which chance alone makes
-/// `by_chance`.
+/// Returns impacts and instants that a fit did not expect, the worst first: candidates, of which chance alone
+/// makes `by_chance`.
 std::vector<Outlier> odd_ones(const LawFit& fit, double by_chance);
 
-/// Probability that chance makes one this odd, by the spreads of a fit without it, averaged over what that
-/// fit leaves open; for all impacts and instants together (Bonferroni).
+/// Returns the probability that chance makes one this odd, by the spreads of a fit without it, averaged over
+/// what that fit leaves open; for all impacts and instants together (Bonferroni).
 double chance_of(const Outlier& odd, const LawFit& fit, const LawFit& without);
 
-/// p-values of a fitted law, with what is known of the timing.
+/// Tests a fitted law, with what is known of the timing.
 LawTest test_of(const LawFit& fit, const TimingKnown& timing);
 
 }  // namespace shakedown

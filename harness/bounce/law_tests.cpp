@@ -21,13 +21,13 @@ constexpr std::size_t most_nodes = 200;       // of the grid that an outlier is 
 constexpr double median_of_squares = 0.4549;  // of standard normal deviates
 constexpr double widened = 0.7;               // below this share of a deviation no chance brings half of them
 
-/// The most probable point of the grid.
+/// Returns the most probable point of the grid.
 const SpreadNode& likeliest(const SpreadPosterior& posterior) {
   return *std::max_element(posterior.nodes.begin(), posterior.nodes.end(),
                            [](const SpreadNode& a, const SpreadNode& b) { return a.weight < b.weight; });
 }
 
-/// Columns of candidates: a jump of e at each impact, then an error of each instant between two flights.
+/// The columns of candidates: a jump of e at each impact, then an error of each instant between two flights.
 struct Candidates {
   Eigen::MatrixXd columns;
   std::vector<std::size_t> row;
@@ -66,7 +66,8 @@ std::string sentence(const ImpactRow& row, OutlierKind kind, double size, double
       size < 0 ? "an edge was hit, or it went into spin" : "it came with spin, or off an edge");
 }
 
-/// Legendre's polynomials of the logarithm of the speed, from -1 at the slowest to 1 at the fastest.
+/// Returns Legendre's polynomials of the logarithm of the speed, from -1 at the slowest to 1 at the fastest,
+/// times the change of each row by e.
 Eigen::MatrixXd columns_of_bends(const Linearised& at, int first, int count) {
   double low = 1e300, high = 0;
   for (const ImpactRow& row : at.rows) low = std::min(low, row.speed), high = std::max(high, row.speed);
@@ -81,7 +82,7 @@ Eigen::MatrixXd columns_of_bends(const Linearised& at, int first, int count) {
   return columns;
 }
 
-/// Fall of r^T C^-1 r by these columns, from the products of [r, columns].
+/// Returns the fall of r^T C^-1 r by these columns, from the products of [r, columns].
 double gain_of(const Eigen::MatrixXd& products) {
   const Eigen::Index n = products.cols() - 1;
   Eigen::MatrixXd a = products.bottomRightCorner(n, n);
@@ -92,7 +93,7 @@ double gain_of(const Eigen::MatrixXd& products) {
   return b.dot(a.ldlt().solve(b));
 }
 
-/// Each column as the only thing that the law lacks: its size, and that over its error.
+/// The size of each column as the only thing that the law lacks, and that over its error.
 struct Jumps {
   Eigen::VectorXd size, sigmas;
 };

@@ -26,11 +26,14 @@ struct RestitutionLaw {
   std::vector<LawParameter> parameters;
 };
 
-/// constant, viscoelastic, power, plastic, and "none of these": a curve e + a L + b L^2, L = ln(v/v_ref).
+/// Returns constant, viscoelastic, power, plastic, and "none of these": a curve e + a L + b L^2, L =
+/// ln(v/v_ref).
 const std::vector<RestitutionLaw>& restitution_laws();
+/// Returns the law of this kind.
 const RestitutionLaw& law_of(LawKind kind);
 
-/// Restitution at a speed of impact > 0, m/s; `reference` is the speed at which parameters[0] holds.
+/// Returns the restitution at a speed of impact > 0, m/s; `reference` is the speed, m/s, at which
+/// parameters[0] holds.
 double restitution(LawKind kind, std::span<const double> parameters, double speed, double reference);
 
 }  // namespace shakedown

@@ -23,15 +23,18 @@ struct BandRoot {
 
 class RowCovariance {
  public:
-  /// Of these rows, in their order.
+  /// Takes the weights of these rows, in their order.
   explicit RowCovariance(const std::vector<ImpactRow>& rows);
   double mean_timing() const { return mean_timing_; }    ///< mean of the diagonal for timing of 1 s
   double mean_scatter() const { return mean_scatter_; }  ///< and for scatter of 1, s^2
-  /// First row of each drop, and one past the last of all.
+  /// Returns the first row of each drop, and one past the last of all.
   const std::vector<Eigen::Index>& drops() const { return drops_; }
   Eigen::VectorXd of_drop() const { return per_restitution_; }  ///< change of the rows by e of their drop
+  /// Divides columns by the root L of the band part C = L L^T: returns L^-1 columns and ln det C. `columns`
+  /// has a row for each row of the constructor, in the same order, and any number of columns; so has the
+  /// answer.
   BandRoot divided(const RowVariances& variances, Eigen::MatrixXd columns) const;
-  /// L^-T columns: with divided() before it C^-1 of the band part.
+  /// Returns L^-T columns, of the same shape: after divided() this is C^-1 columns of the band part.
   Eigen::MatrixXd divided_back(const RowVariances& variances, Eigen::MatrixXd columns) const;
 
  private:

@@ -26,7 +26,8 @@ constexpr double apart = 0.015;                    // s, between onsets
 constexpr float share_of_peak = 0.3f;
 constexpr double silence = 1e-14;  // power, of 16 bits' last digit
 
-/// Steps of the signal over 23 us, whatever the rate: hum and rumble are weak in them, impacts are strong.
+/// Returns the samples in 23 us, whatever the rate: in steps of the signal over that time hum and rumble are
+/// weak and impacts strong.
 std::size_t lag_of(double rate) { return std::max<std::size_t>(1, static_cast<std::size_t>(rate / 44000)); }
 std::vector<float> steps_of(const std::vector<float>& signal, std::size_t lag) {
   std::vector<float> steps(signal.size());
@@ -34,7 +35,7 @@ std::vector<float> steps_of(const std::vector<float>& signal, std::size_t lag) {
   return steps;
 }
 
-/// dB of the power over 1 ms from each step on, all channels.
+/// Returns the level of the power over 1 ms from each step on, all channels, dB.
 std::vector<double> levels_of(const Sound& sound) {
   const std::size_t samples = sound.channel[0].size();
   const double per_step = sound.rate * step;
@@ -60,7 +61,7 @@ std::vector<double> levels_of(const Sound& sound) {
   return level;
 }
 
-/// The level below which a share of the levels about each step lies.
+/// Returns the level below which a share of the levels about each step lies, dB.
 std::vector<double> noise_of(const std::vector<double>& level) {
   const std::size_t half = static_cast<std::size_t>(noise_window / step / 2), stride = half / 4;
   std::vector<double> noise(level.size());
@@ -76,7 +77,7 @@ std::vector<double> noise_of(const std::vector<double>& level) {
   return noise;
 }
 
-/// The sample at which the variance before and that after describe the signal best.
+/// Returns the sample at which the variance before and that after describe the signal best.
 std::size_t meeting_of_variances(std::span<const float> signal) {
   std::vector<double> sum{0};
   for (const float one : signal) sum.push_back(sum.back() + static_cast<double>(one) * one);
@@ -93,8 +94,8 @@ std::size_t meeting_of_variances(std::span<const float> signal) {
   return at;
 }
 
-/// A loud impact shows a weak beginning that is lost in the noise of the next: its place is where it reaches
-/// a share of its own peak, which is the same moment of each.
+/// Returns the sample at which an impact reaches a share of its own peak, which is the same moment of each: a
+/// loud one shows a weak beginning that is lost in the noise of the next.
 std::size_t samples_risen(std::span<const float> signal, std::size_t onset) {
   float peak = 0;
   for (std::size_t i = onset; i < signal.size(); ++i) peak = std::max(peak, std::abs(signal[i]));
@@ -103,7 +104,8 @@ std::size_t samples_risen(std::span<const float> signal, std::size_t onset) {
   return i;
 }
 
-/// From 6 ms before a rise to 3 ms after it, in the channel that is loudest there.
+/// Places an onset, s, by the signal from 6 ms before a rise to 3 ms after it, in the channel that is loudest
+/// there.
 double placed(const Sound& sound, double about) {
   const std::size_t all = sound.channel[0].size(), lag = lag_of(sound.rate);
   const auto sample = [&](double t) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The sound of a ball that bounces: where impacts begin, and which of the sounds are a drop.
+// Finds in the sound of a ball that bounces where impacts begin, and which of the sounds are a drop.
 #pragma once
 #include <span>
 #include <string>
 #include <vector>
 
-#include "drop_tables.hpp"
+#include "drop_reading.hpp"
 
 namespace shakedown {
 
@@ -14,9 +14,9 @@ struct Sound {
   std::vector<std::vector<float>> channel;  ///< one and the same length
 };
 
-/// WAV, FLAC, OGG and what else libsndfile knows. Throws FileError.
+/// Reads WAV, FLAC, OGG and what else libsndfile knows. Throws FileError.
 Sound read_sound(const std::string& file);
-/// By its first bytes.
+/// Tells by its first bytes whether a file is a sound.
 bool is_sound(const std::string& file);
 
 struct Onset {
@@ -24,18 +24,18 @@ struct Onset {
   double strength = 0;  ///< dB over the noise about it
 };
 
-/// Sudden sounds in order of time: the level of steps of the signal over 1 ms rises by 6 dB within 10 ms and
-/// stands 8 dB over the noise. Each is placed after the meeting of two different variances (N. Maeda, Zisin
-/// 38, 365 (1985)) where it reaches 0.3 of its own peak.
+/// Returns sudden sounds in order of time: the level of steps of the signal over 1 ms rises by 6 dB within 10
+/// ms and stands 8 dB over the noise. Each is placed after the meeting of two different variances (N. Maeda,
+/// Zisin 38, 365 (1985)) where it reaches 0.3 of its own peak.
 std::vector<Onset> onsets_of(const Sound& sound);
 
-/// The onsets that are impacts of one ball: intervals fall by a ratio from 0.3 to 1 that changes by some per
-/// cent, one impact may be missing between two, and each is some dB quieter. Indices of the chain that is
-/// most unlikely by chance; empty below four, and where it is no likelier than chance makes one among all
-/// that were tried (of the first drop of a file, which somebody says is in it, e^-2 of that).
+/// Finds the onsets that are impacts of one ball: intervals fall by a ratio from 0.3 to 1 that changes by
+/// some per cent, one impact may be missing between two, and each is some dB quieter. Returns the indices of
+/// the chain that is most unlikely by chance; empty below four, and where it is no likelier than chance makes
+/// one among all that were tried (of the first drop of a file, which somebody says is in it, e^-2 of that).
 std::vector<std::size_t> chain_of(const std::vector<Onset>& onsets, bool first = true);
 
-/// All drops of a recording.
+/// Returns all drops of a recording.
 ReadDrops drops_of_sound(const Sound& sound, const std::string& file, const DropReading& reading);
 
 }  // namespace shakedown

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "drop_tables.hpp"
 #include "errors.hpp"
 #include "sound.hpp"
 
@@ -24,7 +25,7 @@ constexpr double quieter = 2, loudness_changes = 5;         // dB from impact to
 constexpr double least_evidence = 1, said_to_be_there = 2;  // of a drop, and of the first of a file
 constexpr std::size_t most_onsets = 160;
 constexpr std::size_t least_impacts = 4;
-/// dB: in fainter sounds the noise reaches the share of the peak that places them.
+/// In sounds fainter than this, dB over the noise, the noise reaches the share of the peak that places them.
 constexpr double placed_well = 14;
 
 struct Chain {
@@ -32,7 +33,8 @@ struct Chain {
   double score = 0;
 };
 
-/// The onset nearest to a time, within a tolerance; nothing else than an index.
+/// Returns the index of the onset nearest to a time, within a tolerance (s); onsets.size() where there is
+/// none.
 std::size_t nearest(const std::vector<Onset>& onsets, double time, double within) {
   const auto after = std::lower_bound(onsets.begin(), onsets.end(), time,
                                       [](const Onset& onset, double t) { return onset.time < t; });
@@ -44,8 +46,8 @@ std::size_t nearest(const std::vector<Onset>& onsets, double time, double within
   return best;
 }
 
-/// ln of how much likelier an onset is as the next impact of a drop than by chance, `density` onsets a
-/// second.
+/// Returns ln of how much likelier an onset is as the next impact of a drop than by chance, `density` onsets
+/// a second.
 double evidence(const Onset& before, const Onset& onset, double off, double deviation, double density) {
   const double unusual = (before.strength - onset.strength - quieter) / loudness_changes;
   return -std::log(density * std::sqrt(2 * std::numbers::pi) * deviation) - off * off / 2 +
@@ -80,7 +82,7 @@ Chain followed(const std::vector<Onset>& onsets, std::size_t a, std::size_t b, d
   return chain;
 }
 
-/// The strongest, in order of time.
+/// Returns the indices of the strongest onsets, in order of time.
 std::vector<std::size_t> strongest(const std::vector<Onset>& onsets) {
   std::vector<std::size_t> all(onsets.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;

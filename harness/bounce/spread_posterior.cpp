@@ -22,31 +22,32 @@ constexpr double timing_known_to = 0.1;
 // Of V about its best value, in deviations of ln V: Student's tails reach far up.
 constexpr double below = -4, above = 4, further = 12, volume_step = 0.5;
 constexpr double negligible = 1e-7;
-/// Times a uniform prior's width^-2: keeps what the data say nothing about from being singular.
+/// This times width^-2 is the precision of a uniform prior, which keeps what the data say nothing about from
+/// being singular.
 constexpr double nearly_flat = 1e-6;
 
 double normal_below(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
-/// Share of a normal distribution that lies within the bounds.
+/// Returns the share of a normal distribution that lies within the bounds.
 double within(double mean, double deviation, double low, double high) {
   if (!(deviation > 0)) return mean >= low && mean <= high ? 1 : 1e-300;
   return std::max(1e-300, normal_below((high - mean) / deviation) - normal_below((low - mean) / deviation));
 }
 
-/// Products of residual and slopes with the inverse covariance of V = 1.
+/// The products of residual and slopes with the inverse covariance of V = 1.
 struct Products {
   Eigen::MatrixXd sum;
   double log_determinant = 0;
 };
 
-/// The same of each drop without the scatter of drops, and with the vector of that scatter.
+/// The products of each drop without the scatter of drops, and those with the vector of that scatter.
 struct ByDrop {
   std::vector<Eigen::MatrixXd> inner;
   std::vector<Eigen::VectorXd> crossed;
   std::vector<double> own;
   double log_determinant = 0;
 
-  /// Sherman and Morrison, drop by drop.
+  /// Returns the products with scatter of drops, by the formula of Sherman and Morrison, drop by drop.
   Products with(double drop_variance) const {
     Products all{Eigen::MatrixXd::Zero(inner[0].rows(), inner[0].cols()), log_determinant};
     for (std::size_t d = 0; d < inner.size(); ++d) {
@@ -147,7 +148,7 @@ class Grid {
     double share, drop_weight, prior;
   };
 
-  /// The scale V at fixed covariance of the release (other_variance), which counts beside it.
+  /// Adds the node of the scale V = `volume` with fixed covariance of the release (other_variance) beside it.
   void add_node(const Products& products, double volume, const Place& place) {
     const Eigen::Index n = at_.slope.cols();
     Eigen::MatrixXd curvature = products.sum.bottomRightCorner(n, n) / volume;
@@ -217,7 +218,7 @@ class Grid {
   std::vector<SpreadNode> nodes_;
 };
 
-/// The value below which a growing function of it is `target`.
+/// Returns the value below which a growing function of it is `target`.
 template <class Function>
 double where(Function below_value, double target, double low, double high) {
   for (int i = 0; i < 45; ++i) {

@@ -27,7 +27,7 @@ struct SpreadNode {
 struct NormalPart {
   double weight = 0, mean = 0, deviation = 0, low = 0, high = 1;
 };
-/// Median and 95 % interval of a sum of them.
+/// Returns median and 95 % interval of a sum of them.
 Estimate estimate_of(const std::vector<NormalPart>& parts);
 
 /// A function of the parameters, to first order, and the bounds of its values.
@@ -44,15 +44,15 @@ struct SpreadPosterior {
   double log_evidence_still = 0;  ///< evidence with f = 0 only
   std::vector<SpreadNode> nodes;
 
-  /// Posterior mean of the parameters.
+  /// Return the posterior mean of the parameters, and their covariance within and between nodes.
   Eigen::VectorXd mean() const;
-  Eigen::MatrixXd covariance() const;  ///< between nodes too
-  /// value + slope . (parameters - at), cut off at the bounds: adds its normal distributions, each with its
+  Eigen::MatrixXd covariance() const;
+  /// Adds the normal distributions of value + slope . (parameters - at), cut off at the bounds, each with its
   /// weight times `weight`.
   void add_to(std::vector<NormalPart>& parts, const LinearValue& value, double weight) const;
-  /// Median and 95 % interval of it.
+  /// Returns its median and 95 % interval.
   Estimate estimate(const LinearValue& value) const;
-  /// Median and 95 % interval of a deviation, of the nodes that have one; NaN: none does.
+  /// Returns median and 95 % interval of a deviation, of the nodes that have one; NaN: none does.
   Estimate spread(double SpreadNode::*deviation) const;
 };
 
@@ -62,15 +62,16 @@ struct TimingKnown {
   double resolution = 0;        ///< s: the noise is no less than resolution/sqrt(12)
 };
 
-/// `usual_variance`: about V, s^2, which weighs the errors of heights.
+/// Sums over the grid. `usual_variance`: about V, s^2, which weighs the errors of heights.
 SpreadPosterior spread_posterior(const Linearised& at, const std::vector<LawParameter>& parameters,
                                  const TimingKnown& timing, double usual_variance);
 
-/// Columns with the inverse of the covariance of one node.
+/// The products of columns with the inverse of the covariance of one node.
 struct WhitenedColumns {
   Eigen::MatrixXd products;  ///< (columns)^T C^-1 (columns)
   Eigen::MatrixXd solved;    ///< C^-1 columns
 };
+/// Computes them; `columns` has a row for each row of `at`.
 WhitenedColumns whitened(const Linearised& at, const Eigen::MatrixXd& columns, const SpreadNode& node);
 
 }  // namespace shakedown

@@ -42,7 +42,7 @@ std::string cell_of(const TableColumn& column, std::size_t row) {
   return std::isfinite(column.value[row]) ? fmt::format("{}", column.value[row]) : "";
 }
 
-/// Labels a drop: the same over some rows, then another.
+/// Tells whether a column labels drops: the same word over some rows, then another.
 bool is_label(const TableColumn& column) {
   const std::size_t rows = column.value.size();
   std::size_t changes = 0;
@@ -55,7 +55,8 @@ bool is_label(const TableColumn& column) {
   return rows > 3 && 2 * changes < rows;
 }
 
-/// Share of neighbours that are like flights of one ball: each shorter than the one before, not by much.
+/// Returns the share of neighbours that are like flights of one ball, each shorter than the one before, not
+/// by much, less something for ratios that differ.
 double like_flights(const std::vector<std::vector<double>>& series, TimesKind kind) {
   double good = 0, all = 0;
   std::vector<double> ratios;
@@ -125,7 +126,7 @@ class LayoutSearch {
     return word_for(topic_of(column.name), kind) + unit_score(unit_of(column));
   }
 
-  /// Numbers that could be times of this kind.
+  /// Counts the numbers that could be times of this kind.
   double possible(TimesKind kind) const {
     double count = 0;
     for (const TableColumn* column : usable_)
@@ -141,7 +142,7 @@ class LayoutSearch {
     if (layout.score > best_.score + 1e-9) best_ = std::move(layout);
   }
 
-  /// A column with others that label the drops.
+  /// Tries a column of times with others that label the drops.
   void try_column(const TableColumn& column, TimesKind kind) {
     if (is_counting(column.value) && !chosen()) return;
     std::vector<const TableColumn*> labels;
@@ -184,7 +185,7 @@ class LayoutSearch {
     return like_flights(all, layout.kind);
   }
 
-  /// Columns side by side, a drop each.
+  /// Tries columns side by side, a drop each.
   void try_columns(TimesKind kind) {
     Layout layout{kind, "", {}, "", 0};
     double words = 0;
@@ -206,7 +207,7 @@ class LayoutSearch {
 
   using Columns = std::span<const TableColumn* const>;
 
-  /// A row a drop, with columns before that label it.
+  /// Tries a row a drop, with columns before that label it.
   void try_rows(TimesKind kind) {
     std::vector<const TableColumn*> possible;
     for (const TableColumn* column : usable_)
@@ -277,8 +278,8 @@ Layout layout_of(const Table& table, const DropReading& reading) {
 
 namespace {
 
-/// Turns from falling to rising, of values that are smooth but for them; means of some frames where there are
-/// many.
+/// Tells whether values turn from falling to rising as a bouncing ball's do, and are smooth but for that;
+/// looks at means of some frames where there are many.
 bool bounces(const std::vector<double>& frames) {
   constexpr std::size_t points = 250;
   const std::size_t block = std::max<std::size_t>(1, frames.size() / points);

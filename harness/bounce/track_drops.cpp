@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "column_reading.hpp"
+#include "drop_tables.hpp"
 #include "least_squares.hpp"
 #include "robust_statistics.hpp"
 
@@ -26,7 +27,7 @@ struct Parabola {
 /// Bends of the track over this time, s, tell an impact from the top of a flight.
 constexpr double bend_time = 0.012;
 
-/// Differences of second order over k frames on either side; the first and last k are 0.
+/// Returns differences of second order over k frames on either side; the first and last k are 0.
 std::vector<double> bends_of(const std::vector<double>& y, std::size_t k) {
   std::vector<double> bends(y.size(), 0);
   for (std::size_t i = k; i + k < y.size(); ++i) bends[i] = y[i + k] - 2 * y[i] + y[i - k];
@@ -40,8 +41,8 @@ std::size_t frames_of_a_bend(const std::vector<double>& t) {
   return static_cast<std::size_t>(std::clamp(std::round(bend_time / step), 1.0, all));
 }
 
-/// Frames in which the ball is lowest between falling and rising: where the track bends upwards by more than
-/// noise does, and more than gravity bends it downwards.
+/// Returns the frames in which the ball is lowest between falling and rising: where the track bends upwards
+/// by more than noise does, and more than gravity bends it downwards.
 std::vector<std::size_t> lowest_frames(const std::vector<double>& t, const std::vector<double>& y) {
   const std::size_t k = frames_of_a_bend(t);
   const std::vector<double> bends = bends_of(y, k);
@@ -81,7 +82,7 @@ Parabola parabola(const std::vector<double>& t, const std::vector<double>& y, st
   return fit;
 }
 
-/// Where two parabolas of one curvature cross.
+/// Returns the time at which two parabolas of one curvature cross.
 double crossing(const Parabola& before, const Parabola& after) {
   // b + c (t - m) + a (t - m)^2 of both, in the time from the middle between them
   const double origin = (before.middle + after.middle) / 2;
@@ -103,7 +104,7 @@ double weighted_median(std::vector<std::pair<double, double>> values) {
   return not_said;
 }
 
-/// Frames of each flight: those that hold an impact are left out.
+/// Returns first frame and end of each flight: frames that hold an impact are left out.
 std::vector<std::pair<std::size_t, std::size_t>> flights_between(const std::vector<std::size_t>& lowest,
                                                                  std::size_t frames) {
   std::vector<std::pair<std::size_t, std::size_t>> flights;

@@ -11,7 +11,7 @@ namespace shakedown {
 
 namespace {
 
-/// How many bytes the character takes that begins with this one; 0: none begins so.
+/// Returns how many bytes the character takes that begins with this one; 0: none begins so.
 std::size_t length_of_character(unsigned char first) {
   if (first < 0x80) return 1;
   if (first >= 0xc2 && first < 0xe0) return 2;
@@ -36,24 +36,33 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-/// As the message can show it.
+/// Line ends and tabs may stand in a formula.
+bool is_control_character(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return (byte < 0x20 && c != '\n' && c != '\r' && c != '\t') || byte == 0x7f;
+}
+
+bool has_control_characters(std::string_view text) {
+  return std::any_of(text.begin(), text.end(), is_control_character);
+}
+
+/// Returns a text that is no UTF-8 as a message can show it.
 std::string with_bytes_named(std::string_view text) {
   std::string shown;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    shown += byte < 0x80 ? std::string(1, c)
-                         : std::string("\\x") + "0123456789abcdef"[byte >> 4] + "0123456789abcdef"[byte & 15];
+    shown += byte < 0x80 && !is_control_character(c)
+                 ? std::string(1, c)
+                 : std::string("\\x") + "0123456789abcdef"[byte >> 4] + "0123456789abcdef"[byte & 15];
   }
   return shown;
 }
 
-constexpr std::array<std::string_view, 4> outputs{"--out", "--report", "--table", "--truth"};
-
-bool names_no_output(const std::vector<std::string>& words, std::size_t i) {
-  return std::any_of(outputs.begin(), outputs.end(), [&](std::string_view option) {
-    return words[i] == std::string(option) + "=" ||
-           (words[i] == option && i + 1 < words.size() && words[i + 1].empty());
-  });
+/// "--out=": the parser's own words for it say less.
+bool names_nothing(std::string_view word) {
+  constexpr std::array<std::string_view, 7> files{
+      "--data=", "--out=", "--report=", "--table=", "--truth=", "--keep=", "--known="};
+  return std::find(files.begin(), files.end(), word) != files.end();
 }
 
 }  // namespace
@@ -67,9 +76,14 @@ std::vector<std::string> parser_words(int count, char** words) {
                        with_bytes_named(arguments[i]),
                        "is no UTF-8 text (results could not name it)",
                        "rename the file or folder"});
-    if (names_no_output(arguments, i))
+    if (has_control_characters(arguments[i]))
       found.push_back({{},
-                       arguments[i].substr(0, arguments[i].find('=')),
+                       with_bytes_named(arguments[i]),
+                       "has control characters (terminals obey them)",
+                       "rename the file or folder, or leave them out"});
+    if (names_nothing(arguments[i]))
+      found.push_back({{},
+                       arguments[i].substr(0, arguments[i].size() - 1),
                        "has an empty name",
                        "name a file or folder, or leave the option out"});
     // "--json" may go without a file; a setup after it is the setup, not a file to overwrite.

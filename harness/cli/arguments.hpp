@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The words that the program was called with.
+// Prepares the words that the program was called with.
 #pragma once
 #include <string>
 #include <vector>
 
 namespace shakedown {
 
-/// The words after the program's name in the reverse order that the parser wants. Throws InputError where a
-/// word is no UTF-8 text, for results could not name it, and where an output has an empty name.
+/// Returns the words after the program's name in the reverse order that the parser wants. Throws InputError
+/// where a word is no UTF-8 text, for results could not name it, or has control characters.
 std::vector<std::string> parser_words(int count, char** words);
 
 }  // namespace shakedown

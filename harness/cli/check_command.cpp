@@ -43,7 +43,7 @@ DecayMeasurement measured(const LinearDecayArguments& arguments, const Engine& e
   return measure_decay(engine, length, arguments.seed, options);
 }
 
-/// The stored ones; none when there is no file yet and one is to be written.
+/// Returns the stored baselines; none when there is no file yet and one is to be written.
 std::vector<DecayBaseline> stored(const LinearDecayArguments& arguments) {
   if (arguments.update) {
     expect_writable(arguments.baselines);

@@ -9,7 +9,7 @@
 #include "effects.hpp"
 #include "engines.hpp"
 #include "ensemble_options.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "knobs_report.hpp"

@@ -14,7 +14,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// What bash's compgen lists for a value; files are what it takes by itself where nothing is listed.
+/// Returns what bash's compgen lists for a value; files are what it takes by itself where nothing is listed.
 std::string words_offered(const OptionWords& option) {
   switch (option.kind) {
     case ValueKind::words: return "-W '" + joined(option.choices) + "'";
@@ -24,7 +24,7 @@ std::string words_offered(const OptionWords& option) {
   }
 }
 
-/// The case of one command: values after an option, else its options, else its positional arguments.
+/// Returns the case of one command: values after an option, else its options, else its positional arguments.
 std::string case_of(const std::string& path, const CLI::App& command) {
   std::string values, options, positional = "-W ''";
   for (const OptionWords& option : options_of(command)) {
@@ -61,7 +61,7 @@ std::string cases_of_commands(const std::string& path, const CLI::App& command, 
   return text;
 }
 
-/// Every command with commands of its own, as a pattern of the shell.
+/// Returns every command with commands of its own, as a pattern of the shell.
 std::string groups_of(const CLI::App& parser) {
   std::string groups;
   for (const CLI::App* one : commands_of(parser))

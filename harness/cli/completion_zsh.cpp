@@ -8,7 +8,7 @@ namespace shakedown {
 
 namespace {
 
-/// Text inside single quotes, where zsh's _arguments takes brackets and colons for its own.
+/// Returns a text for single quotes, where zsh's _arguments takes brackets and colons for its own.
 std::string quoted(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -34,7 +34,7 @@ std::string action_of(const OptionWords& option) {
   }
 }
 
-/// The specification that zsh's _arguments takes of one option or positional argument.
+/// Returns the specification that zsh's _arguments takes of one option or positional argument.
 std::string specification(const OptionWords& option, int position) {
   const std::string value = quoted(option.type.empty() ? "value" : option.type) + ":" + action_of(option);
   if (option.positional) {
@@ -67,7 +67,8 @@ std::string names_of_commands(const CLI::App& command) {
   return text;
 }
 
-/// What completes the words of a command; of one with commands below it first their names, then theirs.
+/// Returns what completes the words of a command; of one with commands below it first their names, then
+/// theirs.
 std::string body_of(const CLI::App& command, const std::string& indent) {
   if (handed_on(command))
     return indent + "words=(shakedown-studies \"${words[@]}\"); (( CURRENT++ )); _shakedown-studies\n";

@@ -39,7 +39,7 @@ struct Case {
   Setup setup;
 };
 
-/// "box.length=40mm,65mm" as {"box.length=40mm", "box.length=65mm"}. Throws InputError.
+/// Splits "box.length=40mm,65mm" into {"box.length=40mm", "box.length=65mm"}. Throws InputError.
 std::vector<std::string> values_of(const std::string& variation) {
   const std::size_t equals = variation.find('=');
   if (equals == std::string::npos || equals + 1 == variation.size())
@@ -50,7 +50,7 @@ std::vector<std::string> values_of(const std::string& variation) {
   return values;
 }
 
-/// Every combination of the variations; one empty combination when there are none.
+/// Returns every combination of the variations; one empty combination when there are none.
 std::vector<std::vector<std::string>> combinations_of(const std::vector<std::string>& variations) {
   std::vector<std::vector<std::string>> combinations{{}};
   for (const std::string& variation : variations) {

@@ -14,7 +14,7 @@
 #include "effects.hpp"
 #include "engines.hpp"
 #include "ensemble_options.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "in_order.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
@@ -43,9 +43,12 @@ struct DiagnoseArguments {
   bool resume = false;
 };
 
-/// The amended setup, what is to be tried where nothing of the list explains the data, and all of it as JSON.
+/// Writes the amended setup, what is to be tried where nothing of the list explains the data, and all of it
+/// as JSON.
 void write_answer(OutputFolder& folder, const Diagnosis& diagnosis, const std::string& document) {
   folder.write("setup.toml", amended_setup(diagnosis));
+  if (!diagnosis.momentum.unlisted) folder.remove({"force.csv"});  // of an earlier diagnosis
+  if (!diagnosis.free_restitution) folder.remove({"free_restitution.toml"});
   if (diagnosis.momentum.unlisted) folder.write("force.csv", points_of_force(diagnosis.momentum.curves));
   if (diagnosis.free_restitution)
     folder.write("free_restitution.toml",

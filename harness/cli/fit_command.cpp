@@ -12,7 +12,7 @@
 #include "effects.hpp"
 #include "engines.hpp"
 #include "ensemble_options.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "fitted.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"

@@ -35,7 +35,7 @@ struct HideArguments {
   MapArguments map;
 };
 
-/// Everything that the arguments say, or everything that is wrong with them.
+/// Returns everything that the arguments say, or throws InputError with everything that is wrong with them.
 Trial asked(const HideArguments& arguments) {
   Trial trial;
   std::vector<Violation> found;
@@ -58,7 +58,7 @@ Trial asked(const HideArguments& arguments) {
   return trial;
 }
 
-/// The files of the case that an earlier `hide` left in the folder; empty where there is none. Throws
+/// Returns the files of the case that an earlier `hide` left in the folder; empty where there is none. Throws
 /// InputError where somebody else's experiment is there.
 std::vector<std::filesystem::path> earlier_case(const OutputFolder& folder) {
   const std::filesystem::path experiment = folder.path() / "experiment.toml",
@@ -119,7 +119,7 @@ nlohmann::ordered_json json_of_share(const Share& share) {
           {"high", share.high}};
 }
 
-/// Would a diagnosis see it? Nothing is written.
+/// Measures whether a diagnosis would see what is hidden. Nothing is written.
 int measure_power(const HideArguments& arguments, const Trial& trial) {
   const std::unique_ptr<Engine> laboratory = engine_named(arguments.question.engine),
                                 model = engine_named("hard");

@@ -9,7 +9,7 @@
 #include "command.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "interruption.hpp"
 #include "kept_simulations.hpp"
 #include "output_file.hpp"
@@ -21,7 +21,7 @@ namespace shakedown {
 
 namespace {
 
-/// The measurements as planned, nothing hidden in them.
+/// Makes the measurements as planned, with nothing hidden in them.
 Experiment planned_experiment(HiddenQuestion question, Trial trial) {
   trial.hidden.truth = trial.hidden.believed;
   question.engine = "hard";

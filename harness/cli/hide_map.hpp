@@ -8,7 +8,7 @@
 
 namespace shakedown {
 
-/// What `shakedown hide --map` is asked.
+/// The options of `shakedown hide --map`.
 struct MapArguments {
   bool wanted = false, resume = false;
   double seconds = 600;

@@ -4,7 +4,7 @@
 
 namespace shakedown {
 
-/// From now on Ctrl-C (and SIGTERM) only raises the returned flag, so that what is done can be kept; a
+/// Lets Ctrl-C (and SIGTERM) only raise the returned flag from now on, so that what is done can be kept; a
 /// second one ends the program at once.
 const std::atomic<bool>* catch_interruption();
 

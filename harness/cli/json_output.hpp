@@ -12,7 +12,7 @@ struct JsonOutput {
   bool wanted = false;
 
   bool to_standard_output() const { return wanted && (file.empty() || file == "-"); }
-  /// Where text for people goes: out of the way of the JSON.
+  /// Returns the stream for people: out of the way of the JSON.
   std::FILE* for_people() const { return to_standard_output() ? stderr : stdout; }
   /// Throws FileError when the file cannot be written; to be called before long work.
   void check() const;
@@ -20,7 +20,7 @@ struct JsonOutput {
   void write(const std::string& document) const;
 };
 
-/// The variable must outlive the parsing.
+/// Adds the option. The variable must outlive the parsing.
 void add_json_option(CLI::App& command, JsonOutput& output);
 
 }  // namespace shakedown

@@ -12,7 +12,7 @@
 #include "effects.hpp"
 #include "engines.hpp"
 #include "ensemble_options.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "interruption.hpp"
 #include "json_output.hpp"
 #include "known_setup.hpp"
@@ -52,7 +52,7 @@ std::string effects_of(const Setup& setup) {
   return names.empty() ? "plain" : names;
 }
 
-/// The balance is judged at the frequency of this rung.
+/// Judges the momentum balance at the frequency of this rung.
 MomentumAudit balance_at(const Setup& setup, const Refit& fit, const Measurement& measurement) {
   Setup fitted = setup;
   for (const FittedValue& value : fit.values) set_number(fitted, value.key, value.value, all_effects());
@@ -104,7 +104,7 @@ std::vector<Rung> climb_all(const LadderArguments& arguments, const std::vector<
   return rungs;
 }
 
-/// An empty box has none.
+/// Returns the p-value of a rung for people; "-" for an empty box, which has none.
 std::string p_of(const Rung& rung) {
   return std::isfinite(rung.fit.p_value) ? fmt::format("{:.3f}", rung.fit.p_value) : "-";
 }

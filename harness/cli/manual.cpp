@@ -11,7 +11,8 @@ namespace shakedown {
 
 namespace {
 
-/// Text as man(7) must have it: every dash one that can be copied, and no line that begins as a request does.
+/// Returns a text as man(7) must have it: every dash one that can be copied, and no line that begins as a
+/// request does.
 std::string roff(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -38,7 +39,7 @@ std::string in_capitals(std::string text) {
   return text;
 }
 
-/// "shakedown 0.1.0": which commit made it is no matter of a page.
+/// Returns "shakedown 0.1.0", without the commit, which is no matter of a page.
 std::string release() {
   const std::string line = version_line();
   return line.substr(0, line.find(" ("));

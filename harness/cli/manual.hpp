@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Manual pages and completions, made from the command line itself.
+// Makes manual pages and completions from the command line itself.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -7,11 +7,11 @@
 
 namespace shakedown {
 
-/// The page of a program (`command` is the program) or of one of its commands, in the language of man(7).
-/// `program`: the name of the file that is run.
+/// Returns the page of a program (`command` is the program) or of one of its commands, in the language of
+/// man(7). `program`: the name of the file that is run.
 std::string manual_page(const std::string& program, const CLI::App& parser, const CLI::App& command);
 
-/// Completion of the program's words for bash and for zsh.
+/// Return the completion of the program's words for bash and for zsh.
 std::string bash_completion(const std::string& program, const CLI::App& parser);
 std::string zsh_completion(const std::string& program, const CLI::App& parser);
 

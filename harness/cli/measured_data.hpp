@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measured data as commands take them: looked at before any model is asked.
+// Reads measured data as commands take them: looked at before any model is asked.
 #pragma once
 #include <string>
 

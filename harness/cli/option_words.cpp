@@ -23,7 +23,7 @@ bool is_any_of(const std::string& name, std::initializer_list<std::string_view> 
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// "KIND:{a,b}" holds its choices between the braces.
+/// Returns the choices of "KIND:{a,b}", which stand between the braces.
 std::vector<std::string> choices_in(const std::string& type) {
   const std::size_t open = type.find('{'), close = type.find('}');
   if (open == std::string::npos || close == std::string::npos || close < open) return {};
@@ -49,8 +49,8 @@ ValueKind kind_of(const OptionWords& option) {
   return ValueKind::any;
 }
 
-/// Where the parser has added what it checks to the type's own name, which may have colons too; npos:
-/// nowhere.
+/// Returns the place where the parser has added what it checks to the type's own name, which may have colons
+/// too; npos: nowhere.
 std::size_t end_of_type(const std::string& type) {
   std::size_t end = std::string::npos;
   for (const char* check : {":{", ":POSITIVE", ":INT in [", ":UINT in [", ":FLOAT in ["})

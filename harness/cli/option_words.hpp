@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the parser knows of an option, in the words that manual pages and completions need.
+// Tells what the parser knows of an option, in the words that manual pages and completions need.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace shakedown {
 
-/// What may stand as the value of an option or of a positional argument.
+/// The kind of value that an option or a positional argument takes.
 enum class ValueKind { none, any, words, file, folder };
 
 struct OptionWords {
@@ -22,16 +22,16 @@ struct OptionWords {
   std::string otherwise;  ///< the default as text; empty: none is told
 };
 
-/// The options that the help shows, in its order.
+/// Returns the options that the help shows, in its order.
 std::vector<OptionWords> options_of(const CLI::App& command);
 
-/// The commands below this one, in the order of the help.
+/// Returns the commands below this one, in the order of the help.
 std::vector<const CLI::App*> commands_of(const CLI::App& program);
 
-/// True where the words go to another program, which has the options.
+/// Tells whether the words go to another program, which has the options.
 bool handed_on(const CLI::App& command);
 
-/// "shakedown-check-linear-decay" of the command linear-decay below check; `program`: "shakedown".
+/// Returns "shakedown-check-linear-decay" for the command linear-decay below check; `program`: "shakedown".
 std::string dashed_name(const std::string& program, const CLI::App& command);
 
 }  // namespace shakedown

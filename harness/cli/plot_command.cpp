@@ -10,6 +10,7 @@
 
 #include "command.hpp"
 #include "drawing.hpp"
+#include "drawn_figure.hpp"
 #include "errors.hpp"
 #include "output_file.hpp"
 #include "result_figures.hpp"

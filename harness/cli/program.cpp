@@ -14,13 +14,15 @@
 #include "interruption.hpp"
 #include "kept_files.hpp"
 #include "manual.hpp"
+#include "named_files.hpp"
 #include "provenance.hpp"
 #include "text.hpp"
 
 namespace shakedown {
 namespace {
 
-/// Standard error may be full or closed: that changes neither the result nor the exit code.
+/// Prints a message for people and returns the exit code, which a full or closed standard error does not
+/// change.
 int told(const std::string& message, ExitCode code) {
   std::fputs((printable(message) + "\n").c_str(), stderr);
   return code;
@@ -38,7 +40,10 @@ std::string unusable(const std::filesystem::filesystem_error& error) {
 
 int run_named(const std::vector<Command>& commands) {
   for (const Command& command : commands)
-    if (command.parser->parsed()) return command.run();
+    if (command.parser->parsed()) {
+      check_named_files(*command.parser);
+      return command.run();
+    }
   EXPECT(false && "one command is required");
   return exit_bug;
 }
@@ -70,7 +75,7 @@ int guarded(const std::function<int()>& work) {
   }
 }
 
-/// The parser's own message, for people.
+/// Returns the parser's own message, for people.
 std::string message_of(CLI::App& program, const CLI::ParseError& error) {
   const std::vector<std::string> left = program.remaining();
   if (program.get_subcommands().empty() && !left.empty())
@@ -83,7 +88,7 @@ std::string message_of(CLI::App& program, const CLI::ParseError& error) {
   return text;
 }
 
-/// `--write-manual DIR`, for packages: it is no option that a help shows.
+/// Tells whether the words are `--write-manual DIR`, which is for packages and no option that a help shows.
 bool asks_for_manual(int count, char** words) {
   return count == 3 && std::string_view(words[1]) == "--write-manual";
 }

@@ -22,7 +22,7 @@ std::string rest(double spent, double fraction) {
                         : fmt::format("{:.3g} h left", seconds / 3600);
 }
 
-/// A full disk behind standard error takes away what it would have said, not the result.
+/// Prints a text on standard error; a full disk behind it takes away the text, not the result.
 void tell(const std::string& text) {
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);

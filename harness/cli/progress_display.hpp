@@ -22,9 +22,10 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  /// fraction: 0 to 1.
+  /// Shows the fraction done, 0 to 1.
   void show(double fraction);
-  /// What is shown is the share of the limits that is used: how long the rest takes is not known.
+  /// Takes what is shown for the share of the limits that is used, so that nothing is said of how long the
+  /// rest takes.
   void count_limits() { of_limits_ = true; }
   /// Changes what the bar says is being done; without a terminal the new stage gets a line with the time so
   /// far.

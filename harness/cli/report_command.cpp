@@ -16,7 +16,7 @@ namespace shakedown {
 
 namespace {
 
-/// A sweep's results are one file; everything else leaves a folder.
+/// Tells whether a place is a sweep's one file of results; everything else leaves a folder.
 bool is_result_file(const std::filesystem::path& file) {
   constexpr std::string_view magic = "SQLite format 3";
   std::string beginning(magic.size(), ' ');
@@ -25,7 +25,7 @@ bool is_result_file(const std::filesystem::path& file) {
          stream.read(beginning.data(), static_cast<std::streamsize>(magic.size())) && beginning == magic;
 }
 
-/// Names for folders: the last part of the path, or the whole path where two share it.
+/// Returns names for folders: the last part of the path, or the whole path where two share it.
 std::vector<std::string> names_of(const std::vector<std::string>& places) {
   std::vector<std::string> paths, names;
   for (const std::string& place : places)
@@ -40,6 +40,14 @@ std::vector<std::string> names_of(const std::vector<std::string>& places) {
 
 NamedReport stored_report(const std::filesystem::path& place, const std::string& name) {
   return {name, is_result_file(place) ? report_of(ResultFile(place), name) : read_report(place)};
+}
+
+/// The page goes over no result that it shows: a file, or one in a folder that is no page itself.
+void keep_results(const std::filesystem::path& place) {
+  keep_unchanged(place);
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(place, none))
+    if (entry.is_regular_file(none) && entry.path().extension() != ".html") keep_unchanged(entry.path());
 }
 
 }  // namespace
@@ -57,7 +65,7 @@ Command add_report_command(CLI::App& program) {
   command.add_option("--out", output->file, "the page")->type_name("FILE.html")->capture_default_str();
   return {&command, [folders, output] {
             std::vector<NamedReport> reports;
-            for (const std::string& folder : *folders) keep_unchanged(folder);
+            for (const std::string& place : *folders) keep_results(place);
             output->check();
             const std::vector<std::string> names = names_of(*folders);
             for (std::size_t i = 0; i < names.size(); ++i)

@@ -11,7 +11,7 @@ namespace shakedown {
 struct ReportOutput {
   std::string file;
 
-  /// Whether a report must be made: for the page, or to be kept in a folder of results (empty: there is
+  /// Tells whether a report must be made: for the page, or to be kept in a folder of results (empty: there is
   /// none).
   bool wanted(const std::string& folder) const { return !file.empty() || !folder.empty(); }
   /// Throws FileError when the page cannot be written; to be called before long work.
@@ -21,7 +21,7 @@ struct ReportOutput {
   std::string write(const Report& report, const std::string& folder) const;
 };
 
-/// The variable must outlive the parsing.
+/// Adds the option. The variable must outlive the parsing.
 void add_report_option(CLI::App& command, ReportOutput& output);
 
 }  // namespace shakedown

@@ -28,13 +28,14 @@ namespace shakedown {
 
 namespace {
 
-/// Where the results go.
+/// The places where the results go.
 struct Presentation {
   JsonOutput json;
   ReportOutput report;
   std::string table;
 
-  /// The file that the runs go into, and the files that they come from, may not be replaced by these.
+  /// Makes sure that the results can be written, and do not replace the files that the runs go into or come
+  /// from.
   void check(const std::vector<std::string>& results) const {
     for (const std::string& file : results) keep_unchanged(file);
     json.check();
@@ -58,7 +59,7 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-/// Threads of this process: a launcher starts one process a core; a sweep alone takes all cores.
+/// Returns the threads of this process: a launcher starts one process a core; a sweep alone takes all cores.
 int threads_of(const SweepArguments& arguments, const JobShare& share) {
   if (arguments.threads > 0) return arguments.threads;
   return share.of > 1 && share.source != "--shard" ? 1 : threads_or_all(0);
@@ -83,7 +84,7 @@ nlohmann::ordered_json json_of_sweep(const std::vector<ResultRow>& rows, const S
           {"runs", rows.size()}, {"complete", complete},      {"digest", results_digest(rows)}};
 }
 
-/// What is in the file at the end, for people and as table and JSON.
+/// Presents what is in the file at the end, for people and as table and JSON.
 void present(const ResultFile& file, const std::string& name, const Presentation& how, bool complete,
              std::size_t jobs = 0, const PaperValues* taken = nullptr) {
   const std::vector<ResultRow> rows = file.rows();
@@ -101,12 +102,13 @@ void present(const ResultFile& file, const std::string& name, const Presentation
   how.json.write(taken != nullptr ? taken->added_to(document) : document);
 }
 
-/// Processes that share a file must not refuse what the others have begun.
+/// Returns how the file is opened: processes that share it must not refuse what the others have begun.
 ResultFile::Opening opening_of(const SweepArguments& arguments, const JobShare& share) {
   return arguments.resume || share.of > 1 ? ResultFile::Opening::resume : ResultFile::Opening::fresh;
 }
 
-/// Its pilot runs go into a file in memory beside what the real one holds: nothing is left behind.
+/// Prints what the sweep will cost. Its pilot runs go into a file in memory beside what the real one holds,
+/// so that nothing is left behind.
 int print_estimate(const SweepArguments& arguments, const SweepPlan& plan, const Engine& engine,
                    const JobShare& share) {
   const SweepIdentity identity = identity_of(plan, engine);

@@ -32,7 +32,7 @@ struct TheoryArguments {
   std::string engine = "hard", curve;
 };
 
-/// What one run of the setup says about the friction-damped oscillator.
+/// The friction-damped oscillator that one run of the setup suggests.
 struct Friction {
   FrictionOscillator oscillator;
   double third_peak = 0;      ///< m, of the run
@@ -55,7 +55,7 @@ Friction friction_of(const Theory& theory, const Setup& setup, const RunResult& 
   return friction;
 }
 
-/// Nothing when the run has fewer than three peaks.
+/// Reads it off a run; nothing when the run has fewer than three peaks.
 std::optional<Friction> friction_from_a_run(const TheoryArguments& arguments, const Theory& theory,
                                             const Setup& setup) {
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);

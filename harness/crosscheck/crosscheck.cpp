@@ -18,7 +18,7 @@ double share(const RunResult& run) {
   return run.observables.energy_loss[contact_class];
 }
 
-/// Other people's programs do not tell collisions: they are below zero.
+/// Stands for collisions that a program of other people does not tell; its trajectory has them below zero.
 constexpr double not_told = std::numeric_limits<double>::quiet_NaN();
 
 template <std::size_t contact_class>
@@ -104,7 +104,7 @@ void compare(const EngineResult& first, const EngineResult& second, const Setup&
   for (std::size_t i = 0; i < std::size(numbers); ++i) {
     if (numbers[i].judged == Judged::no) continue;
     const Statistic &one = first.numbers[i], &other = second.numbers[i];
-    // A program outside need not tell where the energy went; no number of runs would.
+    // An outside program need not tell where the energy went; more runs of it would not either.
     if (numbers[i].judged == Judged::share && (one.n == 0 || other.n == 0)) continue;
     const double slope = one.n > 0 ? one.mean : other.n > 0 ? other.mean : 0;
     const Equivalence found = equivalence_of(one, other, margin_of(numbers[i], margins, setup, slope));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same setup through several engines: what each makes of it, what it costs, and where they agree.
+// Runs the same setup through several engines and tells what each makes of it and where they agree.
 #pragma once
 #include <optional>
 #include <string>
@@ -23,7 +23,7 @@ struct CrosscheckNumber {
   double (*of)(const RunResult& run);
 };
 
-/// All of them, in the order of every report.
+/// Returns all numbers that are compared, in the order of every report.
 std::span<const CrosscheckNumber> crosscheck_numbers();
 
 /// Largest difference of two engines that counts as none.
@@ -33,7 +33,8 @@ struct Margins {
   double share = 0.01;          ///< of the initial energy, each class of contact
 };
 
-/// 0.10, 0.5, 0.6, 0.8 mm/s for a box of 40, 65, 85, 104 mm, the paper's; 3 % of the slope for others. m/s
+/// Returns the margin of the slope, m/s: 0.10, 0.5, 0.6, 0.8 mm/s for a box of 40, 65, 85, 104 mm, the
+/// paper's; 3 % of the slope for others.
 double slope_margin(const Margins& margins, double box_length, double slope);
 
 /// What one engine made of a setup.
@@ -59,7 +60,7 @@ struct ContactTimeLimit {
     double at_zero = 0, error = 0;  ///< SI, one standard error; NaN when a mean or an error is missing
     double chi_squared = 0;         ///< of the line, results.size() - 2 degrees of freedom
     Statistic hard;                 ///< of the hard engine, for comparison
-    /// (at_zero - hard) in units of both standard errors; NaN when there is no such number.
+    /// Returns (at_zero - hard) in units of both standard errors; NaN when there is no such number.
     double deviation() const;
   };
   std::vector<Value> values;  ///< of the judged numbers
@@ -81,15 +82,15 @@ struct Crosscheck {
   std::vector<Comparison> comparisons;  ///< of every pair, numbers that neither has left out
   std::optional<ContactTimeLimit> limit;
 
-  /// Some comparison found this.
+  /// Tells whether some comparison found this.
   bool any(Agreement verdict) const;
 };
 
-/// Throws InputError for what an engine does not model or a name that is none, what engines throw, and
-/// Interrupted.
+/// Runs and compares the engines. Throws InputError for what an engine does not model or a name that is none,
+/// what engines throw, and Interrupted.
 Crosscheck crosscheck(const std::string& name, const Setup& setup, const CrosscheckOptions& options);
 
-/// Weighted straight line through (x, y +- error): value and standard error at x = 0, and chi^2.
+/// A weighted straight line through (x, y +- error): value and standard error at x = 0, and chi^2.
 struct LineAtZero {
   double value, error, chi_squared;
 };

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "data_file.hpp"
+#include "kept_files.hpp"
 #include "output_file.hpp"
 
 namespace shakedown {
@@ -16,7 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Millimetres in the file, to nine digits: readable, and far finer than any spread.
+/// Returns a number as the file has it: in millimetres to nine digits, readable and far finer than any
+/// spread.
 double in_file(double si) { return std::round(si * 1e12) / 1e9; }
 
 Json interval_json(const Interval& allowed, const Statistic& found) {
@@ -70,6 +72,7 @@ bool same_case(const DecayBaseline& baseline, const std::string& engine, double 
 std::filesystem::path default_decay_baselines() { return data_file("linear_decay.json", DECAY_BASELINES); }
 
 std::vector<DecayBaseline> read_decay_baselines(const std::filesystem::path& file) {
+  expect_no_pipe(file);
   std::ifstream stream(file);
   if (!stream)
     throw FileError(file.string() +

@@ -13,7 +13,8 @@ namespace shakedown {
 
 namespace {
 
-/// Welch and Satterthwaite; the two numbers are the squared standard errors of the means.
+/// Returns the degrees of freedom by Welch and Satterthwaite; `first` and `second` are the squared standard
+/// errors of the means.
 double welch_degrees_of_freedom(double first, int first_n, double second, int second_n) {
   const double sum = first + second;
   return sum * sum / (first * first / (first_n - 1) + second * second / (second_n - 1));

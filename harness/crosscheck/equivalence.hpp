@@ -29,10 +29,11 @@ struct Equivalence {
   double runs_needed = 0;
 };
 
-/// Samples of the same runs share initial states, which only makes the true error smaller than Welch's.
+/// Compares two means. Samples of the same runs share initial states, which only makes the true error smaller
+/// than Welch's.
 Equivalence equivalence_of(const Statistic& first, const Statistic& second, double margin);
 
-/// "equivalent", "differ by 4.2 standard errors", "cannot tell: more runs (about 30)".
+/// Returns "equivalent", "differ by 4.2 standard errors", "cannot tell: more runs (about 30)".
 std::string in_words(const Equivalence& equivalence);
 
 }  // namespace shakedown

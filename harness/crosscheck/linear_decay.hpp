@@ -43,8 +43,8 @@ struct DecayBaseline {
 /// Fewer runs than these scatter more than the stored intervals allow for.
 constexpr int fewest_runs = 8;
 
-/// mean +- 4 sd sqrt(1/8 + 1/n): a later mean over 8 runs or more of the same physics falls outside about
-/// once in 1e4 checks (more often when n is small and the sd itself rough).
+/// Returns the intervals mean +- 4 sd sqrt(1/8 + 1/n): a later mean over 8 runs or more of the same physics
+/// falls outside about once in 1e4 checks (more often when n is small and the sd itself rough).
 DecayBaseline baseline_of(const DecayMeasurement& measured, const std::string& version,
                           const std::string& commit);
 
@@ -59,7 +59,7 @@ struct DecayCheck {
   std::string remark;
 };
 
-/// Three checks. Without a baseline slope and curvature fail.
+/// Returns the three checks. Without a baseline slope and curvature fail.
 std::vector<DecayCheck> checks_of(const DecayMeasurement& measured, const DecayBaseline* baseline);
 
 /// Runs the paper's damper with this length of the box for 9 s. Throws Interrupted, and InputError for a
@@ -67,7 +67,7 @@ std::vector<DecayCheck> checks_of(const DecayMeasurement& measured, const DecayB
 DecayMeasurement measure_decay(const Engine& engine, double length, std::uint64_t seed,
                                const EnsembleOptions& options);
 
-/// The check as text for a terminal.
+/// Returns the check as text for a terminal.
 std::string readable(const DecayCheck& check);
 
 }  // namespace shakedown

@@ -17,8 +17,8 @@ namespace shakedown {
 
 namespace {
 
-/// A knob about the effect's absence, one typical strength wide; of what does the same with both signs about
-/// that strength, for nothing is linear about zero.
+/// Returns a knob about the effect's absence, one typical strength wide. For what does the same with both
+/// signs, and for a length, it stands about the typical strength: nothing is linear about zero.
 Knob knob_of(const EffectRecord& record, const SearchedStrength& strength, const Setup& setup) {
   Knob knob{keys_of(record, strength), 0, std::abs(strength.typical), strength.low, strength.high, true};
   if (strength.inverse) {
@@ -39,8 +39,8 @@ Knob knob_of(const EffectRecord& record, const SearchedStrength& strength, const
   return knob;
 }
 
-/// A polynomial through the levels is trusted up to twice the strongest; where there are levels of both
-/// signs, of each.
+/// Sets levels and possible strengths. A polynomial through the levels is trusted up to twice the strongest;
+/// where there are levels of both signs, of each.
 void set_levels(Candidate& candidate, const SearchedStrength& strength, double absent) {
   constexpr double trusted = 2;
   double lowest = 0, highest = 0;
@@ -50,7 +50,7 @@ void set_levels(Candidate& candidate, const SearchedStrength& strength, double a
     lowest = std::min(lowest, candidate.levels.back().strength);
     highest = std::max(highest, candidate.levels.back().strength);
   }
-  // Weakest first: what is hopeless there need not be simulated stronger.
+  // Sort the weakest first: what is hopeless there need not be simulated stronger.
   std::stable_sort(candidate.levels.begin(), candidate.levels.end(),
                    [](const Candidate::Level& a, const Candidate::Level& b) {
                      return std::abs(a.strength) < std::abs(b.strength);
@@ -84,7 +84,7 @@ Candidate candidate_of(const EffectRecord& record, const Search& search, const S
   return candidate;
 }
 
-/// Strengths from `least` on.
+/// Leaves the search strengths from `least` on.
 void look_from(Search& search, double least) {
   for (SearchedStrength& strength : search.strengths) {
     strength.low = std::max(strength.low, least);
@@ -92,7 +92,7 @@ void look_from(Search& search, double least) {
   }
 }
 
-/// Each of the searches, once for each value of this shape.
+/// Returns each of the searches, once for each value of this shape.
 std::vector<Search> with_each(const std::vector<Search>& searches, const SearchedShape& shape) {
   std::vector<Search> shapes;
   for (const Search& search : searches)
@@ -106,8 +106,8 @@ std::vector<Search> with_each(const std::vector<Search>& searches, const Searche
   return shapes;
 }
 
-/// The same search, once for each value of its shapes. The momentum balance tells those of what acts on the
-/// box.
+/// Returns the same search, once for each value of its shapes. The momentum balance tells those of what acts
+/// on the box.
 std::vector<Search> shapes_of(const EffectRecord& record, const Search& search) {
   if (!has_shapes(record)) return {search};
   std::vector<Search> searches{search};
@@ -115,7 +115,7 @@ std::vector<Search> shapes_of(const EffectRecord& record, const Search& search) 
   return searches;
 }
 
-/// False where this setup cannot have it: a cubic spring without a displacement.
+/// Tells whether this setup can have it; a cubic spring cannot be without a displacement.
 bool possible_in(Setup setup, const Candidate& candidate, KnownEffects known) {
   try {
     Knob knob = candidate.fitted_knobs().front();
@@ -129,7 +129,7 @@ bool possible_in(Setup setup, const Candidate& candidate, KnownEffects known) {
   }
 }
 
-/// Another effect of the setup has replaced the part of the model that this one would.
+/// Tells whether another effect of the setup has replaced the part of the model that this one would.
 bool is_claimed(const Setup& setup, const EffectRecord& record) {
   return !record.claims.empty() &&
          std::any_of(setup.effects.begin(), setup.effects.end(), [&](const EffectChoice& choice) {
@@ -137,12 +137,12 @@ bool is_claimed(const Setup& setup, const EffectRecord& record) {
          });
 }
 
-/// What it would do nothing without is not there.
+/// Tells whether an effect without which it would do nothing is not there.
 bool is_needy(const Setup& setup, const EffectRecord& record) {
   return !record.needs.empty() && find_choice(setup, record.needs) == nullptr;
 }
 
-/// The setup has this strength already, another component of the same effect left aside.
+/// Tells whether the setup has this strength already, another component of the same effect left aside.
 bool is_present(const Setup& setup, const EffectRecord& record, const SearchedStrength& strength,
                 KnownEffects known) {
   if (find_choice(setup, record.name) == nullptr) return false;
@@ -156,7 +156,7 @@ std::vector<Candidate> all_candidates(const Setup& setup, KnownEffects known, co
   std::vector<Candidate> list;
   for (const EffectRecord* record : known) {
     const Search search = search_of(*record);
-    // the balance finds sines
+    // The balance finds sines.
     if (record->nuisance || search.harmonic || !search.not_searched.empty() || is_claimed(setup, *record) ||
         is_needy(setup, *record) || !is_modelled(engine, *record))
       continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a search has found is fitted with full effort, and what it made needless goes.
+// Fits with full effort what a search has found, and drops what that made needless.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,7 +14,7 @@ namespace {
 
 bool is_joint(const Knob& knob) { return joined_keys(knob.key).size() > 1; }
 
-/// What moves together, each by itself.
+/// Returns a knob by itself for each key of those that move together.
 std::vector<Knob> taken_apart(const std::vector<Knob>& knobs) {
   std::vector<Knob> parts;
   for (const Knob& knob : knobs)
@@ -25,8 +25,8 @@ std::vector<Knob> taken_apart(const std::vector<Knob>& knobs) {
   return parts;
 }
 
-/// Two strengths that do much the same have two valleys: most of the one, or most of the other. The better of
-/// both fits; where the data do not tell which, its intervals reach over both.
+/// Returns the better of the fits in two valleys, because two strengths that do much the same have two: most
+/// of the one, or most of the other. Where the data do not tell which, its intervals reach over both.
 Refit with_other_valley(const DiagnosisState& apart, const std::vector<std::string>& parts,
                         DiagnosisTools& tools, const std::string& stage) {
   DiagnosisState other = apart;
@@ -84,7 +84,7 @@ DiagnosisState concluded(const DiagnosisState& state, DiagnosisTools& tools, con
     apart.fit = with_other_valley(apart, parts, tools, stage);
   } catch (const BudgetSpent&) {  // the one that was found has to do
   }
-  // too many to follow
+  // Fitted by themselves they are too many for the emulator to follow.
   if ((apart.fit.scatter - state.fit.scatter) * apart.fit.degrees > rules::emulator_noise) {
     whole.fit = tools.fit(state, stage, state.knobs(), effort::conclude);
     return whole;

@@ -23,9 +23,9 @@ namespace shakedown {
 
 namespace {
 
-/// Data may be of either engine's kind: the strength of an effect in which the engines differ is uncertain by
-/// that much more. Of several strengths each by what the strongest is, for what the engines differ by may be
-/// any one's.
+/// Widens the interval of a fitted strength by what the engines differ by in its effect, because data may be
+/// of either engine's kind. Where an effect has several strengths, each gets the largest of their
+/// uncertainties, because the engines may differ in any one.
 void allow_for_engines(FittedValue& value, const Knob& knob, const Refit& fit, const DiagnoseOptions& options,
                        std::vector<std::string>& notes) {
   const std::string effect(effect_of(value.key));
@@ -41,11 +41,12 @@ void allow_for_engines(FittedValue& value, const Knob& knob, const Refit& fit, c
   const std::string note =
       "the interval of " + effect + " allows for " + write_number(std::round(100 * relative)) +
       " % by which hard impulses and soft contacts differ in it (shakedown effects " + effect + ")";
-  // Once for all the strengths of an effect.
+  // One note stands for all the strengths of an effect.
   if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
 }
 
-/// The balance knows its strengths better than any ensemble.
+/// Takes the value from the balance where that found this strength, which it knows better than any ensemble.
+/// Returns whether it did.
 bool take_from_balance(const MomentumAudit& balance, FittedValue& value) {
   for (const FoundTerm& term : balance.terms)
     if (term.frequency == 0 && term.key() == value.key) {
@@ -89,7 +90,7 @@ void note_shape(const std::string& effect, const EffectRecord& record, const Sea
                     "; it was looked for with " + others + " too");
 }
 
-/// Which of the shapes that were tried an effect was fitted with: no strength tells it.
+/// Notes which of the shapes that were tried each effect was fitted with: no strength tells it.
 void note_shapes(Diagnosis& d, KnownEffects known) {
   for (const std::string& effect : d.missing) {
     const EffectRecord* record = known.find(effect);
@@ -98,7 +99,8 @@ void note_shapes(Diagnosis& d, KnownEffects known) {
   }
 }
 
-/// What ensembles and balance say of the camera; of what both see the one that knows it better.
+/// Fills in what ensembles and balance say of the camera; where both see a number, the one that knows it
+/// better.
 void set_camera(const Refit& fit, Diagnosis& d, KnownEffects known) {
   d.camera = d.momentum.nuisances;
   for (std::size_t k = 0; k < fit.values.size(); ++k) {
@@ -116,14 +118,16 @@ void set_camera(const Refit& fit, Diagnosis& d, KnownEffects known) {
   }
 }
 
-/// The two restitutions act together in a full box; with fewer grains the walls matter more.
+/// Advises half the grains: the two restitutions act together in a full box; with fewer grains the walls
+/// matter more.
 std::string fewer_grains(const Setup& user, const FittedValue& value) {
   return "N = " + std::to_string(user.grains.count / 2) +
          ": tells the two restitutions apart, which these runs know only together (" + value.key + " +- " +
          write_number(std::round(value.error * 1e3) / 1e3) + ")";
 }
 
-/// A grain too many or too few moves as much mass as a bias of the camera or a heavier blade seems to.
+/// Advises to count the grains again where another number closes the balance as well: a grain too many or too
+/// few moves as much mass as a bias of the camera or a heavier blade seems to.
 void advise_to_count(const Setup& user, DiagnosisTools& tools, Diagnosis& d) {
   const int difference =
       miscount_in_question(grain_counts(tools.measurement(), tools.known(), d.momentum), d.momentum);
@@ -168,7 +172,7 @@ void advise_by_words(const Setup& user, const DiagnosisState& final, bool refitt
     }
 }
 
-/// The experiment that would tell the effect added last from its rival.
+/// Advises the experiments that would tell the effect added last from its rival.
 void advise_by_simulation(const DiagnosisState& final, DiagnosisTools& tools, Diagnosis& d) {
   const RunnerUp& rival = d.runner_up;
   if (d.verdict != Verdict::missing || d.promised || rival.effect.empty() ||
@@ -222,8 +226,8 @@ void complete_ranking(Diagnosis& d) {
 
 namespace {
 
-/// Effects that there was no time for: those that are named, or all but the ones found where no round was
-/// held.
+/// Returns the effects that there was no time for: those that are named in not_tried and, where no round was
+/// held, all but the ones found.
 LeftOutEffects left_out_of(const Diagnosis& d) {
   const auto in = [](const std::vector<std::string>& list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
@@ -261,7 +265,8 @@ void settle_hypotheses(Diagnosis& d, const Findings& findings) {
 
 namespace {
 
-/// They were fitted in a model without what is missing, and may have imitated it.
+/// Sets the restitutions back to what the user gave: they were fitted in a model without what is missing, and
+/// may have imitated it.
 void take_restitutions_back(const Setup& user, Diagnosis& d, KnownEffects known) {
   const auto is_restitution = [](const DiagnosedParameter& parameter) {
     return parameter.name.starts_with("restitution.");
@@ -284,7 +289,8 @@ bool names_promised(const Diagnosis& d, const std::vector<std::string>& found) {
   if (!d.promised || d.verdict != Verdict::unknown || d.momentum.unlisted || d.momentum.unexplained ||
       d.hypotheses.empty() || !(d.hypotheses.front().probability > rules::adds_effect))
     return false;
-  // Beside what was found: a hypothesis with something that was taken back since is not the answer's model.
+  // The hypothesis must be what was found and the promised effect: one with something that was taken back
+  // since is not the answer's model.
   std::vector<std::string> with = found;
   with.push_back(d.promised->effect);
   const std::vector<std::string>& effects = d.hypotheses.front().effects;

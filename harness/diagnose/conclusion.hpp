@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a diagnosis says in the end: verdict, sentence, parameters, the formula of an unknown force, and the
-// experiment to do next.
+// Fills in what a diagnosis says in the end: verdict, sentence, parameters, the formula of an unknown force,
+// and the experiment to do next.
 #pragma once
 #include "known_effects.hpp"
 #include "state.hpp"
@@ -14,25 +14,26 @@ namespace shakedown {
 void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisState& final, bool refitted,
               DiagnosisTools& tools, Diagnosis& diagnosis);
 
-/// The formula of a force that no list has, ready for a setup.
+/// Fills in the formula of a force that no list has, ready for a setup, and notes what it could be as well.
 void set_formula(Diagnosis& diagnosis);
 
-/// What the momentum balance asks for joins what was simulated; what was found first, then by gain.
+/// Adds what the momentum balance asks for to the ranking of what was simulated, and sorts it: what was found
+/// first, then by gain.
 void complete_ranking(Diagnosis& diagnosis);
 
 /// Gives something in no list its probability, and keeps the hypotheses that hold 99 %, and the fewest that
 /// hold 95 % as the answers.
 void settle_hypotheses(Diagnosis& diagnosis, const Findings& findings);
 
-/// Where nothing that was fitted explains the measurements, the balance of momentum (if there is one) is in
-/// order, and the settled table holds one hypothesis for as probable as an effect must be to be added: what
-/// was `found` and an effect that there was no time to fit. Names that hypothesis, as the verdict `missing`,
-/// the effect at the strength that its signature asks for and the restitutions as given. Else nothing is
-/// promised any more.
+/// Names a hypothesis that there was no time to fit, as the verdict `missing`, where nothing that was fitted
+/// explains the measurements, the balance of momentum (if there is one) is in order, and the settled table
+/// holds that hypothesis for as probable as an effect must be to be added. It is what was `found` and one
+/// effect more. The effect gets the strength that its signature asks for, the restitutions stay as given.
+/// Where no hypothesis is named nothing is promised any more.
 void name_promised(const Setup& user, const std::vector<std::string>& found, Diagnosis& diagnosis,
                    KnownEffects known);
 
-/// Where the model of this fit fails.
+/// Fills in where the model of this fit fails: twelve cells at most, of p below rules::doubtful.
 void note_failures(const Refit& fit, Diagnosis& diagnosis);
 
 }  // namespace shakedown

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the momentum balance to a refitted model, and from there to the answer.
+// Goes from the momentum balance to a refitted model, and from there to the answer.
 #include "course.hpp"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "camera_features.hpp"
 #include "empty_box.hpp"
 #include "engine_choice.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "from_balance.hpp"
 #include "in_order.hpp"
 #include "packing_choice.hpp"
@@ -26,7 +26,8 @@ namespace shakedown {
 
 namespace {
 
-/// Ensembles see no difference up to here, and low restitutions and drag on grains cost several times less.
+/// Makes the exact engine less exact: ensembles see no difference up to here, and low restitutions and drag
+/// on grains cost several times less.
 Setup quick(Setup setup) {
   constexpr double elastic_speed = 1e-2, kick_interval = 1e-2;  // m/s, s
   setup.hard.pair_elastic_speed = std::max(setup.hard.pair_elastic_speed, elastic_speed);
@@ -39,11 +40,11 @@ Setup emptied(Setup setup) {
   return setup;
 }
 
-/// What the balance tells of the shutter; nothing where it does not hold.
-std::optional<ValueWithError> shutter_found(const MomentumAudit& balance) {
+/// Returns what the balance tells of the shutter; nothing where the balance does not hold.
+std::optional<ValueWithError> shutter_found(const MomentumAudit& balance, KnownEffects known) {
   if (!balance.possible || !(balance.final_fit.p_value > balance_rejected)) return std::nullopt;
   for (const NuisanceFound& one : balance.nuisances)
-    if (one.name == shutter_key) return ValueWithError{one.value, one.error};
+    if (one.name == known.key_of(&Camera::shutter)) return ValueWithError{one.value, one.error};
   return std::nullopt;
 }
 
@@ -54,7 +55,7 @@ Diagnosis Course::run() {
   tools_.begin("momentum balance");
   MomentumOptions balance;
   balance.effects = tools_.options().effects;
-  balance.formulas = allowed(tools_.options(), "user_force");
+  balance.formulas = allowed(tools_.options(), formula_effect_name);
   balance.out_of_time = [this] { return tools_.time_is_up(); };
   if (is_empty(user_, tools_.measurement())) {
     judge_empty_box(balance);
@@ -155,7 +156,7 @@ void Course::judge() {
   tools_.limit_to(1);
   if (!final.missing.empty() && final.missing != refitted.missing && final.missing != wholly_fitted_)
     final = with_full_effort(final);
-  // It tells strengths better than the fit that weighed both of a pair.
+  // A fit with full effort tells strengths better than the one that weighed both of a pair.
   if (final.missing != refitted.missing && added_last_ > 1) {
     const DiagnosisState less = still_needed(final, added_last_);
     if (less.missing != final.missing) final = with_full_effort(less);
@@ -168,8 +169,8 @@ void Course::judge() {
 DiagnosisState Course::with_packing() {
   DiagnosisState state;
   state.setup = quick(user_);
-  state.camera =
-      camera_knobs(state.setup, tools_.measurement(), tools_.known(), shutter_found(result_.momentum));
+  state.camera = camera_knobs(state.setup, tools_.measurement(), tools_.known(),
+                              shutter_found(result_.momentum, tools_.known()));
   const auto [packing, apart, fits] = packing_before_release(user_, tools_.measurement(), tools_.known());
   if (!fits)
     result_.notes.push_back(
@@ -210,7 +211,8 @@ DiagnosisState Course::with_terms(DiagnosisState state, const std::vector<FoundT
   state = with_balance(state, terms, tools_.measurement(), *tools_.workshop().engine, tools_.options(),
                        result_.notes);
   if (!first_periods_) return state;
-  // A layer of lasting contacts begins almost without chance: a box as wide as what is believed is no line.
+  // A layer whose contacts last begins almost without chaos, so that over a box as wide as what is believed
+  // its features are no line.
   state.fit = *first_periods_;
   state = state.settled(tools_.known());
   state.fit = {};
@@ -221,7 +223,7 @@ DiagnosisState Course::with_what_was_found(DiagnosisState state, const std::vect
                                            double frequency) {
   state = with_terms(std::move(state), terms, frequency);
   const MomentumAudit& balance = result_.momentum;
-  if (balance.unlisted && allowed(tools_.options(), "user_force"))
+  if (balance.unlisted && allowed(tools_.options(), formula_effect_name))
     state.setup = with_force(state.setup, sum_of(balance.formulas), tools_.known());
   return state;
 }
@@ -262,7 +264,7 @@ Refit Course::fit_within(double share, const DiagnosisState& state, const std::s
 /// The balance tells the sum of forces on box and grains; where the model with the box's fails, that with the
 /// grains' may hold.
 DiagnosisState Course::with_the_force_on_its_body(const DiagnosisState& on_box) {
-  if (!is_rejected(on_box.fit) || !allowed(tools_.options(), "user_force")) return on_box;
+  if (!is_rejected(on_box.fit) || !allowed(tools_.options(), formula_effect_name)) return on_box;
   const std::optional<UnlistedForce> shared =
       shared_by_grains(sum_of(result_.momentum.formulas), on_box.setup.grains.count);
   if (!shared) return on_box;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The course of a diagnosis: every step makes a new state from the one before.
+// Runs the course of a diagnosis: every step makes a new state from the one before.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,6 +11,7 @@
 
 namespace shakedown {
 
+/// Makes one diagnosis.
 class Course {
  public:
   /// `recorded`: as the films show it; `measurement`: each run from where simulations of it begin. All must
@@ -19,30 +20,36 @@ class Course {
          const DiagnoseOptions& options)
       : user_(user), recorded_(recorded), tools_(measurement, engine, options) {}
 
-  /// Once. InputError, PhysicsError and Interrupted pass.
+  /// Runs the whole course; may be called once. InputError, PhysicsError and Interrupted pass.
   Diagnosis run();
 
  private:
-  /// Amplitude, lag, loss factor and effective mass beside the final model's; nothing once the time is up.
+  /// Compares amplitude, lag, loss factor and effective mass of forced runs with the final model's; does
+  /// nothing once the time is up.
   void compare_forced_runs();
-  /// Formulas are looked for where no law of the list explains the waveform.
+  /// Judges boxes without grains. Formulas are looked for where no law of the list explains the waveform.
   void judge_empty_box(const MomentumOptions& whole);
+  /// Judges boxes with grains: from the model as given to the answer.
   void judge();
+  /// Returns the first state, with the packing and the camera that the recordings show.
   DiagnosisState with_packing();
-  /// Who simulates from now on, after the question which engine makes what the films show.
+  /// Chooses the engine that simulates from now on, by the question which engine makes what the films show.
   DiagnosisState with_engine(DiagnosisState state);
+  /// Returns the spring's frequency that the balance found, or else the setup's, Hz.
   double frequency_found() const;
-  /// Parameters free, and these strengths that the balance found; about what the first periods told, where
-  /// they were fitted.
+  /// Returns the state with its parameters free, and with these strengths that the balance found; about what
+  /// the first periods told, where they were fitted.
   DiagnosisState with_terms(DiagnosisState state, const std::vector<FoundTerm>& terms, double frequency);
-  /// with_terms, and the formula that the balance wrote for a force of no list.
+  /// Returns with_terms(), with the formula that the balance wrote for a force of no list.
   DiagnosisState with_what_was_found(DiagnosisState state, const std::vector<FoundTerm>& terms,
                                      double frequency);
+  /// Returns the state with its parameters and what the balance found fitted.
   DiagnosisState refit_of(const DiagnosisState& before);
-  /// A fit that an answer cannot do without, in this share of simulations and time: with less effort where
-  /// they do not suffice.
+  /// Makes a fit that an answer cannot do without, in this share of simulations and time; with the least
+  /// effort where they do not suffice.
   Refit fit_within(double share, const DiagnosisState& state, const std::string& stage, Effort effort);
-  /// What `step` makes of a state, or the state as it is where simulations or time do not suffice.
+  /// Returns what `step` makes of a state, or `otherwise` where simulations or time do not suffice or the
+  /// engine gives up.
   template <typename Step>
   DiagnosisState unless_spent(const std::string& name, const DiagnosisState& otherwise, Step&& step) {
     try {
@@ -54,29 +61,37 @@ class Course {
     }
     return otherwise;
   }
+  /// Names a step among those that were left out, once.
   void leave_out(const std::string& step);
+  /// Takes an effect back in the table of hypotheses (taken_back()).
   void take_back(const std::string& effect);
-  /// The balance weighs impulses alone. Where what it found leaves the whole motion unexplained, the sets
-  /// that it could not rule out are tried, and the most probable one with the motion counted in is kept.
+  /// Returns the state with the formula's force on the grains, where the model with it on the box fails and
+  /// that one is better.
   DiagnosisState with_the_force_on_its_body(const DiagnosisState& on_box);
+  /// Tries the sets that the balance could not rule out, where what it found leaves the whole motion
+  /// unexplained: the balance weighs impulses alone. The most probable one with the motion counted in is
+  /// kept.
   DiagnosisState settled_by_ensembles(const DiagnosisState& before, const DiagnosisState& found);
-  /// The fit of parameters may have ended at the wrong place of a valley. The state with the better fit; the
-  /// ladder follows.
+  /// Looks beside a doubtful fit of parameters, which may have ended at the wrong place of a valley. Returns
+  /// the state with the better fit; the ladder follows.
   DiagnosisState& beside(DiagnosisState& refitted);
-  /// Effects one after the other, while something more is probably missing. `refitted`, without any of them,
-  /// is looked beside where it is doubtful and nothing was found that is sure.
+  /// Adds effects one after the other, while something more is probably missing. Looks beside `refitted`, the
+  /// state without any of them, where it is doubtful and nothing was found that is sure.
   DiagnosisState search(DiagnosisState& refitted);
+  /// Returns the state fitted with full effort, or as it is where that is worse or there is no time for it.
   DiagnosisState with_full_effort(DiagnosisState state);
-  /// Without what later effects have made needless; `added`: how many were added last at once.
+  /// Returns the state without what later effects have made needless; `added`: how many were added last at
+  /// once.
   DiagnosisState still_needed(DiagnosisState state, std::size_t added);
-  /// An effect that was added to a model which the data accept, and of which the last fit finds next to
-  /// nothing, is taken back; so is what was added between two models that the data reject, where no error
-  /// falls.
+  /// Takes back an effect that was added to a model which the data accept, where the last fit finds next to
+  /// nothing of it or no error falls with it; and what was added between two models that the data reject,
+  /// where no error falls.
   DiagnosisState without_untold(DiagnosisState state, const DiagnosisState& refitted);
-  /// Says so of what `state` has beyond `refitted`, which is what stands.
+  /// Takes back, with a note, what `state` has beyond `refitted`, which it returns.
   DiagnosisState without_added(const DiagnosisState& state, const DiagnosisState& refitted);
+  /// Keeps an effect of the ranking; a fitted one stands in for one that was not.
   void keep_ranked(const RankedEffect& ranked);
-  /// What was not looked at stays as probable as it was.
+  /// Adds what was not looked at to the hypotheses, as probable as it was beforehand.
   void keep_priors(const DiagnosisState& state);
 
   const Setup& user_;
@@ -90,10 +105,10 @@ class Course {
   std::vector<std::string> wholly_fitted_;  ///< effects beside which the last fit was made already
 };
 
-/// No run has grains, whether the setup says so or the runs do.
+/// Tells whether no run has grains, whether the setup says so or the runs do.
 bool is_empty(const Setup& setup, const Measurement& measurement);
 
-/// Of the ladder.
+/// Returns the name of the ladder's step with these effects: "refitted + ...".
 std::string step_name(const std::vector<std::string>& effects);
 
 }  // namespace shakedown

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The search of a diagnosis: rounds beside the refitted model, and what their fits leave.
+// Searches for effects: in rounds beside the refitted model, with what their fits leave.
 #include <algorithm>
 
 #include "course.hpp"
@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* last_refit = "the last refit";
 
-/// So probable that no better fit of the model without it would take it back.
+/// Tells whether the round added an effect so probable that no better fit of the model without it would take
+/// it back.
 bool is_sure(const SearchRound& round) {
   return round.added && std::any_of(round.table.begin(), round.table.end(), [](const Hypothesis& h) {
            return !h.effects.empty() && h.log_odds > rules::emulator_noise;
@@ -36,8 +37,9 @@ DiagnosisState& Course::beside(DiagnosisState& refitted) {
 
 DiagnosisState Course::search(DiagnosisState& refitted) {
   DiagnosisState state = refitted;
-  // Until nothing is added, though the data accept the model: chi2 of hundreds of features does not see what
-  // a single effect would take away. Where runs cost several times a plain one, only while they do not.
+  // Search until nothing is added, though the data accept the model: chi2 of hundreds of features does not
+  // see what a single effect would take away. Where runs cost several times a plain one, search on only while
+  // they do not.
   for (bool searched = false;; searched = true) {
     if (static_cast<double>(state.missing.size()) >= rules::most_effects) break;
     if (searched && state.dear && state.fit.p_value > rules::doubtful) break;
@@ -70,7 +72,7 @@ DiagnosisState Course::search(DiagnosisState& refitted) {
     runner_up_ = {round.next.missing.back(), round.runner_up, round.runner_up_setup};
     result_.ladder.push_back(step_of(step_name(state.missing), state.fit));
     state = still_needed(std::move(state), added_last_);
-    // The fit that is made in the end anyway, where it may spare a round.
+    // Make the fit of the end now, where it may spare a round.
     if (state.fit.p_value <= rules::doubtful) state = with_full_effort(state).settled(tools_.known());
   }
   result_.runner_up = runner_up_;
@@ -79,7 +81,7 @@ DiagnosisState Course::search(DiagnosisState& refitted) {
 
 DiagnosisState Course::still_needed(DiagnosisState state, std::size_t added) {
   const std::vector<std::string> before = state.missing;
-  // A pair was weighed as a whole: that both are needed is worth what was kept for the last fit.
+  // A pair was weighed as a whole: to know that both are needed is worth what was kept for the last fit.
   const double limit = tools_.limit();
   if (added > 1) tools_.limit_to(1);
   state = unless_spent("which effects are still needed", state,
@@ -95,7 +97,7 @@ DiagnosisState Course::still_needed(DiagnosisState state, std::size_t added) {
 DiagnosisState Course::with_full_effort(DiagnosisState state) {
   state = unless_spent(last_refit, state, [&] {
     DiagnosisState whole = concluded(state, tools_, "refitting with what was found");
-    // A model that is far off may send it astray.
+    // Do not follow a fit that ended astray, as one of a model that is far off may.
     if ((whole.fit.scatter - state.fit.scatter) * state.fit.degrees > rules::emulator_noise) whole = state;
     wholly_fitted_ = state.missing;
     std::erase(result_.not_tried, last_refit);
@@ -107,8 +109,9 @@ DiagnosisState Course::with_full_effort(DiagnosisState state) {
 }
 
 DiagnosisState Course::without_untold(DiagnosisState state, const DiagnosisState& refitted) {
-  // Its evidence was of a fit with less effort. Intervals of what restitutions imitate are wide, so that only
-  // a strength which is none for all purposes speaks against it (an assumption), or that no error falls.
+  // The evidence of the effect was of a fit with less effort. Intervals of what restitutions imitate are
+  // wide, so that only a strength which is none for all purposes speaks against it (an assumption), or that
+  // no error falls.
   constexpr double of_no_strength = 0.5;  // standard errors
   if (state.missing.empty() || state.missing == refitted.missing) return state;
   if (!accepted_)

@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "course.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "known_setup.hpp"
 #include "release_known.hpp"
 #include "rules.hpp"
@@ -17,7 +17,7 @@ namespace shakedown {
 
 namespace {
 
-/// What the user wants fixed is known exactly, as the setup says it.
+/// Returns the measurement in which what the user wants fixed is known exactly, as the setup says it.
 Measurement with_fixed(Measurement measurement, const Setup& user, const DiagnoseOptions& options) {
   for (const std::string& key : options.fixed) {
     std::erase_if(measurement.known, [&](const KnownValue& one) { return one.key == key; });

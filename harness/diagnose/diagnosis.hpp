@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// From measurements to the missing effect. Two likelihoods: the momentum balance (no simulation) sees forces
-// on the box, ensembles of the hard engine see everything else. Each hypothesis (nothing, an effect, several,
-// the camera, a force of no list) gets a probability; the most probable one is fitted, and what remains is
-// tested.
+// Diagnoses which effects a model lacks, from measurements. It has two likelihoods: the momentum balance (no
+// simulation) sees forces on the box, ensembles of the hard engine see everything else. Each hypothesis
+// (nothing, an effect, several, the camera, a force of no list) gets a probability; the most probable one is
+// fitted, and what remains is tested.
 #pragma once
 #include <functional>
 #include <memory>
@@ -20,14 +20,15 @@
 
 namespace shakedown {
 
-/// In Diagnosis::not_tried where there was no time to look for any further effect.
+/// Stands in Diagnosis::not_tried where there was no time to look for any further effect.
 constexpr const char* no_round_held = "one more effect";
 
-/// adequate: the model holds as given. refit: with other values of its parameters. measurement: with errors
-/// of camera or clock within what is known of them. missing: effects are missing. unknown: none that is known
-/// explains the data.
+/// Says what explains the data. adequate: the model holds as given. refit: with other values of its
+/// parameters. measurement: with errors of camera or clock within what is known of them. missing: effects are
+/// missing. unknown: none that is known explains the data.
 enum class Verdict { adequate, refit, measurement, missing, unknown };
 
+/// Holds a parameter of the answer's model, SI, with its 95 % interval.
 struct DiagnosedParameter {
   std::string name;  ///< setup path
   double value = 0, low = 0, high = 0;
@@ -35,6 +36,7 @@ struct DiagnosedParameter {
   std::string word;  ///< value in words (a packing); empty for numbers
 };
 
+/// Says how much one effect would explain.
 struct RankedEffect {
   std::string effect;
   double gain = 0;  ///< fall of chi2 when it joins, everything else refitted
@@ -47,6 +49,7 @@ struct RankedEffect {
   bool by_balance = false;  ///< its gain is that of the momentum balance, which needs no simulation
 };
 
+/// Says what one of the models that were tried leaves: rms of all runs.
 struct LadderStep {
   std::string step;
   double error_box = 0, error_centre = 0, held_out_error_box = 0;  ///< m
@@ -54,20 +57,20 @@ struct LadderStep {
   double p_value = 1, scatter = 1;
 };
 
-/// Restitution as a free function of the closing speed, beside a model that no known effect mends.
+/// Holds restitution as a free function of the closing speed, beside a model that no known effect mends.
 struct FreeRestitution {
   ContactCurve curve;
   Setup setup;               ///< with the effect user_restitution and what else was fitted, ready to try
   LadderStep without, with;  ///< the model that fails, and the same with the curve
 };
 
-/// What explains the data nearly as well as the effect that was added, as it was fitted.
+/// Names what explains the data nearly as well as the effect that was added, as it was fitted.
 struct RunnerUp {
   std::string added, effect;  ///< empty: none
   Setup setup;
 };
 
-/// The most probable effect, where there was no time to fit it: what its signature says of it.
+/// Names the most probable effect, where there was no time to fit it, with what its signature says of it.
 struct PromisedEffect {
   std::string effect;
   std::vector<std::pair<std::string, double>> besides;  ///< setup paths and values (SI) that it needs
@@ -76,6 +79,7 @@ struct PromisedEffect {
 
 struct LastFit;
 
+/// Holds all that a diagnosis says.
 struct Diagnosis {
   std::string engine;  ///< that simulated
   Verdict verdict = Verdict::adequate;
@@ -100,7 +104,7 @@ struct Diagnosis {
       free_restitution;  ///< for what lies inside the contacts, where a curve explains it
   std::vector<std::string> next_experiments;
   RunnerUp runner_up;
-  /// Among what is missing, and not fitted for want of time.
+  /// The effect among what is missing that was not fitted for want of time.
   std::optional<PromisedEffect> promised;
   std::vector<std::string> notes;
   Setup amended;  ///< the user's setup with effects and refitted values
@@ -110,6 +114,7 @@ struct Diagnosis {
   std::shared_ptr<const LastFit> last_fit;  ///< last_fit.hpp; null where nothing was fitted
 };
 
+/// Says what a diagnosis may do.
 struct DiagnoseOptions {
   std::vector<std::string> effects;  ///< only these may be added; empty: all
   std::int64_t budget = 0;           ///< simulations at most; 0: usual_budget()
@@ -117,7 +122,7 @@ struct DiagnoseOptions {
   int threads = 0;
   KnownEffects known;
   const std::atomic<bool>* stop = nullptr;
-  /// Told of the stage in words and the fraction of the budget used; may be empty.
+  /// Is told the stage in words and the fraction of the budget used; may be empty.
   std::function<void(const std::string& stage, double fraction)> progress;
   std::vector<std::string> fixed{};  ///< of the restitutions and the spring's frequency: those known
                                      ///< otherwise (a drop test), not refitted
@@ -131,27 +136,28 @@ struct DiagnoseOptions {
   SimulationJournal* journal = nullptr;  ///< of this diagnosis, begun before or not; may be null
 };
 
-/// Simulations that a diagnosis may make unless told otherwise: 10000 for each different setup among the
-/// runs, for four at least.
+/// Returns the simulations that a diagnosis may make unless told otherwise: 10000 for each different setup
+/// among the runs, for four at least.
 std::int64_t usual_budget(const Measurement& measurement);
 
-/// Fewer do not make an answer.
+/// Returns the fewest simulations that make an answer: those of two fits of the least effort.
 std::int64_t least_budget(const Measurement& measurement);
 
-/// Throws InputError when the setup does not fit the experiment, Interrupted when stopped.
+/// Tells which effects the setup lacks to explain the measurement, and how sure that is. Throws InputError
+/// when the setup does not fit the experiment, Interrupted when stopped.
 Diagnosis diagnose(const Setup& setup, const Measurement& measurement, const Engine& engine,
                    const DiagnoseOptions& options);
 
-/// The word of `verdict` in diagnosis.json.
+/// Returns the word of `verdict` in diagnosis.json.
 std::string_view name_of(Verdict verdict);
 
-/// The whole diagnosis as JSON text.
+/// Returns the whole diagnosis as JSON text.
 std::string diagnosis_json(const Diagnosis& diagnosis);
 
-/// Where a model fails, a line for a terminal.
+/// Returns a line for a terminal that says where a model fails.
 std::string line_of(const FailureCell& cell);
 
-/// The whole diagnosis as text for a terminal.
+/// Returns the whole diagnosis as text for a terminal.
 std::string diagnosis_text(const Diagnosis& diagnosis);
 
 }  // namespace shakedown

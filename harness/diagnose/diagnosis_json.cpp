@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What is none becomes null with a reason (explain_missing_numbers).
+/// Returns the number; one that is none becomes null with a reason later (explain_missing_numbers).
 Json number(double value) { return value; }
 
 std::string reason_of(const Diagnosis& d, const std::string& path) {
@@ -79,7 +79,7 @@ Json momentum_json(const MomentumAudit& audit) {
           {"terms", terms}};
 }
 
-/// Empty where no run is forced.
+/// Returns the forced runs beside the model; empty where no run is forced.
 Json forced_json(const std::vector<DecayComparison>& runs) {
   Json list = Json::array();
   for (const DecayComparison& run : runs) {

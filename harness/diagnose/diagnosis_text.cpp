@@ -41,7 +41,7 @@ std::string camera_text(const Diagnosis& d) {
   return text.empty() ? "" : "\n  camera and weights, as the data show them\n" + text;
 }
 
-/// "-" where nothing was measured.
+/// Returns a length in mm; "-" where nothing was measured.
 std::string in_mm(double metres) { return std::isfinite(metres) ? fmt::format("{:.3f}", metres * 1e3) : "-"; }
 
 std::string suspects_text(const std::vector<RankedEffect>& ranking) {
@@ -63,7 +63,7 @@ std::string suspects_text(const std::vector<RankedEffect>& ranking) {
   return text;
 }
 
-/// The effect that has the curve, a line for each of the setup's.
+/// Returns the effect that has the curve, a line for each of the setup's.
 std::string restitution_to_try(const Setup& setup) {
   std::string text = fmt::format(
       "\n  to try, with restitution.grain_grain = {:.4g} and restitution.grain_wall = {:.4g} (--out writes "

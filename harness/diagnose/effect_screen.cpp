@@ -39,7 +39,7 @@ void name_look_alikes(const std::vector<Eigen::VectorXd>& changes, std::vector<S
     }
 }
 
-/// A second look may make it more than doubtful, beside the best one and beside nothing.
+/// Tells whether a second look may make it more than doubtful, beside the best one and beside nothing.
 bool is_left_open(const ScreenedEffect& effect, double most, double searched) {
   if (!effect.weighed) return false;
   const double doubted = std::log(rules::doubtful);
@@ -103,7 +103,7 @@ bool EffectScreen::may_be_missing(const ScreenedEffect& effect, double best) con
 bool EffectScreen::glance(const Candidate& candidate, Weighed& one) {
   simulations_->look_at_the_middle(candidate, effort_.glance, one.looked);
   if (!one.looked.levels.empty()) weigh_again(candidate, one);
-  // Beside nothing alone, while the best one is not known.
+  // It is judged beside nothing alone, while the best one is not known.
   if (!one.looked.whole &&
       (one.looked.levels.empty() || (!effort_.middle_alone && may_be_missing(one.effect, 0)))) {
     simulations_->look(candidate, effort_.glance, one.looked);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which effects are worth a fit, and how probable each is: every candidate is simulated at a few strengths
-// beside the fitted model, with its parameters as they are fitted, and the measured features say which
-// strength they ask for when those parameters move along. A fit only confirms.
+// Tells which effects are worth a fit, and how probable each is: every candidate is simulated at a few
+// strengths beside the fitted model, with its parameters as they are fitted, and the measured features say
+// which strength they ask for when those parameters move along. A fit only confirms.
 #pragma once
 #include <map>
 #include <memory>
@@ -14,6 +14,7 @@
 
 namespace shakedown {
 
+/// Says what the signature of one candidate tells.
 struct ScreenedEffect {
   std::size_t candidate = 0;  ///< index among the candidates
   std::string effect;
@@ -27,6 +28,7 @@ struct ScreenedEffect {
   double share_seen = 1;  ///< of the gain, that the noise of the simulations leaves
 };
 
+/// Holds the candidates that were weighed, and those that could not be.
 struct Screening {
   std::vector<ScreenedEffect> list;  ///< best first
   struct LeftOut {
@@ -35,7 +37,7 @@ struct Screening {
   std::vector<LeftOut> left_out;  ///< candidates that the engine could not simulate
 };
 
-/// Two effects at once, as their signatures add.
+/// Says what the signatures of two effects at once tell, which add.
 struct ScreenedPair {
   std::size_t first = 0, second = 0;               ///< indices among the candidates
   double first_strength = 0, second_strength = 0;  ///< from absence, most likely ones
@@ -44,43 +46,48 @@ struct ScreenedPair {
 
 class ScreenSimulations;
 
-/// The model without candidates, simulated once, and what is asked of it. `fitted` stand at their fitted
-/// values, in the order of the knobs that were fitted. `first_run` addresses the random numbers. PhysicsError
-/// and InputError are of the model without candidates.
+/// Holds the model without candidates, simulated once, and weighs candidates beside it.
 class EffectScreen {
  public:
+  /// Simulates the model without candidates, as far as `start` has not what is needed. `fitted` stand at
+  /// their fitted values, in the order of the knobs that were fitted. `first_run` addresses the random
+  /// numbers. PhysicsError and InputError are of the model without candidates.
   EffectScreen(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted, const Workshop& workshop,
                const ScreenEffort& effort, int first_run, const ScreenStart& start = {});
   ~EffectScreen();
   EffectScreen(const EffectScreen&) = delete;
   EffectScreen& operator=(const EffectScreen&) = delete;
 
-  /// Each of them at its levels, best first. What there is no time for is not weighed.
+  /// Weighs each candidate by simulations at its levels, best first. What there is no time for is in the
+  /// list, not weighed.
   Screening weigh(const std::vector<Candidate>& candidates);
 
-  /// Pairs of different effects among those weighed last whose signatures were simulated, best first; no
-  /// simulations of their own.
+  /// Returns the pairs of different effects among those weighed last whose signatures were simulated, best
+  /// first; makes no simulations of its own.
   std::vector<ScreenedPair> pairs(const std::vector<Candidate>& candidates) const;
 
-  /// ln of the likelihood of another model of the same runs over that of the model without candidates, both
-  /// by their means and spreads at the values given, camera and what else is free moved along: simulated at
-  /// `values`, parameters among them wherever a fit put them. BudgetSpent, PhysicsError and InputError pass.
+  /// Returns ln of the likelihood of another model of the same runs over that of the model without
+  /// candidates, both by their means and spreads, camera and what else is free moved along. `other` is
+  /// simulated `count` times at `values`, parameters among them wherever a fit put them. BudgetSpent,
+  /// PhysicsError and InputError pass.
   double log_likelihood_ratio(const std::vector<MeasuredFeatures>& other, const std::vector<Knob>& values,
                               int count);
 
  private:
   struct Weighed;
+  /// Weighs a candidate by all simulations that it has.
   void weigh_again(const Candidate& candidate, Weighed& one);
-  /// False: it cannot be simulated here.
+  /// Weighs a candidate by a few simulations. Returns false where it cannot be simulated here.
   bool glance(const Candidate& candidate, Weighed& one);
+  /// Tells whether more simulations may make the effect probable beside one of ln evidence `best`.
   bool may_be_missing(const ScreenedEffect& effect, double best) const;
-  /// Those worth more simulations than a glance, best first.
+  /// Simulates those that are worth more than a glance, best first.
   void look_closer(const std::vector<Candidate>& candidates, std::vector<Weighed>& list);
 
   std::unique_ptr<ScreenSimulations> simulations_;
   std::map<std::size_t, Signature> signatures_;  ///< of candidates that were simulated, by index
   ScreenEffort effort_;
-  std::size_t searched_;  ///< effects, of which any may be missing
+  std::size_t searched_;  ///< number of effects that are looked for
 };
 
 }  // namespace shakedown

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the simulations and the time of a diagnosis go, and what its cheap looks are wrong by. What decides
-// between hypotheses that were fitted stands in rules.hpp.
+// Says where the simulations and the time of a diagnosis go, and what its cheap looks are wrong by. What
+// decides between hypotheses that were fitted stands in rules.hpp.
 #pragma once
 #include <span>
 
@@ -10,8 +10,8 @@
 
 namespace shakedown {
 
-/// How closely to look: re-centrings, simulations of each different setup in a fit's last round and at its
-/// solution.
+/// Says how closely to look: re-centrings, simulations of each different setup in a fit's last round and at
+/// its solution.
 struct Effort {
   int rounds, count, confirming;
   bool beside = false;  ///< a poor one looks on both sides along what is known least
@@ -19,7 +19,7 @@ struct Effort {
   bool whole = false;   ///< not cut where runs are dear: its intervals are the answer's
   int looks = 2;        ///< more, where the first was misled or is poor
 };
-/// Of each different setup.
+/// Counts the simulations of each different setup in a fit of this effort.
 constexpr int simulations_of(const Effort& effort) {
   return (effort.rounds - 1) * simulations_on_the_way(effort.count) + effort.count + effort.confirming;
 }
@@ -34,7 +34,8 @@ constexpr Effort look{1, 128, 0}, refit{2, 160, 128}, beside{2, 160, 128, true},
 constexpr int most_when_dear = 80;
 constexpr std::size_t most_pairs = 2;
 constexpr ScreenEffort rank{}, rank_when_dear{32, 48, {8, 8, 8}, {12, 12, 12}};
-/// The same where signatures say little but at which strength a short fit begins.
+/// Returns the same effort at the middle levels alone, where signatures say little but at which strength a
+/// short fit begins.
 constexpr ScreenEffort at_the_middle(ScreenEffort effort) {
   effort.middle_alone = true;
   return effort;
@@ -73,22 +74,22 @@ constexpr Rule astray{
     "leaves out"};
 }  // namespace effort
 
-/// Of simulations and time, up to the end of a step: the search for effects is to have its part though the
-/// model without them is dear (its restitutions take up what is missing, and low ones cost several times a
-/// plain run). What decides that nothing is left for it is rules::for_the_search.
+/// Shares of simulations and time that may be spent up to the end of a step: the search for effects is to
+/// have its part though the model without them is dear (its restitutions take up what is missing, and low
+/// ones cost several times a plain run). What decides that nothing is left for it is rules::for_the_search.
 namespace share {
 constexpr double model_as_given = 0.2, first_refit = 0.45;
-/// By the wrong engine all that follows is in vain. An assumption: 20 % of 240 s of a core were too little
-/// for five films of seventeen grains.
+/// For the choice of the engine: with the wrong one all that follows is in vain. An assumption: 20 % of 240 s
+/// of a core were too little for five films of seventeen grains.
 constexpr double engine_choice = 0.35;
-/// Of what a round of the search may take: a signature alone names nothing, and its fit is to have its part.
+/// Leaves the fit a part of the round, since a signature alone names nothing.
 constexpr double ranking_of_a_round = 0.5;
-/// Where signatures say little they are to leave time for short fits of each effect, and these for the fits
-/// that they choose: assumptions.
+/// Where signatures say little, they leave time for short fits of each effect, and these for the fits that
+/// they choose (assumptions).
 constexpr double ranking_when_far_off = 0.3, short_fits_of_the_rest = 0.5, short_fits_while_none_holds = 0.8;
 }  // namespace share
 
-/// Those with a name, in this order.
+/// Returns the rules of namespace effort, in this order.
 std::span<const Rule> effort_rules();
 
 }  // namespace shakedown

@@ -11,7 +11,7 @@
 #include "conclusion.hpp"
 #include "distributions.hpp"
 #include "errors.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "last_fit.hpp"
@@ -42,7 +42,7 @@ LadderStep step_of(const std::string& name, const SwingError& swing, double floo
   return step;
 }
 
-/// What the balance found goes into the user's setup.
+/// Puts what the balance found into the user's setup.
 void amend(const Setup& user, KnownEffects known, Diagnosis& d) {
   d.amended = user;
   if (d.momentum.unlisted) d.amended = with_force(user, sum_of(d.momentum.formulas), known);
@@ -63,7 +63,8 @@ void amend(const Setup& user, KnownEffects known, Diagnosis& d) {
   d.amended.spring.frequency = d.momentum.frequency;
 }
 
-/// What the ends of the parameters' intervals do to the motion of one run, rms, as a standard uncertainty, m.
+/// Returns what the ends of the parameters' intervals do to the motion of one run, rms, as a standard
+/// uncertainty, m; NaN where the box runs away there.
 double input_uncertainty(const SwingFrames& frames, const FirstTurn& turn, const Setup& setup,
                          const Engine& engine, KnownEffects known, const Diagnosis& d) {
   const Eigen::VectorXd here = residual_of(frames, turn, setup, engine);
@@ -85,7 +86,7 @@ double input_uncertainty(const SwingFrames& frames, const FirstTurn& turn, const
   return std::sqrt(squares) / normal_95;
 }
 
-/// Each run against the final model, its turn fitted.
+/// Compares each run with the final model, its turn fitted.
 std::vector<Validation> validation_by_compare(const Measurement& final, const Engine& engine,
                                               KnownEffects known, const Diagnosis& d) {
   std::vector<Validation> rows;
@@ -140,13 +141,13 @@ SwingError swing_error(const Measurement& measurement, const Engine& engine, boo
 
 namespace {
 
-/// How much of chi2 a frame `final` takes away.
+/// Returns the share of chi2 a frame that `final` takes away; 0 where that is no number.
 double share_explained(const SwingError& given, const SwingError& final) {
   const double share = 1 - final.chi2 / given.chi2 * given.frames / std::max(1.0, final.frames);
   return std::isfinite(share) ? share : 0;
 }
 
-/// The verdict of an empty box, by the same rule as all others.
+/// Fills in the verdict of an empty box, by the same rule as all others.
 void judge(const Measurement& final_model, const Engine& engine, KnownEffects known,
            const SwingError& given_in_phase, const SwingError& final, Diagnosis& d) {
   const MomentumAudit& balance = d.momentum;
@@ -173,7 +174,7 @@ void judge(const Measurement& final_model, const Engine& engine, KnownEffects kn
   settle_hypotheses(d, findings);
 }
 
-/// The values of the laws found, with 95 % intervals, and the effects that the setup lacks.
+/// Fills in the values of the laws found, with 95 % intervals, and the effects that the setup lacks.
 void name_laws(const Setup& user, const WaveformAnswer& answer, KnownEffects known, bool held_frequency,
                Diagnosis& d) {
   const WaveformFit& fit = answer.sets.front().fit;

@@ -40,7 +40,7 @@ EngineChoice chosen_engine(const DiagnosisState& model, DiagnosisTools& tools) {
   const DiagnoseOptions& options = tools.options();
   const Measurement& measurement = tools.measurement();
   if (options.lasting_contacts == nullptr || !lie_in_one_layer(measurement)) return choice;
-  // It counts in the limits: where they are too narrow for the question it is not asked.
+  // The question counts in the limits: where they are too narrow for it, it is not asked.
   if (options.budget > 0 &&
       options.budget < least_budget(measurement) + 2 * first_look.count * std::ssize(measurement.runs))
     return choice;

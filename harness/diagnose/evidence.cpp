@@ -102,7 +102,7 @@ std::vector<Hypothesis> answer_set(const std::vector<Hypothesis>& table) {
 
 namespace {
 
-/// Adds it, or its probability where the same set is there already.
+/// Adds the hypothesis, or its probability where the same set is there already.
 void add_to(std::vector<Hypothesis>& table, Hypothesis hypothesis) {
   const auto same = std::find_if(table.begin(), table.end(), [&](const Hypothesis& other) {
     return std::is_permutation(other.effects.begin(), other.effects.end(), hypothesis.effects.begin(),

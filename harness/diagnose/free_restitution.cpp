@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* stage = "restitution as a function of speed";
 
-/// The model with a level curve in place of its own law, and its strength gone from the knobs.
+/// Returns the model with a level curve in place of its own law, whose strength is no knob any more.
 DiagnosisState with_curve(const DiagnosisState& failing, KnownEffects known) {
   DiagnosisState state = is_led_astray(failing) ? as_believed(failing) : failing;
   state.setup = with_contact_curve(restitution_against_speed(), state.setup, "all", known);
@@ -30,7 +30,7 @@ DiagnosisState with_curve(const DiagnosisState& failing, KnownEffects known) {
   return state;
 }
 
-/// Four digits: people read them, and no interval is narrower.
+/// Returns the setup with the fitted values, to four digits: people read them, and no interval is narrower.
 Setup setup_at(Setup setup, const Refit& fit, KnownEffects known) {
   for (std::size_t k = 0; k < fit.values.size(); ++k)
     if (!fit.knobs[k].exact)
@@ -42,7 +42,8 @@ Setup setup_at(Setup setup, const Refit& fit, KnownEffects known) {
   return setup;
 }
 
-/// What the model without it leaves, also of box lengths that it was not fitted to.
+/// Tells whether the curve explains what the model without it leaves, and foretells box lengths that it was
+/// not fitted to at least as well.
 bool is_worth_offering(const FreeRestitution& law) {
   const LadderStep &without = law.without, &with = law.with;
   const bool foretells = !(with.held_out_error_box > without.held_out_error_box);  // NaN of one length only

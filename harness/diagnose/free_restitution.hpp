@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Physics inside the contacts that no list has: restitution as a free function of the closing speed, beside a
-// model that no known effect mends.
+// Offers physics inside the contacts that no list has: restitution as a free function of the closing speed,
+// beside a model that no known effect mends.
 #pragma once
 #include "state.hpp"
 

@@ -14,8 +14,9 @@ namespace shakedown {
 
 namespace {
 
-/// A sine is known to its error in all three: over a run of length T a relative error of the amplitude goes
-/// with sqrt(6) / (pi T) as much in the frequency, and twice as much in the phase at the release (rad).
+/// Adds a sine whose amplitude, frequency and phase may move by their errors: over a run of length T a
+/// relative error of the amplitude goes with sqrt(6) / (pi T) as much in the frequency, and twice as much in
+/// the phase at the release (rad).
 void add_sine(const FoundTerm& term, const SearchedHarmonic& harmonic, double longest, KnownEffects known,
               DiagnosisState& state) {
   constexpr double root_six_over_pi = 0.78;
@@ -36,7 +37,7 @@ void add_sine(const FoundTerm& term, const SearchedHarmonic& harmonic, double lo
   knob(harmonic.phase, term.phase, 2 * relative, about_a_line);
 }
 
-/// The same terms go in beside several states of one diagnosis.
+/// Adds a note that is not there yet: the same terms go in beside several states of one diagnosis.
 void add_once(std::vector<std::string>& notes, const std::string& note) {
   if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the momentum balance found, as a diagnosis goes on with it.
+// Puts what the momentum balance found into a diagnosis.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,19 +8,19 @@
 
 namespace shakedown {
 
-/// Whether the user lets this effect be added.
+/// Tells whether the user lets this effect be added.
 bool allowed(const DiagnoseOptions& options, const std::string& effect);
 
-/// What the balance found goes in at the strength that it finds and stays near it: chaos does not touch the
-/// balance, and it knows strengths five times better than ensembles do.
+/// Returns the state with what the balance found. It goes in at the strength that the balance finds and stays
+/// near it: chaos does not touch the balance, and it knows strengths five times better than ensembles do.
 DiagnosisState with_balance(DiagnosisState state, const std::vector<FoundTerm>& terms,
                             const Measurement& measurement, const Engine& engine,
                             const DiagnoseOptions& options, std::vector<std::string>& notes);
 
-/// Names of the effects that the balance found.
+/// Returns the names of the effects that the balance found.
 std::vector<std::string> effects_of(const MomentumAudit& balance);
 
-/// The sets that the balance weighed; nothing missing where there is none.
+/// Returns the sets that the balance weighed; only "nothing is missing" where there is no balance.
 std::vector<Hypothesis> hypotheses_of(const MomentumAudit& balance);
 
 }  // namespace shakedown

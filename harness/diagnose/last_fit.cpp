@@ -47,7 +47,7 @@ std::vector<FittedCurve> curves_of(const SwingFound& found, std::size_t most) {
       curve.model.push_back(run.x[i] - found.residual[r][static_cast<Eigen::Index>(i)]);
       curve.spread.push_back(run.white);
     }
-    // Let go at rest from where the setup says, at the first frame.
+    // As given the box starts at rest at the first frame, from where the setup says.
     std::vector<double> time{run.start_time()};
     time.insert(time.end(), curve.time.begin(), curve.time.end());
     const double from = run.setup.release.displacement;
@@ -62,7 +62,7 @@ std::vector<FittedCurve> curves_of(const SwingFound& found, std::size_t most) {
   return curves;
 }
 
-/// A number of the camera that the fit took beyond what a setup may say stays as the setup has it.
+/// Sets a number; one of the camera that the fit took beyond what a setup may say stays as the setup has it.
 void put(Setup& setup, const std::string& key, double value, KnownEffects known) {
   try {
     set_number(setup, key, value, known);
@@ -98,7 +98,7 @@ std::vector<Setup> setups_of(const LastFit& fit, const Setup& amended, KnownEffe
     Setup& setup = setups[i] = with_laws(found.runs[r].setup, found.fit, known);
     setup.release.displacement = found.fit.value[first];
     put(setup, "initial_box_velocity.velocity", found.fit.value[first + 1], known);
-    const std::string origin = "camera_origin.origin";
+    const std::string origin = known.key_of(&Camera::origin);
     put(setup, origin, get_number(setup, origin, known) + found.fit.value[first + 2], known);
     ++r;
   }

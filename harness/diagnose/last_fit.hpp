@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the last fit of a diagnosis knows of every measured run: from it pages and files draw the very curves
-// whose error is told.
+// Keeps what the last fit of a diagnosis knows of every measured run: from it pages and files draw the very
+// curves whose error is told.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -8,25 +8,26 @@
 #include <vector>
 
 #include "known_effects.hpp"
-#include "refit.hpp"
+#include "refit_result.hpp"
 #include "waveform.hpp"
 
 namespace shakedown {
 
-/// Of boxes with grains.
+/// Holds the fit of boxes with grains.
 struct EnsembleFit {
   Setup setup;                             ///< with the effects found; `fit` says where its numbers lie
   std::vector<MeasuredFeatures> measured;  ///< what was fitted to, each run
   Refit as_given, fit;                     ///< of these runs
 };
 
-/// Of boxes without any.
+/// Holds the fit of boxes without any.
 struct SwingFound {
   std::vector<WaveformRun> runs;  ///< every frame
   WaveformFit fit;
   std::vector<Eigen::VectorXd> residual;  ///< m, measured less modelled, of `runs`
 };
 
+/// Holds the one fit or the other, and what was fitted to.
 struct LastFit {
   Measurement measurement;  ///< each run from where the model of it begins
   std::optional<EnsembleFit> ensembles;
@@ -34,7 +35,7 @@ struct LastFit {
   std::vector<std::string> taken_back{};  ///< keys whose fitted values are not the answer's
 };
 
-/// One observable of one measured run beside the model at the same moments.
+/// Holds one observable of one measured run beside the model at the same moments.
 struct FittedCurve {
   std::string run, observable;          ///< observable: "box" or "centre"
   std::vector<double> time;             ///< s
@@ -43,18 +44,18 @@ struct FittedCurve {
   std::vector<double> spread;           ///< m, standard deviation of measured less mean of a right model
 };
 
-/// The runs in their order, of each the box and, where it was seen, the grains' centre. A run of many frames
-/// is thinned to `most` of them.
+/// Returns the curves of the runs in their order: of each the box and, where it was seen, the grains' centre.
+/// A run of many frames is thinned to `most` of them.
 std::vector<FittedCurve> curves_of(const LastFit& fit, std::size_t most = 6000);
 
-/// The same, thinned to 2000, as an array of objects, mm; a gap is null.
+/// Returns the same, thinned to 2000, as an array of objects, mm; a gap is null.
 nlohmann::ordered_json curves_json(const LastFit& fit);
 
-/// Each run of LastFit::measurement as the last fit has it: parameters, effects, camera, masses, and where
-/// the box begins. `amended`: the setup of the answer.
+/// Returns the setup of each run of LastFit::measurement as the last fit has it: parameters, effects, camera,
+/// masses, and where the box begins. `amended`: the setup of the answer.
 std::vector<Setup> setups_of(const LastFit& fit, const Setup& amended, KnownEffects known);
 
-/// Every n-th of so many, so that at most `most` are left.
+/// Returns the n of which every n-th of so many leaves at most `most`.
 std::size_t thinned_by(std::size_t count, std::size_t most);
 
 }  // namespace shakedown

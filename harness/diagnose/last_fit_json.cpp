@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A ten-thousandth of a millimetre is enough for a picture.
+/// Returns lengths in mm, rounded to a ten-thousandth, which is enough for a picture.
 Json json_in_mm(const std::vector<double>& metres) {
   Json list = Json::array();
   for (const double value : metres)

@@ -7,12 +7,13 @@
 
 #include "feature_covariance.hpp"
 #include "quantity.hpp"
+#include "refit_options.hpp"
 
 namespace shakedown {
 
 namespace {
 
-/// What a camera would make of the setup: its plan, from one run of the model.
+/// Returns what a camera would make of the setup, with its plan, from one run of the model.
 MeasuredFeatures seen(Setup setup, double noise_box, double noise_centre, const Workshop& workshop) {
   RunOptions options;
   options.stop = workshop.execution.stop;
@@ -41,9 +42,9 @@ MeasuredFeatures seen(Setup setup, double noise_box, double noise_centre, const 
   return m;
 }
 
-/// Distance of the means in standard errors: Mahalanobis, in the covariance of a measurement of `model` whose
-/// parameters are known to `covariance` (in units of the knobs' widths). What the error of the two means adds
-/// to its square is known, and taken off.
+/// Returns the distance of the means in standard errors (Mahalanobis), in the covariance of a measurement of
+/// `model` whose parameters are known to `covariance` (in units of the knobs' widths). What the error of the
+/// two means adds to its square is known, and taken off.
 double distance(const Emulator& model, const Emulator& rival, const FeaturePlan& plan,
                 const Eigen::MatrixXd& covariance, double model_error) {
   const Eigen::MatrixXd open = model.coefficients.middleRows(1, covariance.rows());

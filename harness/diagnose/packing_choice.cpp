@@ -17,13 +17,14 @@ constexpr double layers_within = 0.25e-3, loose_within = 1.25e-3;
 
 bool is_loose(Packing packing) { return packing == Packing::random || packing == Packing::spread; }
 
-/// Where a packing has the grains' centre before release.
+/// Says where a packing has the grains' centre before release.
 struct LaidCentre {
   double apart;   ///< m, x_com - x_box
   double within;  ///< m, standard deviation
 };
 
-/// Layers are the same in every run; of grains laid at random each run is one draw among many.
+/// Returns where the setup's packing has the centre. Layers are the same in every run; of grains laid at
+/// random each run is one draw among many.
 LaidCentre laid_centre(const Setup& setup) {
   const auto apart = [&](int run) {
     const State state = initial_state(setup, run);
@@ -39,7 +40,7 @@ LaidCentre laid_centre(const Setup& setup) {
 /// A camera's scale or bias (standard deviation), and what another packing must bring in chi2.
 constexpr double usual_scale = 0.03, better_by = 5;
 
-/// Where the grains' centre of a measured run lies in the box before anything has moved.
+/// Says where the grains' centre of a measured run lies in the box before anything has moved.
 struct ReleasedCentre {
   std::size_t run;
   double apart;  ///< m, x_com - x_box
@@ -69,7 +70,8 @@ struct Misfit {
   double chi2;  ///< up to what all packings share; the less certain places of a wide packing count against it
 };
 
-/// Misfit of measured - scale * modelled. Where box lengths tell the scale it is free from 0.88 to 1.1.
+/// Returns the misfit of measured - scale * modelled. Where box lengths tell the scale it is free from 0.88
+/// to 1.1.
 Misfit misfit_up_to_scale(const std::vector<ReleasedCentre>& measured,
                           const std::vector<LaidCentre>& modelled) {
   double cross = 0, square = 0, low = 1e9, high = 0;

@@ -10,7 +10,8 @@ namespace shakedown {
 
 namespace {
 
-/// By signatures alone: where restitutions imitate a pair, each beside nothing may look worse than nothing.
+/// Returns the rival of the best signature, null where none was weighed. It goes by signatures alone: where
+/// restitutions imitate a pair, each of the two beside nothing may look worse than nothing.
 const Rival* best_signature(const std::vector<Rival>& rivals) {
   const Rival* best = nullptr;
   for (const Rival& rival : rivals)

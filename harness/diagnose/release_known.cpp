@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "camera.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "nuisance.hpp"
 #include "quantity.hpp"
 #include "setup_file.hpp"
@@ -18,13 +18,14 @@ namespace {
 constexpr double usual_error = 5e-4;  // m; a stop or a thread holds a box to half a millimetre
 constexpr std::string_view key = "release.displacement";
 
-/// m, by which scale, lens and tilt of the camera may have moved the first position.
+/// Returns the standard deviation, m, by which scale, lens and tilt of the camera may have moved the first
+/// position.
 double error_of_camera(const Measurement& measurement, KnownEffects known, double displacement) {
   double square = 0;
   for (const CameraNuisance& nuisance : camera_nuisances(measurement, known)) {
     const std::optional<CameraParameter> parameter = find_camera_parameter(known, nuisance.key);
     if (!parameter || nuisance.each_run || parameter->inverse_square) continue;
-    // At rest, as the box is when it is let go.
+    // The box is at rest, as when it is let go.
     const Recording still{{-1, 0, 1}, {displacement, displacement, displacement}, {0, 0, 0}};
     square += std::pow(nuisance.deviation() * derivative(still, *parameter).x_box[1], 2);
   }
@@ -45,7 +46,7 @@ Measurement with_measured_release(Measurement measurement, KnownEffects known) {
     run.recorded.release_error = before;
     if (!std::isfinite(seen.displacement) || !std::isfinite(seen.displacement_error)) continue;
     const double by_camera = std::hypot(seen.displacement_error, error_of_camera(measurement, known, given));
-    // Far from what the user says it is another mistake, not a hand's.
+    // A release far from what the user says is another mistake, not a hand's.
     constexpr double hand = 4;
     if (!(before > 0) || std::abs(seen.displacement - given) > hand * std::hypot(before, by_camera)) continue;
     const double weight = before * before / (before * before + by_camera * by_camera);

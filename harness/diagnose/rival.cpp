@@ -16,7 +16,8 @@ namespace shakedown {
 
 namespace {
 
-/// Without the effect the restitutions were led astray: the box reaches from there to what the user gave.
+/// Widens the box of the restitutions, which were led astray without the effect: it reaches from there to
+/// what the user gave.
 std::vector<Knob> covering_the_users_values(std::vector<Knob> knobs) {
   for (Knob& knob : knobs) {
     if (!is_believed(knob)) continue;
@@ -27,7 +28,7 @@ std::vector<Knob> covering_the_users_values(std::vector<Knob> knobs) {
   return knobs;
 }
 
-/// The fit of a candidate begins at the strength that its signature asks for.
+/// Returns the knobs of a candidate at the strength that its signature asks for, where its fit begins.
 std::vector<Knob> knobs_of(const Candidate& candidate, const ScreenedEffect& screened) {
   std::vector<Knob> added = candidate.fitted_knobs();
   for (Knob& knob : added) {
@@ -40,7 +41,8 @@ std::vector<Knob> knobs_of(const Candidate& candidate, const ScreenedEffect& scr
   return added;
 }
 
-/// An exact knob of the camera that the candidate itself moves is no nuisance beside it.
+/// Leaves out what is among `these`: an exact knob of the camera that the candidate itself moves is no
+/// nuisance beside it.
 std::vector<Knob> without(std::vector<Knob> knobs, const std::vector<Knob>& these) {
   std::erase_if(knobs, [&](const Knob& knob) {
     return std::any_of(these.begin(), these.end(), [&](const Knob& other) { return other.key == knob.key; });
@@ -52,7 +54,7 @@ std::vector<Knob> knobs_of_fit(const DiagnosisState& before, const DiagnosisStat
   return together(together(covering_the_users_values(before.theta), with.found), with.camera);
 }
 
-/// The fitted strength of a rival, as the prior counts it.
+/// Returns the fitted strength of a rival, as the prior counts it.
 StrengthSeen strength_fitted(const Rival& rival) {
   StrengthSeen seen = rival.screened.seen;
   const std::vector<Knob> added = rival.candidate->fitted_knobs();
@@ -66,14 +68,14 @@ StrengthSeen strength_fitted(const Rival& rival) {
   return seen;
 }
 
-/// What a fit leaves of each run's features.
+/// Returns what a fit leaves of each run's features, m.
 std::vector<Eigen::VectorXd> left_by(const Refit& fit) {
   std::vector<Eigen::VectorXd> left;
   for (const RunComparison& run : fit.runs) left.push_back(run.residual);
   return left;
 }
 
-/// The same, in the metric of these covariances of each run.
+/// Returns chi2 of the same, in the metric of these covariances of each run.
 double chi2_of(const std::vector<Eigen::VectorXd>& left, const std::vector<Eigen::MatrixXd>& covariances) {
   double sum = 0;
   for (std::size_t r = 0; r < left.size(); ++r)
@@ -88,18 +90,18 @@ double log_determinant(const std::vector<Eigen::MatrixXd>& covariances) {
   return sum;
 }
 
-/// What short fits of one that is there may miss of its deviance.
+/// Returns by how much the deviance of a short fit may be too high where the effect is there.
 double short_fit_errs(const Rival& rival) { return (effort::short_fits_err - 1) * rival.short_own_chi2; }
 
-/// The data accept its short fit, and its longer one, which has not had its turn or was made.
+/// Tells whether the data accept its short fit and, where it was made, its longer one.
 bool may_hold(const Rival& rival) { return rival.short_holds && (!rival.attempted || holds(rival)); }
 
 bool some_may_hold(const std::vector<Rival>& rivals) {
   return std::any_of(rivals.begin(), rivals.end(), may_hold);
 }
 
-/// The odds of a difference of ln odds that is known to within `error`, averaged over what it may be, are
-/// those of a difference that is so much smaller (D. J. C. MacKay, Neural Computation 4, 720 (1992)).
+/// Returns the factor by which a difference of ln odds that is known to within `error` shrinks when its odds
+/// are averaged over what it may be (D. J. C. MacKay, Neural Computation 4, 720 (1992)).
 double averaged_over(double error) { return 1 / std::sqrt(1 + std::numbers::pi / 8 * error * error); }
 
 }  // namespace
@@ -143,7 +145,7 @@ DiagnosisState with_rival(const DiagnosisState& before, const Rival& rival, Diag
   state.camera = without(before.camera, added);
   state.dear = before.dear || candidate.dear;
   if (std::find(state.missing.begin(), state.missing.end(), candidate.effect) == state.missing.end())
-    state.missing.push_back(candidate.effect);  // else of another component
+    state.missing.push_back(candidate.effect);  // else it is one more component
   return state;
 }
 
@@ -186,7 +188,7 @@ void fit_rival(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools
     rival.log_ratio =
         screen.log_likelihood_ratio(tools.features(state.setup), at_values(state.fit), weighing.nothing);
   } catch (const BudgetSpent&) {
-    // The signature's evidence stands, but where the model without is so far off that it says little.
+    // The signature's evidence stands, except where the model without is so far off that it says little.
     rival.weighed_by_left = std::isfinite(rival.chi2_without);
   }
 }
@@ -220,7 +222,7 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
   const double of_fits = averaged_over(rules::emulator_noise / 2),
                of_best = chi2_of(left_by(best->state.fit), covariances), from = best->log_odds - prior(*best),
                signature = best->screened.log_evidence;
-  // At least what its fit shows that the best one's was wrong by.
+  // Signatures err at least by what the best one's fit shows that its own was wrong by.
   const double gained = is_weighed_by_left(*best) ? (best->chi2_without - best->state.fit.judged_chi2) / 2
                                                   : best->log_ratio,
                of_signatures =
@@ -232,7 +234,7 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
     if (&rival == best) continue;
     if (rival.fitted && (std::isfinite(rival.log_ratio) || is_weighed_by_left(rival))) {
       const double weighed = beside_the_best(rival, chi2_of(left_by(rival.state.fit), covariances), of_fits);
-      // What the data reject gains nothing by it.
+      // A fit that the data reject gets no credit for its gain.
       rival.log_odds =
           counts(rival) || is_weighed_by_left(rival) ? weighed : std::min(rival.log_odds, weighed);
     } else if (!rival.fitted && !rival.short_left.empty()) {
@@ -321,7 +323,7 @@ RankedEffect ranked_as(const Rival& rival) {
   if (std::isfinite(rival.log_ratio)) ranked.gain = 2 * (rival.log_ratio - rival.nothing_gained);
   if (is_weighed_by_left(rival)) ranked.gain = rival.chi2_without - rival.state.fit.judged_chi2;
   ranked.held_out_gain = rival.held_out_gain;
-  // of a difference of two chi2 of nested models
+  // This is the error of a difference of two chi2 of nested models.
   ranked.standard_error = 2 * std::sqrt(std::abs(rival.held_out_gain));
   for (const FittedValue& value : rival.state.fit.values)
     for (const Knob& knob : rival.candidate->fitted_knobs())

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every number with which a diagnosis decides: value, unit, source. The README of this folder lists them.
+// Numbers with which a diagnosis decides between hypotheses that were fitted: value, unit, source. Numbers of
+// its cheap looks, and of where its effort goes, stand in effort.hpp. The README of this folder lists the
+// rules of both.
 #pragma once
 #include <span>
 #include <string_view>
@@ -8,6 +10,7 @@
 
 namespace shakedown {
 
+/// Holds a number that decides something, with its unit and where it comes from.
 struct Rule {
   std::string_view name;
   double value;
@@ -63,7 +66,7 @@ constexpr Rule most_tried{"most_tried", 4, "effects", "fitted in one round: cost
 
 }  // namespace rules
 
-/// All of them, in this order.
+/// Returns all of them.
 std::span<const Rule> diagnosis_rules();
 
 }  // namespace shakedown

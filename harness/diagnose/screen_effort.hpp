@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// How many simulations a ranking of effects takes.
+// Says how many simulations a ranking of effects takes.
 #pragma once
 
 namespace shakedown {
 
-/// Simulations of each different setup of a candidate at each level, by what a run costs.
+/// Numbers of simulations of each different setup of a candidate at each level, by what a run costs.
 struct LevelEffort {
   int plain, slow, dear;
 };
 
-/// Simulations of each different setup.
+/// Numbers of simulations of each different setup.
 struct ScreenEffort {
   int slopes = 64;               ///< for what the fitted parameters do, beside those that fits have made
   int nothing = 96;              ///< of the model without candidates

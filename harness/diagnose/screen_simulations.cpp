@@ -16,12 +16,12 @@ namespace shakedown {
 
 namespace {
 
-/// What two codes differ by in a feature of this run, m.
+/// Returns what two codes differ by in a feature of this run, m.
 double model_error_of(const MeasuredFeatures& measured) {
   return RefitOptions{}.model_error * measured.setup.release.displacement;
 }
 
-/// Of each run's chaos, camera noise and difference of two codes.
+/// Makes a covariance (m^2) of a run's chaos, camera noise and difference of two codes.
 using CovarianceOf = Eigen::MatrixXd(const Eigen::MatrixXd&, const FeaturePlan&, double);
 std::vector<Eigen::MatrixXd> covariances_of(const std::vector<MeasuredFeatures>& measured,
                                             const std::vector<Emulator>& emulators, CovarianceOf& of) {
@@ -107,7 +107,8 @@ void ScreenSimulations::look(const Candidate& candidate, const LevelEffort& effo
 
 void ScreenSimulations::add_levels(const Candidate& candidate, const std::vector<Candidate::Level>& chosen,
                                    int count, Looked& looked) {
-  // Far from what is measured already where it is weak: what is stronger, of the same sign, is farther.
+  // A weak level that lies far from what was measured makes the stronger ones of its sign hopeless: they lie
+  // farther.
   const auto is_hopeless = [&](double strength) {
     return std::any_of(looked.levels.begin(), looked.levels.end(), [&](const SignatureLevel& level) {
       return level.strength * strength > 0 && std::abs(level.strength) < std::abs(strength) &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Simulations of the model without candidates and of each candidate at its levels, in one metric.
+// Simulates the model without candidates and each candidate at its levels, in one metric.
 #pragma once
 #include <map>
 #include <optional>
@@ -16,26 +16,27 @@
 
 namespace shakedown {
 
-/// Where a level is simulated.
+/// Says where a level is simulated.
 struct LevelPoint {
   std::vector<Knob> fitted;  ///< the fitted parameters, moved to where they go beside it
   Knob knob;                 ///< of the candidate
 };
 
-/// Levels of a candidate as far as they were simulated.
+/// Holds the levels of a candidate as far as they were simulated.
 struct Looked {
   std::vector<SignatureLevel> levels{};
   std::map<double, LevelPoint> points{};  ///< by strength
   int count = 0;                          ///< simulations of each level, of each different setup
   bool whole = false;                     ///< all levels were looked at, not the middle one alone
-  std::string reason{};
-  bool exact = false;
+  std::string reason{};                   ///< why a level could not be simulated; empty: none failed
+  bool exact = false;                     ///< its change is arithmetic on the recording
 
+  /// Tells whether this level was simulated.
   bool has(double strength) const {
     return std::any_of(levels.begin(), levels.end(),
                        [&](const SignatureLevel& level) { return level.strength == strength; });
   }
-  /// The mean of those before and of `more` simulations.
+  /// Takes the mean of the simulations before and of `more` new ones into the level.
   void add(const SignatureLevel& level, int more) {
     const double before = count, all = count + more;
     for (SignatureLevel& one : levels)
@@ -46,9 +47,11 @@ struct Looked {
   }
 };
 
-/// All that one screening shares.
+/// Makes the simulations of one screening, and holds what they share.
 class ScreenSimulations {
  public:
+  /// Simulates the model without candidates, as far as `start` has not what is needed. `fitted`: knobs at
+  /// their fitted values; `first_run` addresses the random numbers. The workshop must outlive this.
   ScreenSimulations(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted,
                     const Workshop& workshop, const ScreenEffort& effort, int first_run,
                     const ScreenStart& start);
@@ -60,14 +63,16 @@ class ScreenSimulations {
   /// were, where only those were. Those that the engine cannot simulate are left out, with the reason.
   void look(const Candidate& candidate, const LevelEffort& effort, Looked& looked);
 
-  /// What the model without candidates leaves, and a candidate's signature as far as it was looked at.
+  /// Returns a candidate's signature as far as it was looked at, beside what the model without candidates
+  /// leaves.
   Signature signature_of(const Looked& looked) const { return {looked.levels, without_, looked.exact}; }
 
+  /// Does what EffectScreen::log_likelihood_ratio() says.
   double log_likelihood_ratio(const std::vector<MeasuredFeatures>& other, const std::vector<Knob>& values,
                               int count);
 
  private:
-  /// One metric for all: coordinates of each run, and what the model without candidates leaves in them.
+  /// Holds one metric for all: coordinates of each run, and what the model without candidates leaves in them.
   struct Frame {
     std::vector<Coordinates> coordinates;
     FirstModel model;
@@ -75,24 +80,30 @@ class ScreenSimulations {
 
   int next_run() { return first_run_ + 1000 * batches_++; }
 
+  /// Returns the metric of these covariances (m^2, of each run), with the slopes by the widths of `about`.
   Frame frame_of(const std::vector<Eigen::MatrixXd>& covariances, const std::vector<Knob>& about,
                  const std::vector<Emulator>& slopes, const std::vector<Emulator>& nothing) const;
 
-  /// In the coordinates, all runs below each other and a zero for each free parameter.
+  /// Returns changes of the features (m, of each run) in the coordinates: all runs below each other and a
+  /// zero for each free parameter.
   Eigen::VectorXd stacked(const std::vector<Eigen::VectorXd>& runs, const Frame& frame) const;
 
+  /// Returns the change of the means from the model without candidates to these, stacked.
   Eigen::VectorXd change_to(const std::vector<Emulator>& there, const Frame& frame) const;
 
-  /// Of so many simulations at most: an estimate's error is to be the same in two models that are compared.
+  /// Returns the variance of each coordinate, of `count` simulations at most: an estimate's error is to be
+  /// the same in two models that are compared.
   Eigen::ArrayXd variances(const std::vector<Emulator>& there, int count) const;
 
-  /// Simulations x features.
+  /// Returns what single simulations leave of their mean, as a camera would have filmed it: simulations x
+  /// coordinates.
   Eigen::MatrixXd filmed(const std::vector<Emulator>& there) const;
 
-  /// Expected square of one simulation's chaos.
+  /// Returns the expected square of one simulation's chaos.
   static double chaos_of(const std::vector<Emulator>& there, const Frame& frame);
 
-  /// Of the means, all fitted parameters at these points; below them, where these are from what is known.
+  /// Returns the change of the means with the fitted parameters at these points; below it, how far these lie
+  /// from where they were fitted, in errors of what is believed.
   Eigen::VectorXd change_at(const std::vector<Emulator>& there, const std::vector<Knob>& fitted,
                             const Frame& frame) const;
 
@@ -100,26 +111,27 @@ class ScreenSimulations {
   void add_levels(const Candidate& candidate, const std::vector<Candidate::Level>& chosen, int count,
                   Looked& looked);
 
+  /// Simulates the candidate at this point, `count` times for each different setup.
   std::vector<Emulator> simulated_at(const Candidate& candidate, const LevelPoint& point, int count);
 
-  /// The fitted parameters moved by these steps as far as their bounds allow, the candidate as strong beside
-  /// them.
+  /// Returns the point with the fitted parameters moved by these steps as far as their bounds allow, the
+  /// candidate as strong beside them.
   LevelPoint moved_by(LevelPoint point, const Eigen::VectorXd& steps) const;
 
-  /// Where a level is simulated first: the parameters as far in proportion as the strongest weaker level of
-  /// the same sign has moved them.
+  /// Returns where a level is simulated first: the parameters as far in proportion as the strongest weaker
+  /// level of the same sign has moved them.
   LevelPoint start_of(const Candidate& candidate, const Candidate::Level& level, const Looked& looked) const;
 
-  /// The fitted parameters where their slopes see the best fit beside this change of the features; none where
-  /// they hardly move.
+  /// Returns the point with the fitted parameters where their slopes see the best fit beside this change of
+  /// the features; none where they hardly move.
   std::optional<LevelPoint> moved_along(const Eigen::VectorXd& change, const LevelPoint& point) const;
 
-  /// Beside an effect that restitutions imitate they lie elsewhere, farther than a line tells: the level is
-  /// simulated again there.
+  /// Simulates a level. Beside an effect that restitutions imitate these lie elsewhere, farther than a line
+  /// tells: the level is simulated again there.
   SignatureLevel simulated_level(const Candidate& candidate, const Candidate::Level& level, int count,
                                  Looked& looked);
 
-  /// A camera's error is arithmetic on the recording.
+  /// Returns the level of a camera's error, which is arithmetic on the recording.
   SignatureLevel exact_level(const Candidate& candidate) const;
 
   std::vector<MeasuredFeatures> measured_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a ranking of effects begins with.
+// Says what a ranking of effects begins with.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace shakedown {
 
-/// What the fit of the model without candidates has found already. Empty: the screen simulates.
+/// Holds what the fit of the model without candidates has found already; where it is empty the screen
+/// simulates.
 struct ScreenStart {
   /// Covariances of each measured run's features, m^2: by which changes of the means are looked for, and by
   /// which a run is likely.

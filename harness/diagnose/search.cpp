@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One round of the search: which effect, beside what the model has, would explain what is left?
+// Makes one round of the search: which effect, beside what the model has, would explain what is left?
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,7 +21,7 @@ namespace shakedown {
 
 namespace {
 
-/// What the screen of the model at `knobs`, where this fit has put it, need not simulate again.
+/// Returns what the screen of the model at `knobs`, where this fit has put it, need not simulate again.
 ScreenStart start_from(const Refit& fit, const std::vector<Knob>& knobs) {
   ScreenStart start{fit.for_means, fit.covariances};
   const auto cut_off = [](const FittedValue& value) { return value.at_bound; };
@@ -52,7 +52,7 @@ std::vector<Candidate> open_candidates(const DiagnosisState& state, DiagnosisToo
   std::erase_if(candidates, [&](const Candidate& candidate) {
     return std::find(exact.begin(), exact.end(), candidate.effect) != exact.end();
   });
-  // A component test told it: a parameter of the fit, or fixed.
+  // Leave out what a component test told: it is a parameter of the fit, or fixed.
   std::erase_if(candidates, [&](const Candidate& candidate) {
     const std::vector<std::string> keys = joined_keys(candidate.fitted_knobs().front().key);
     return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {
@@ -83,7 +83,7 @@ void camera_first(std::vector<Rival*>& order, DiagnosisTools& tools) {
     std::swap(order[0], order[1]);
 }
 
-/// The steps of one round, and what they share.
+/// Makes the steps of one round, and holds what they share.
 class Round {
  public:
   Round(const DiagnosisState& state, DiagnosisTools& tools, const std::vector<std::string>& seen_by_balance)
@@ -116,7 +116,7 @@ class Round {
   }
 
  private:
-  /// Every effect by its signature, and pairs of them.
+  /// Ranks every effect by its signature, and pairs of them.
   void rank() {
     const ScreenEffort& closely = state_.dear ? effort::rank_when_dear : effort::rank;
     const ScreenEffort ranking = far_off_ ? effort::at_the_middle(closely) : closely;
@@ -149,9 +149,9 @@ class Round {
     if (pairs_.size() > effort::most_pairs) pairs_.resize(effort::most_pairs);
   }
 
-  /// About parameters that are far off no line reaches what is missing, and what a signature promises says
-  /// little. Short fits of all, the cheap ones first, say which are worth one that weighs them. While the
-  /// data accept none of them the next one is worth more than a longer fit of one that they reject.
+  /// Fits every effect shortly, the cheap ones first, to see which are worth a fit that weighs them: about
+  /// parameters that are far off no line reaches what is missing, and what a signature promises says little.
+  /// While the data accept none of them the next one is worth more than a longer fit of one that they reject.
   void fit_each_shortly() {
     sort_by_odds();
     std::vector<Rival*> open;
@@ -174,14 +174,14 @@ class Round {
       } catch (const InputError&) {
       }
     tools_.limit_to(whole);
-    // What others have left behind is no answer, and a fit's state is large.
+    // Drop the short fits of the others: they are no answer, and a fit's state is large.
     const std::vector<Rival*> kept = in_question(rivals_);
     for (Rival& rival : rivals_)
       if (std::find(kept.begin(), kept.end(), &rival) == kept.end()) rival.shortly.reset();
   }
 
-  /// Fits confirm the most probable, and what has more than a tenth of its probability; where a fit takes
-  /// back what a signature promised, the next has its turn.
+  /// Fits the most probable, and what has more than a tenth of its probability; where a fit takes back what a
+  /// signature promised, the next has its turn.
   void fit_the_most_probable() {
     // A fit may find more than any signature promised: it is to be weighed beside fits of those that promised
     // as much, not beside their signatures.
@@ -211,11 +211,11 @@ class Round {
                      [](const Rival* a, const Rival* b) { return a->log_odds > b->log_odds; });
   }
 
-  /// Null: none is worth a fit.
+  /// Returns the rival to fit next; null where none is worth a fit.
   Rival* next_to_fit(double promised) {
     if (order_.empty()) return nullptr;
     sort_by_odds();
-    // A model that the data reject is not what is there: while nothing was found, the best of a bad lot are
+    // A model that the data reject is not what is there: while nothing was found, the most probable are
     // fitted whatever their odds.
     const bool all_bad = rejected_ && std::none_of(rivals_.begin(), rivals_.end(), is_found);
     const double worth_asking = std::log(rules::doubtful);  // less than the odds at which a model is doubted
@@ -227,7 +227,7 @@ class Round {
       return shortly.front();
     std::vector<Rival*> open;
     for (Rival* rival : order_) {
-      // Of what is arithmetic only the fit that is to be added is needed.
+      // An arithmetic effect is fitted only if it will be added.
       const double least =
           is_arithmetic(*rival) ? std::max(0.0, order_.front()->log_odds - as_much) : worth_a_fit;
       if (!rival->attempted && rival->weighed && rival->log_odds > least) open.push_back(rival);
@@ -249,7 +249,7 @@ class Round {
                        tools_.limit() - tools_.share_spent()));
       } catch (const BudgetSpent&) {
         if (rival.shortly && is_alone_in_question(rivals_, rival)) throw;  // its short fit stands
-        // What is sure is fitted with what was kept for the last fit.
+        // A nearly certain effect may use what is kept for the last fit.
         if (probability_among(rivals_, rival) <= rules::adds_effect && !is_alone_in_question(rivals_, rival))
           throw;
         tools_.limit_to(1);
@@ -267,7 +267,7 @@ class Round {
     }
   }
 
-  /// Until one holds.
+  /// Fits pairs until the data accept one.
   void fit_pairs() {
     for (PairRival& pair : pairs_) try {
         const bool dear = pair.first.candidate->dear || pair.second.candidate->dear;
@@ -289,8 +289,8 @@ class Round {
     round_.notes.push_back(what + " could not be tried: " + error.what());
   }
 
-  /// A pair stands in the table where it was fitted: beside one of its effects alone the next round asks for
-  /// the other.
+  /// Fills in ranking and table. A pair stands in the table where it was fitted: beside one of its effects
+  /// alone the next round asks for the other.
   void tell() {
     sort_by_odds();
     for (Rival* rival : order_) {
@@ -302,8 +302,8 @@ class Round {
     weigh(round_.table);
   }
 
-  /// Null: no pair was fitted and weighed, or the data accept a single effect and no pair, so that odds told
-  /// in the metric of a model that is wrong say nothing against it.
+  /// Returns the best pair; null where none was fitted and weighed, or where the data accept a single effect
+  /// and no pair: odds told in the metric of a model that is wrong say nothing against that effect.
   const PairRival* best_pair() const {
     const PairRival* best = nullptr;
     for (const PairRival& pair : pairs_)
@@ -340,8 +340,8 @@ class Round {
     round_.not_tried.push_back(rival.candidate->effect);
   }
 
-  /// Of an effect whose fit there was no time for the table knows what its signature says. An effect may be a
-  /// candidate several times, with other shapes.
+  /// Promises the most probable effect where there was no time to fit it: the table knows what its signature
+  /// says. An effect may be a candidate several times, with other shapes.
   void promise_the_most_probable() {
     const auto less = [&](const Rival* a, const Rival* b) {
       return probability_among(rivals_, *a) < probability_among(rivals_, *b);

@@ -25,7 +25,7 @@ std::string rounded(double value, const std::string& unit) {
   return unit.empty() ? write_number(near) : write_quantity(near, unit);
 }
 
-/// "linear damping of the box (blade_viscous_damping), 0.05 N s/m".
+/// Returns "linear damping of the box (blade_viscous_damping), 0.05 N s/m".
 std::string named(const std::string& effect, const Diagnosis& d, KnownEffects known) {
   const EffectRecord* record = known.find(effect);
   std::string words =
@@ -42,7 +42,8 @@ std::string list_of(const std::vector<std::string>& names) {
   return words;
 }
 
-/// What becomes of the error, of the box or, where that shows more (a camera's bias), of the grains' centre.
+/// Says what becomes of the error of the box or, where that shows more (a camera's bias), of the grains'
+/// centre.
 std::string what_it_brings(const Diagnosis& d) {
   if (d.ladder.size() < 2) return "";
   const LadderStep &given = d.ladder.front(), &last = d.ladder.back();
@@ -59,7 +60,7 @@ std::string what_it_brings(const Diagnosis& d) {
       1e3 * (of_centre ? last.floor_centre : last.floor_box));
 }
 
-/// What a model that does not hold leaves.
+/// Says what a model that does not hold leaves.
 std::string what_remains(const Diagnosis& d) {
   if (d.judgement.standing != Standing::fails) return "";
   return fmt::format(
@@ -84,7 +85,7 @@ std::string ties_in_words(const Diagnosis& d) {
         !(said && tie == unlisted_effect))
       ties.push_back(tie);
   if (ties.empty()) return "";
-  // The most probable; the table has them all.
+  // Name the most probable ones; the table has them all.
   constexpr std::size_t most_named = 4;
   std::string words = " These measurements do not rule out ";
   const std::size_t named = ties.size() > most_named + 1 ? most_named : ties.size();
@@ -106,7 +107,7 @@ std::string ties_in_words(const Diagnosis& d) {
 
 bool is_empty(const Diagnosis& d) { return d.amended.grains.count == 0; }
 
-/// Known effects that were found beside a force of no list.
+/// Names known effects that were found beside a force of no list.
 std::string beside_the_unknown(const Diagnosis& d, KnownEffects known) {
   std::vector<std::string> names;
   for (const std::string& effect : d.missing) names.push_back(named(effect, d, known));
@@ -138,7 +139,7 @@ std::string of_the_unknown(const Diagnosis& d, KnownEffects known) {
          "the contacts.";
 }
 
-/// What is most probable, where there was no time to fit it.
+/// Says what is most probable, where there was no time to fit it.
 std::string of_what_was_not_fitted(const Diagnosis& d, KnownEffects known) {
   std::vector<std::string> names;
   for (const std::string& effect : d.missing) names.push_back(named(effect, d, known));
@@ -197,13 +198,16 @@ std::string sentence_of(const Diagnosis& d, KnownEffects known) {
 
 namespace {
 
+/// " (p = 0.4)"; nothing where a waveform was judged, which has no p-value.
+std::string p_in_words(double p_value) {
+  return std::isfinite(p_value) ? fmt::format(" (p = {:.2g})", p_value) : "";
+}
+
 std::string first_words(const Diagnosis& d, KnownEffects known) {
   switch (d.verdict) {
     case Verdict::adequate:
-      return fmt::format(
-          "The model holds as given: what remains is within camera noise and the spread from run to run "
-          "(p = {:.2g}).",
-          d.ladder.back().p_value);
+      return "The model holds as given: what remains is within camera noise and the spread from run to run" +
+             p_in_words(d.ladder.back().p_value) + ".";
     case Verdict::refit:
       return "No effect is missing: other values of the parameters explain the measurements." +
              what_it_brings(d) + ties_in_words(d);

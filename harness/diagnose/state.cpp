@@ -8,6 +8,8 @@
 #include "camera_features.hpp"
 #include "errors.hpp"
 #include "in_order.hpp"
+#include "refit.hpp"
+#include "refit_options.hpp"
 #include "rules.hpp"
 #include "setup_file.hpp"
 #include "setup_keys.hpp"
@@ -78,7 +80,7 @@ DiagnosisState DiagnosisState::settled(KnownEffects known) const {
           knob.centre = value.value;
           knob.width = std::clamp(2 * value.error, 0.1 * knob.width, knob.width);
         }
-  // present from now on, so that it is no candidate again
+  // It is present from now on, so that it is no candidate again.
   for (const Knob& knob : at.found) set_knob(at.setup, knob, known);
   return at;
 }
@@ -144,8 +146,8 @@ double DiagnosisTools::share_spent() const {
 
 double DiagnosisTools::share_of_time() const {
   if (!(options_.seconds > 0)) return 0;
-  // Work counts, not waiting for cores that others use; but nobody waits for more than this many times as
-  // long.
+  // Work counts, waiting for cores that others use does not; but nobody waits for more than this many times
+  // as long.
   constexpr double patience = 1.6;
   const double clock = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const double worked = static_cast<double>(std::clock() - clock_at_start_) / CLOCKS_PER_SEC;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A diagnosis on its way: values, and the tools that make the next one from it. Going back is not assigning.
+// Holds a diagnosis on its way: states, which are values, and the tools that make the next one from it. To go
+// back is to take the state before.
 #pragma once
 #include <chrono>
 #include <ctime>
@@ -12,11 +13,12 @@
 #include "effort.hpp"
 #include "evidence.hpp"
 #include "known_effects.hpp"
+#include "refit_options.hpp"
 #include "slow_wander.hpp"
 
 namespace shakedown {
 
-/// The model as far as it has been amended, and how it fits.
+/// Holds the model as far as it has been amended, and how it fits.
 struct DiagnosisState {
   Setup setup;                       ///< with the effects found
   std::vector<Knob> theta;           ///< what the user may refit
@@ -27,18 +29,19 @@ struct DiagnosisState {
   bool dear = false;                ///< an effect makes runs cost several times a plain one
   std::vector<Knob> before_fits{};  ///< theta before any fit
 
-  /// All that a fit of it varies.
+  /// Returns all that a fit of it varies.
   std::vector<Knob> knobs() const;
-  /// The same, its knobs at the values of its fit.
+  /// Returns the same with its knobs at the values of its fit, and what was found in its setup.
   DiagnosisState settled(KnownEffects known) const;
 };
 
-/// Step of the course that may be left out.
+/// Names a step of the course that may be left out.
 constexpr const char* damper_weighed = "what release and masses are uncertain by";
 
-/// What all steps share. Counts simulations and numbers the batches of random microstates.
+/// Holds what all steps share; counts simulations and numbers the batches of random microstates.
 class DiagnosisTools {
  public:
+  /// Measurement, engine and options must outlive it.
   DiagnosisTools(const Measurement& measurement, const Engine& engine, const DiagnoseOptions& options);
   DiagnosisTools(const DiagnosisTools&) = delete;
   DiagnosisTools& operator=(const DiagnosisTools&) = delete;
@@ -47,45 +50,57 @@ class DiagnosisTools {
   const DiagnoseOptions& options() const { return options_; }
   KnownEffects known() const { return options_.known; }
   Workshop& workshop() { return workshop_; }
+  /// Returns how many simulations were made.
   std::int64_t runs() const { return runs_; }
-  /// Of the simulations or of the time, whichever is more.
+  /// Returns the share of the simulations or of the time that was spent, whichever is more.
   double share_spent() const;
   /// From now on BudgetSpent is thrown where this share of the simulations or of the time would be passed.
   void limit_to(double share);
+  /// From now on nothing is refused.
   void without_limit();
-  /// The share that was set last; 1 where there is no limit.
+  /// Returns the share that was set last; 1 where there is no limit.
   double limit() const { return limit_; }
+  /// Tells whether the time that may be spent is over.
   bool time_is_up() const { return share_of_time() > 1; }
+  /// Returns the number of the first run in a new batch of random microstates.
   int next_batch() { return 100000 * ++batch_; }
+  /// Begins a stage and tells of it.
   void begin(const std::string& stage) {
     stage_ = stage;
     if (options_.progress) options_.progress(stage_, share_spent());
   }
 
-  /// From now on features tell what release and masses are uncertain by: knobs of what all runs share.
+  /// From now on features tell what release and masses are uncertain by. Returns knobs of what all runs
+  /// share.
   std::vector<Knob> weigh_damper(const Setup& setup);
 
   /// From now on features have tracks that wander so.
   void set_wander(const Wander& wander) { wander_ = wander; }
 
-  /// The measured runs beside this setup, with what the camera does to them.
+  /// Returns the measured runs beside this setup, with what the camera does to them.
   std::vector<MeasuredFeatures> features(const Setup& setup) const;
-  /// Of the measured runs up to so many seconds after release, by this engine; its simulations stay apart
+  /// Fits the measured runs up to so many seconds after release, by this engine; its simulations stay apart
   /// from those of other fits.
   Refit fit_of_first(double seconds, const DiagnosisState& state, const Engine& engine, Effort effort);
+  /// Fits these knobs to all measured runs. `judged_by`: the fit whose covariances judge this one; null: its
+  /// own. Where the emulator promised much more than its solution keeps, the fit looks again if the
+  /// judged_chi2 that was promised is below `look_again_below`. BudgetSpent, PhysicsError and Interrupted
+  /// pass.
   Refit fit(const DiagnosisState& state, const std::string& stage, const std::vector<Knob>& knobs,
             Effort effort, const Refit* judged_by = nullptr,
             double look_again_below = std::numeric_limits<double>::infinity());
-  /// Of the last fit of all, which may take all that is left: `usual` where that suffices for it and a round
-  /// more, by what simulations of the same effects took, else `in_haste`.
+  /// Returns the effort of the last fit of all, which may take all that is left: `usual` where that suffices
+  /// for it and a round more, by what simulations of the same effects took, else `in_haste`.
   Effort affordable(const DiagnosisState& state, const Effort& usual, const Effort& in_haste) const;
-  /// Beside the state's own fit, where that is doubtful: the better of both.
+  /// Looks beside the state's own fit, where that is doubtful, and returns the better of both.
   Refit look_beside(const DiagnosisState& state, const std::string& stage);
 
  private:
   const Measurement& measurement_;
   const DiagnoseOptions& options_;
+  /// Returns the share of the time that was spent; 0 where there is no limit.
   double share_of_time() const;
+  /// Returns the options of a fit of this effort; it makes fewer simulations where runs are dear.
   RefitOptions options_of(const DiagnosisState& state, Effort effort);
   std::vector<MeasuredFeatures> features_of(const Measurement& measurement, const Setup& setup) const;
 
@@ -103,7 +118,8 @@ class DiagnosisTools {
   Wander wander_;
 };
 
-/// One round of the search: what was weighed, and the state with the effect that was added (none: as before).
+/// Holds one round of the search: what was weighed, and the state with the effect that was added (none: as
+/// before).
 struct SearchRound {
   std::vector<Hypothesis> table;  ///< beside the state before; weighed
   std::vector<RankedEffect> ranking;
@@ -115,65 +131,67 @@ struct SearchRound {
   std::string runner_up;  ///< the effect that explains nearly as well as the one added; empty: none
   Setup runner_up_setup;  ///< as it was fitted
 };
-/// `seen_by_balance`: keys that the momentum balance has judged better. An effect that the engine cannot
-/// simulate here is left out and named in the notes; PhysicsError and InputError are of the model itself.
+/// Makes one round. `seen_by_balance`: keys that the momentum balance has judged better. An effect that the
+/// engine cannot simulate here is left out and named in the notes; PhysicsError and InputError are of the
+/// model itself.
 SearchRound search_round(const DiagnosisState& state, DiagnosisTools& tools,
                          const std::vector<std::string>& seen_by_balance);
 
-/// What a round would weigh, each effect at its prior: the table where no round was held.
+/// Returns what a round would weigh, each effect at its prior: the table where no round was held.
 std::vector<Hypothesis> not_looked_at(const DiagnosisState& state, DiagnosisTools& tools,
                                       const std::vector<std::string>& seen_by_balance);
 
-/// The fit with full effort; strengths that were looked for as one are fitted by themselves where the data
-/// bear it.
+/// Returns the state fitted with full effort; strengths that were looked for as one are fitted by themselves
+/// where the data bear it.
 DiagnosisState concluded(const DiagnosisState& state, DiagnosisTools& tools, const std::string& stage);
 
-/// Without the effects that the later ones have made needless. `added`: how many of the last were added at
-/// once.
+/// Returns the state without the effects that the later ones have made needless. `added`: how many of the
+/// last were added at once.
 DiagnosisState pruned(const DiagnosisState& state, DiagnosisTools& tools,
                       const std::vector<std::string>& from_balance, std::size_t added);
 
-/// The missing effects that a fit tells by less than two standard errors, least told first, but those of the
-/// balance and one that was added last by itself: that one was weighed alone; of two at once only their sum
-/// was, and one may be nothing.
+/// Returns the missing effects that a fit tells by less than two standard errors, least told first, but those
+/// of the balance and one that was added last by itself: that one was weighed alone; of two at once only
+/// their sum was, and one may be nothing.
 std::vector<std::string> hardly_told(const DiagnosisState& state,
                                      const std::vector<std::string>& from_balance, std::size_t added);
 
-/// The data reject the model by more than two codes of the same physics differ.
+/// Tells whether the data reject the model by more than two codes of the same physics differ.
 bool is_rejected(const Refit& fit);
 
-/// They reject it by so much that more simulations would not make it fit, and that no line from its
-/// parameters reaches what is missing.
+/// Tells whether they reject it by so much that more simulations would not make it fit, and that no line from
+/// its parameters reaches what is missing.
 bool is_far_off(const Refit& fit);
 
-/// The data reject the model, and what imitates an effect has led its restitutions to where hardly anything
-/// tells of effects: about restitutions of .345 and .999 neither friction nor attraction shows.
+/// Tells whether the data reject the model and what imitates an effect has led its restitutions to where
+/// hardly anything tells of effects: about restitutions of .345 and .999 neither friction nor attraction
+/// shows.
 bool is_led_astray(const DiagnosisState& state);
 
-/// Its parameters back at what was believed of them before a fit led them astray, each as wide as a line
-/// reaches there. Measured on one film of 50 mN of attraction: of 64 mN a screen with boxes as wide as those
-/// of a first fit sees ln evidence -31, with these +357; a frequency 0.06 % off turns the phase by a
-/// hundredth in fifteen swings.
+/// Returns the state with its parameters back at what was believed of them before a fit led them astray, each
+/// as wide as a line reaches there. Measured on one film of 50 mN of attraction: of 64 mN a screen with boxes
+/// as wide as those of a first fit sees ln evidence -31, with these +357; a frequency 0.06 % off turns the
+/// phase by a hundredth in fifteen swings.
 DiagnosisState as_believed(DiagnosisState state);
 
-/// A fit as a step of the ladder.
+/// Returns a fit as a step of the ladder.
 LadderStep step_of(const std::string& name, const Refit& fit);
 
-/// Those of `a`, then those of `b`.
+/// Appends b to a.
 std::vector<Knob> together(std::vector<Knob> a, const std::vector<Knob>& b);
 
-/// Strength of the effect of this fitted value, from its absence, and its standard error; of a length the
-/// curvature, 1/m^2.
+/// Returns the strength of the effect of this fitted value, from its absence, and its standard error; of a
+/// length the curvature, 1/m^2.
 std::pair<double, double> strength_of(const Refit& fit, std::size_t value);
 
-/// By how many standard errors the strength of the effect differs from its absence; of several strengths by
-/// the most, of one that is not in the fit by 0.
+/// Returns by how many standard errors the strength of the effect differs from its absence; of several
+/// strengths by the most, of one that is not in the fit by 0.
 double told_by(const Refit& fit, const std::string& effect);
 
-/// The strength of the effect differs from its absence by so many standard errors.
+/// Tells whether the strength of the effect differs from its absence by more than so many standard errors.
 bool is_told(const Refit& fit, const std::string& effect, double standard_errors);
 
-/// A restitution, of which the user believes something.
+/// Tells whether it is a parameter of the setup, such as a restitution, of which something is believed.
 bool is_believed(const Knob& knob);
 
 }  // namespace shakedown

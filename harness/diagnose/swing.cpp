@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "base_column.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "known_effects.hpp"
 #include "quantity.hpp"
 #include "toml_string.hpp"
@@ -18,13 +18,13 @@ namespace shakedown {
 
 namespace {
 
-/// The runs without grains that start anywhere: those that a first turn is looked for in.
+/// Tells whether a run has no grains and starts anywhere, so that a first turn is looked for in it.
 bool is_swing(const Measurement::Run& run) {
   return run.setup.grains.count == 0 && starts_anywhere(run.recorded, run.setup) &&
          run.setup.spring.frequency > 0;
 }
 
-/// The base's clock is counted from the same moment as the run's.
+/// Counts the base's clock from the same moment as the run's.
 void start_base_at(double moment, MeasuredRun& recorded, Setup& setup) {
   const std::string_view parameter = base_start_key.substr(base_start_key.find('.') + 1);
   for (EffectChoice& choice : setup.effects) {
@@ -103,7 +103,7 @@ std::string words_of_swing(const std::vector<double>& time, const Eigen::VectorX
                      1e3 * 2 * std::sqrt(most) / static_cast<double>(n));
 }
 
-/// The farthest place within the first period.
+/// Looks through 1.1 periods, in case the turn comes late.
 FirstTurn first_turn(const SwingFrames& frames, double middle, double period) {
   FirstTurn turn{frames.time.front(), frames.x.front() - middle};
   for (std::size_t i = 0; i < frames.time.size() && frames.time[i] < frames.time.front() + 1.1 * period; ++i)
@@ -111,7 +111,7 @@ FirstTurn first_turn(const SwingFrames& frames, double middle, double period) {
   return turn;
 }
 
-/// Measured less modelled from the turn on; empty where the box cannot start there.
+/// Takes the model's places between two samples from straight lines.
 Eigen::VectorXd residual_of(const SwingFrames& frames, const FirstTurn& turn, Setup setup,
                             const Engine& engine) {
   constexpr double rate = swing_model_rate;
@@ -172,7 +172,7 @@ SwingFit fit_of(const Measurement::Run& run, const Engine& engine) {
 
 namespace {
 
-/// The turn as these periods from it show it.
+/// Returns the turn as these periods from it show it.
 SwingFit fit_within(const Measurement::Run& run, const Engine& engine, double periods) {
   SwingFrames frames = frames_of(run);
   const double period = 1 / run.setup.spring.frequency;

@@ -19,10 +19,10 @@ double rms_of(const Eigen::VectorXd& left) {
   return std::sqrt(left.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, left.size())));
 }
 
-/// Each run against the model that its waveform asks for.
+/// Compares each run with the model that its waveform asks for.
 std::vector<Validation> validation_of(const WaveformFit& fit, const SwingRemains& remains) {
   std::vector<Validation> rows;
-  // Of numbers that were fitted to frames without memory.
+  // Error, in parts of the noise, that fitted numbers make in frames whose noise has no memory.
   const double input_share = std::sqrt(static_cast<double>(fit.value.size()) /
                                        static_cast<double>(std::max<Eigen::Index>(1, fit.frames)));
   for (std::size_t r = 0; r < remains.frames.size(); ++r) {
@@ -33,7 +33,7 @@ std::vector<Validation> validation_of(const WaveformFit& fit, const SwingRemains
   return rows;
 }
 
-/// A number that a user names, as a law whose value is the number itself.
+/// Returns a number that a user names as a law whose value is the number itself.
 WaveformLaw law_of(const Knob& knob) {
   WaveformLaw law;
   law.keys = joined_keys(knob.key);
@@ -44,7 +44,7 @@ WaveformLaw law_of(const Knob& knob) {
   return law;
 }
 
-/// Least squares of what is free, within bounds.
+/// Fits what is free by least squares, within bounds.
 class SwingFitter {
  public:
   SwingFitter(const Measurement& measurement, const std::vector<Knob>& knobs, const MomentumAudit& balance,
@@ -70,7 +70,7 @@ class SwingFitter {
 
   bool possible() const { return !runs_.empty(); }
 
-  /// rms with the knobs where they start.
+  /// Returns the rms with the knobs where they start, m.
   double as_given() const {
     WaveformOptions fixed = options_;
     fixed.free_frequency = false;
@@ -93,7 +93,7 @@ class SwingFitter {
     return fit;
   }
 
-  /// A fit's values in the order of the knobs, with intervals, and their covariance.
+  /// Fills in a fit's values in the order of the knobs, with intervals, and their covariance.
   void tell(const WaveformFit& fit, const std::vector<Knob>& knobs, Refit& refit) const {
     std::vector<Eigen::Index> at;
     for (const Knob& knob : knobs)
@@ -133,7 +133,7 @@ class SwingFitter {
     return value;
   }
 
-  /// From the frequency as given, and from that which the balance has found.
+  /// Fits from the frequency as given and from that which the balance has found; returns the better fit.
   WaveformFit from_starts() const {
     WaveformFit best = fit_growing(runs_, laws(), start(frequency_), options_);
     const double other = balance_.possible ? balance_.frequency : 0;

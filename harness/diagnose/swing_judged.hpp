@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Boxes without grains judged by their waveform, by the one rule of compare, ladder, fit and diagnose: a run
+// Judges boxes without grains by their waveform, by the one rule of compare, ladder, fit and diagnose: a run
 // of the equation of motion has no chaos, so there are no ensembles to ask.
 #pragma once
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace shakedown {
 
-/// What a fit leaves of every frame, m, and what of that is noise.
+/// Holds what a fit leaves of every frame, m, and what of that is noise.
 struct SwingRemains {
   std::vector<WaveformRun> frames;    ///< every frame
   std::vector<Eigen::VectorXd> left;  ///< measured less modelled, of `frames`
@@ -22,19 +22,21 @@ struct SwingRemains {
   std::string looks_like;  ///< what the run with the largest remains leaves; empty: nothing with a name
   std::vector<Validation> validation;  ///< of each run
 
+  /// Returns how many frames all runs have together.
   Eigen::Index frame_count() const;
-  /// All runs together first. `as_given`: rms before anything was fitted.
+  /// Returns the differences for the judgement, all runs together first. `as_given`: rms before anything was
+  /// fitted, m.
   std::vector<Difference> differences(double as_given) const;
 };
 
-/// `balance` knows how the track wanders.
+/// Returns what the fit leaves of every frame of the measurement. `balance` knows how the track wanders.
 SwingRemains remains_of(const Measurement& measurement, const WaveformFit& fit, const MomentumAudit& balance,
                         KnownEffects known);
 
-/// What stands for the p-values that an empty box has not.
+/// Return what stands for the p-values that an empty box has not.
 ModelTest no_ensembles(), waveform_instead_of_balance();
 
-/// One setup beside recordings without grains.
+/// Holds one setup judged beside recordings without grains.
 struct JudgedSwing {
   Setup fitted;      ///< the setup with the values found
   Refit refit;       ///< values of the knobs, errors of the runs; no p-value, no cells
@@ -45,13 +47,13 @@ struct JudgedSwing {
 
 /// Fits the knobs (keys of the setup or of effects; what is exact arithmetic of a camera is left out) within
 /// their bounds, with what is believed of the spring's frequency, and place, speed and origin of each run.
-/// Nothing where no run swings long enough. `balance`: of this measurement; where the frequency is free and
-/// nothing is believed of it, its frequency is a second start.
+/// Returns nothing where no run swings long enough. `balance`: of this measurement; where the frequency is
+/// free and nothing is believed of it, its frequency is a second start.
 std::optional<JudgedSwing> judged_swing(const Setup& setup, const Measurement& measurement,
                                         const std::vector<Knob>& knobs, const MomentumAudit& balance,
                                         KnownEffects known);
 
-/// Other runs as a fit foretells them: only place, speed and origin of each are fitted.
+/// Compares other runs with what a fit foretells of them: only place, speed and origin of each are fitted.
 std::vector<RunComparison> foretold_swings(const JudgedSwing& judged, const Measurement& others,
                                            const MomentumAudit& balance, KnownEffects known);
 

@@ -24,7 +24,7 @@ bool contains(const std::vector<std::string>& list, const std::string& name) {
 
 double place_of_value(bool inverse, double value) { return inverse ? 1 / (value * value) : value; }
 
-/// Of a length by its inverse square.
+/// Returns the slope of a value by its place; a length's place is its inverse square.
 double slope_by_place(const TurnedNumber& number, double value) {
   return number.inverse ? -0.5 * value * value * value : 1;
 }
@@ -63,7 +63,7 @@ class Turning {
   }
 
  private:
-  /// What cannot be simulated stays a straight line, and what had no line is left out.
+  /// Makes a step; what cannot be simulated stays a straight line, or is left out where it had none.
   template <class Step>
   void simulate(const std::string& of, Step&& step) {
     try {
@@ -92,7 +92,7 @@ class Turning {
     const double width = std::abs(place_of_value(number.inverse, value.value + knob.width) - number.best);
     number.from = number.best - width, number.to = number.best + width;
     if (knob.exact) {
-      // A straight line by arithmetic, as far as anybody would turn it.
+      // Arithmetic gives a straight line, as far as anybody would turn it.
       const double reach = 5 * std::max(knob.believed_error, knob.width);
       number.from = std::min(number.best, number.given) - reach;
       number.to = std::max(number.best, number.given) + reach;
@@ -107,7 +107,7 @@ class Turning {
     return get_number(fit_.setup, knob.absent_key, options_.known);
   }
 
-  /// Of the camera: as the fit of the model as given has it, for its error is told there.
+  /// Returns the number as given; of the camera that of the fit of the model as given, whose error is told.
   double given_of(const Knob& knob) const {
     if (!knob.exact) return get_number(user_, joined_keys(knob.key).front(), options_.known);
     for (const FittedValue& value : fit_.as_given.values)
@@ -126,7 +126,7 @@ class Turning {
     return runs;
   }
 
-  /// The same microstates every time, so that what chaos does is taken off as long as it has not grown.
+  /// Takes the same microstates every time, so that what chaos does is taken off until it has grown.
   Means means_of(const std::vector<MeasuredFeatures>& runs) const {
     Means means;
     for (const Emulator& e : emulate(runs, {}, options_.count, options_.first_run, workshop_))
@@ -154,7 +154,7 @@ class Turning {
     }
   }
 
-  /// By one of what the number's place is told in; empty: the fit has made no slopes.
+  /// Returns the slope by the number's place; empty where the fit made none.
   Means slope_of(std::size_t k) const {
     const Knob& knob = fit_.fit.knobs[k];
     const double by_place = slope_by_place(model_.numbers[k], fit_.fit.values[k].value);
@@ -173,7 +173,7 @@ class Turning {
     if (const Means slope = slope_of(k); !slope.empty()) add({{{k, 1.0}}, 1}, slope);
   }
 
-  /// What the terms so far make with the numbers at these places.
+  /// Returns what the terms so far make with the numbers at these places.
   Means told_at(const Eigen::VectorXd& place) const {
     Means told;
     const Eigen::VectorXd shares = model_.shares(place);
@@ -183,8 +183,8 @@ class Turning {
     return told;
   }
 
-  /// A parabola through what was found at `place` along the way there from the best: what the other terms say
-  /// there already is taken off. `among`: numbers that count.
+  /// Adds a parabola through what was found at `place` along the way there from the best: what the other
+  /// terms say there already is taken off. `among`: numbers that count.
   void add_parabola_to(const Eigen::VectorXd& place, const Means& change,
                        const std::vector<std::size_t>& among) {
     TurnedTerm term{{}, 2};
@@ -200,7 +200,7 @@ class Turning {
     for (std::size_t r = 0; r < column.size(); ++r) column[r] -= told[r];
     add(std::move(term), column);
   }
-  /// The way of one number to a place, so that numbers of different units count alike.
+  /// Returns the way of one number to a place, so that numbers of different units count alike.
   double scaled(std::size_t k, const Eigen::VectorXd& place) const {
     const TurnedNumber& number = model_.numbers[k];
     const double reach = std::max(number.to - number.best, number.best - number.from);
@@ -234,7 +234,7 @@ class Turning {
     }
   }
 
-  /// How far a parameter is simulated on both sides.
+  /// Returns how far a parameter is simulated on both sides.
   double reach_of(std::size_t k) const {
     const TurnedNumber& number = model_.numbers[k];
     const auto [low, high] = bounds_of(number);
@@ -262,7 +262,7 @@ class Turning {
     });
   }
 
-  /// Restitutions first: they stand for each other most. What there is no time for adds up.
+  /// Adds pairs, restitutions first: they stand for each other most. What there is no time for adds up.
   void add_pairs() {
     std::vector<std::size_t> bent = bent_;
     std::stable_partition(bent.begin(), bent.end(),
@@ -273,8 +273,8 @@ class Turning {
     model_.left_out = left_out;
   }
 
-  /// What two numbers make at the four corners of their reach beyond what each makes alone: their product and
-  /// the products of third order.
+  /// Adds what two numbers make at the four corners of their reach beyond what each makes alone: their
+  /// product and the products of third order.
   void add_pair(std::size_t i, std::size_t j) {
     const TurnedNumber &a = model_.numbers[i], &b = model_.numbers[j];
     const double by_a = 1 / (a.to - a.best), by_b = 1 / (b.to - b.best);

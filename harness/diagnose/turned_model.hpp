@@ -1,55 +1,17 @@
 // SPDX-License-Identifier: MIT
-// How the mean motion of every measured run changes as the numbers of the model are turned: from the slopes
-// of the last fit, and from simulations at some places that are made for it. A page moves its curves by this
-// without simulating anything.
+// Computes how the mean motion of every measured run changes as the numbers of the model are turned: from the
+// slopes of the last fit, and from simulations at some places that are made for it. A page moves its curves
+// by this without simulating anything.
 #pragma once
-#include <functional>
+#include <atomic>
 #include <string>
 #include <vector>
 
-#include "known_effects.hpp"
-#include "last_fit.hpp"
+#include "turned_numbers.hpp"
 
 namespace shakedown {
 
-enum class NumberRole { parameter, effect, suspect, camera };
-/// Word of it in the page's data.
-std::string_view name_of(NumberRole role);
-
-/// A number that can be turned. Its places are its values in SI; of a length, infinite without the effect,
-/// 1/value^2.
-struct TurnedNumber {
-  std::string key;  ///< path in the setup; keys that move together joined by &
-  NumberRole role = NumberRole::parameter;
-  bool inverse = false;
-  double given = 0, best = 0;
-  double absent = std::numeric_limits<double>::quiet_NaN();  ///< of an effect
-  double from = 0, to = 0;   ///< where simulations or arithmetic tell the answer
-  double low = 0, high = 0;  ///< ends of what is offered
-};
-
-/// A share of a column: (sum of weight x (place - best) over some numbers)^power. Power 0 is a hill about the
-/// numbers as given: (1 - sum of (weight x (place - given))^2)^2, nothing where that sum is above 1. Of power
-/// `product` it is the product of all weight x (place - best); a number may stand there twice.
-struct TurnedTerm {
-  static constexpr int product = -1;
-  std::vector<std::pair<std::size_t, double>> weights;
-  int power = 1;
-};
-
-struct TurnedModel {
-  std::vector<TurnedNumber> numbers;
-  std::vector<TurnedTerm> terms;
-  std::vector<Eigen::MatrixXd> columns;  ///< of each run, features x terms, m
-  /// Of each run: chi2 is l' square l with l = (1, less the share of each term).
-  std::vector<Eigen::MatrixXd> square;
-  std::vector<std::string> left_out;  ///< what there was no time to simulate, in words
-
-  /// The share of each term with the numbers at these places.
-  Eigen::VectorXd shares(const Eigen::VectorXd& place) const;
-  Eigen::VectorXd places(double TurnedNumber::*which) const;
-};
-
+/// Says what is offered beside the fitted numbers, and how much is simulated.
 struct TurnedOptions {
   KnownEffects known;
   std::vector<std::string> missing;   ///< effects found
@@ -61,15 +23,9 @@ struct TurnedOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// `user`: the setup as given. Simulates with `engine`; what it cannot simulate, or has no time for, is left
-/// to straight lines and named.
+/// Returns the numbers of the fit that can be turned, and what they do. `user`: the setup as given. Simulates
+/// with `engine`; what it cannot simulate, or has no time for, is left to straight lines and named.
 TurnedModel turned_model(const EnsembleFit& fit, const Setup& user, const Engine& engine,
                          const TurnedOptions& options);
-
-/// The numbers of a box alone: spring, laws found, and the laws and numbers of the camera that may be tried;
-/// its motion follows by integrating the equation. Empty where something acts that a page cannot integrate (a
-/// formula).
-std::vector<TurnedNumber> turned_numbers(const SwingFound& found, const Setup& user,
-                                         const std::vector<std::string>& missing, KnownEffects known);
 
 }  // namespace shakedown

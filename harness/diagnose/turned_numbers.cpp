@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The numbers of a page and what they do, without any simulation.
+// Makes the numbers of a page, and what they do, without any simulation.
+#include "turned_numbers.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +9,6 @@
 #include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "setup_file.hpp"
-#include "turned_model.hpp"
 #include "waveform_search.hpp"
 
 namespace shakedown {

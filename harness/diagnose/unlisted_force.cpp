@@ -25,7 +25,7 @@ void each_piece(const std::string& formula, const Use& use) {
   }
 }
 
-/// The formula with this name, where it stands as a whole word, replaced.
+/// Returns the formula with this name, where it stands as a whole word, replaced.
 std::string renamed(const std::string& formula, const std::string& name, const std::string& to) {
   std::string out;
   each_piece(formula,
@@ -61,7 +61,7 @@ std::optional<UnlistedForce> shared_by_grains(const UnlistedForce& force, int gr
 }
 
 bool has_force_on_grains(const Setup& setup) {
-  const EffectChoice* choice = find_choice(setup, "user_force");
+  const EffectChoice* choice = find_choice(setup, formula_effect_name);
   return choice != nullptr && choice->text("on") == "grains";
 }
 
@@ -108,16 +108,17 @@ std::string as_table(const UnlistedForce& force) {
   std::string constants;
   for (const auto& [name, value] : force.constants)
     constants += (constants.empty() ? "" : ", ") + name + " = \"" + value + "\"";
-  return "[[effect]]\nname = \"user_force\"\non = \"" + force.on + "\"\nforce = \"" + force.formula +
-         "\"\nconstants = {" + constants + "}\n";
+  return "[[effect]]\nname = \"" + std::string(formula_effect_name) + "\"\non = \"" + force.on +
+         "\"\nforce = \"" + force.formula + "\"\nconstants = {" + constants + "}\n";
 }
 
 Setup with_force(const Setup& setup, const UnlistedForce& force, KnownEffects known) {
   const std::string origin = "force found by the momentum balance";
-  std::vector<Override> overrides{{"user_force.on", force.on, origin},
-                                  {"user_force.force", "\"" + force.formula + "\"", origin}};
+  const std::string effect(formula_effect_name);
+  std::vector<Override> overrides{{effect + ".on", force.on, origin},
+                                  {effect + ".force", "\"" + force.formula + "\"", origin}};
   for (const auto& [name, value] : force.constants)
-    overrides.push_back({"user_force.constants." + name, value, origin});
+    overrides.push_back({effect + ".constants." + name, value, origin});
   return with_overrides(setup, overrides, known);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a diagnosis says in the end, decided from what was found.
+// Decides what a diagnosis says in the end, from what was found.
 #pragma once
 #include "balance_evidence.hpp"
 #include "diagnosis.hpp"
@@ -12,7 +12,7 @@ namespace shakedown {
 void compare_with_given(const std::vector<Validation>& given, const std::vector<Validation>& fitted,
                         Difference& box);
 
-/// What the verdict rests on.
+/// Holds what the verdict rests on.
 struct Findings {
   bool unlisted = false;           ///< a force of no list acts on the box
   bool anything_missing = false;   ///< effects were found
@@ -23,39 +23,40 @@ struct Findings {
   std::vector<Difference> left{};                   ///< by the final model
   double far_p_value = 1;  ///< of the features, below what pseudo-experiments can count too
 };
-/// Share of the misfit beyond that of the model's own runs which goes from one fit to the next; both as
-/// Refit::scatter. 1 where there was none, or where what is left is no number.
+/// Returns the share of the misfit beyond that of the model's own runs which goes from one fit to the next;
+/// both as Refit::scatter. 1 where there was none, or where what is left is no number.
 double share_taken_away(double before, double after);
 
-/// The table of verdicts in README.md.
+/// Returns the verdict, by the table of verdicts in README.md.
 Verdict verdict_of(const Findings& findings);
 
-/// The p-value that weighs something in no list against the final model: the worst of features, balance and
-/// what is left. Misfits that two codes of the same physics have count no more than rules::holds.
+/// Returns the p-value that weighs something in no list against the final model: the worst of features,
+/// balance and what is left. Misfits that two codes of the same physics have count no more than rules::holds.
 double worst_p_value(const Findings& findings);
 
 /// Independent numbers that a difference beyond judgement's most_left is made of at least: a run of fewer
 /// frames than eight is not compared at all.
 constexpr double least_independent = 8;
 
-/// The p-value of the worst difference beyond most_left by chi2 of least_independent degrees; 1 where there
-/// is none: what is nearer is weighed by the other tests.
+/// Returns the p-value of the worst difference beyond most_left by chi2 of least_independent degrees; 1 where
+/// there is none: what is nearer is weighed by the other tests.
 double p_value_of_left(const std::vector<Difference>& left);
 
-/// An effect that leaves a rejected model with most of the misfit, or with errors far above noise and chaos,
-/// is no explanation. `before`: without it.
+/// Tells whether an effect explains something: one that leaves a rejected model with most of the misfit, or
+/// with errors far above noise and chaos, does not. `scatter_before`: without it; `error`, `floor`: with it,
+/// m.
 bool explains(double p_value, double scatter, double scatter_before, double error, double floor);
 
-/// The error of box and of centre, rms of all runs, are both greater in the second validation: what was added
-/// between them makes no error fall. False where either lacks rows.
+/// Tells whether the errors of box and of centre, rms of all runs, are both greater in the second validation:
+/// what was added between them makes no error fall. False where either lacks rows.
 bool no_error_falls(const std::vector<Validation>& before, const std::vector<Validation>& after);
 
-/// What was added to a model that the data reject leaves one that they reject, `p_value`, and lets no error
-/// fall: it is not what is missing.
+/// Tells whether what was added to a model that the data reject leaves one that they reject, `p_value`, and
+/// lets no error fall: it is not what is missing.
 bool adds_nothing(double p_value, const std::vector<Validation>& before,
                   const std::vector<Validation>& after);
 
-/// What of the camera the data show beyond what is known of it, most certain first.
+/// Returns what of the camera the data show beyond what is known of it, most certain first.
 std::vector<NuisanceFound> standing_out(const std::vector<NuisanceFound>& nuisances);
 
 }  // namespace shakedown

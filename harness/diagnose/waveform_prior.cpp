@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which laws there are for a waveform, and what each is worth beforehand.
+// Lists the laws for a waveform, and says what each is worth beforehand.
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ constexpr double impossible = -std::numeric_limits<double>::infinity();
 /// Chance of a line in noise above which a second swing is not even asked for.
 constexpr double one_in_a_thousand = 1e-3;
 
-/// ln density of a strength beforehand (Cauchy about none).
+/// Returns the ln density of a strength beforehand (Cauchy about none).
 double log_cauchy(double strength, double typical, bool one_sided) {
   const double ratio = strength / typical;
   return std::log((one_sided ? 2 : 1) / (std::numbers::pi * typical * (1 + ratio * ratio)));
@@ -73,7 +73,8 @@ double log_prior_odds(const WaveformFit& fit, double candidates, double swing_fr
     for (Eigen::Index k = 0; k < law.width(); ++k) own.push_back(at + k);
     if (law.is_mode) {
       const double amplitude = std::hypot(fit.value[at], fit.value[at + 1]);
-      // Any phase; any frequency up to five times the swing's; dying away within a period at most.
+      // Any phase is as likely, any frequency up to five times the swing's, and dying away in a period or
+      // slower.
       sum += log_cauchy(amplitude, law.term.typical, true) -
              std::log(2 * std::numbers::pi * amplitude * 5 * swing_frequency * swing_frequency);
       constexpr double grows = -2;  // standard errors

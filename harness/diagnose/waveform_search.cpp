@@ -15,9 +15,9 @@ namespace shakedown {
 
 namespace {
 
-/// A second swing nearer than this to the box's own, or to a multiple of it, is none: the one exchanges
-/// energy with the box (beats), the other is a harmonic.
-/// Both allow for the swing's own frequency changing with its amplitude.
+/// In parts of the frequency: a second swing nearer than this to the box's own, or to a multiple of it, is
+/// none. The one exchanges energy with the box (beats), the other is a harmonic. Both allow for the swing's
+/// own frequency changing with its amplitude.
 constexpr double near_own = 0.2, near_multiple = 0.05;
 
 bool is_own(double frequency, double swing, double resolution) {
@@ -32,7 +32,7 @@ double longest_of(const std::vector<WaveformRun>& runs) {
   return longest;
 }
 
-/// The course of one search.
+/// Runs the course of one search.
 class WaveformSearch {
  public:
   WaveformSearch(std::vector<WaveformRun> runs, const EffectsInQuestion& asked, bool free_frequency)
@@ -48,7 +48,7 @@ class WaveformSearch {
   WaveformAnswer run(double frequency) {
     WaveformFit whole = plain_laws(frequency);
     WaveformAnswer answer;
-    // A fit of many laws may end in a side valley that a set within it leaves: from there once more.
+    // A fit of many laws may end in a side valley that a set within it leaves: then go on from that set.
     constexpr int most_rounds = 3;
     constexpr double much_better = 0.8;  // of the remains
     for (int round = 0; round < most_rounds; ++round) {
@@ -77,8 +77,8 @@ class WaveformSearch {
  private:
   WaveformSets sets() const { return {runs_, static_cast<double>(laws_.size()), few_, options_}; }
 
-  /// What the plain fit has: every law of one strength that engines without a waveform look for too, without
-  /// those that stand for another one (a friction that yields).
+  /// Returns the plain fit. It has every law of one strength that engines without a waveform look for too,
+  /// without those that stand for another one (a friction that yields).
   WaveformFit plain_laws(double frequency) {
     std::vector<WaveformLaw> plain;
     for (const WaveformLaw& law : laws_)
@@ -89,7 +89,7 @@ class WaveformSearch {
     std::erase_if(laws_, [&](const WaveformLaw& law) {
       return is_plain(law) && std::find(plain.begin(), plain.end(), law) == plain.end();
     });
-    // Each damping alone first: of several that may have either sign the beginning of a swing tells too
+    // Fit each damping alone first: of several that may have either sign the beginning of a swing tells too
     // little.
     WaveformFit best = fit_growing(runs_, plain, with_zeros(start.value, plain), options_);
     for (const WaveformLaw& damping : plain) {
@@ -103,7 +103,7 @@ class WaveformSearch {
       WaveformFit all = fit_waveform(runs_, plain, spread(one, plain), options_);
       if (all.possible && (!best.possible || all.chi2 < best.chi2)) best = std::move(all);
     }
-    // And each two of them.
+    // Then fit each two of them.
     const std::vector<WaveformFit> alone = few_;
     for (std::size_t a = 0; a < alone.size(); ++a)
       for (std::size_t b = 0; b < alone.size(); ++b) {
@@ -130,7 +130,7 @@ class WaveformSearch {
     longer.head(value.size()) = value;
     return longer;
   }
-  /// The values of a fit as a start for more laws.
+  /// Returns the values of a fit as a start for more laws.
   static Eigen::VectorXd spread(const WaveformFit& fit, const std::vector<WaveformLaw>& laws) {
     Eigen::VectorXd start = with_zeros(fit.value.head(fit.first_of(0)), laws);
     Eigen::Index next = fit.first_of(0);
@@ -142,10 +142,10 @@ class WaveformSearch {
     }
     return start;
   }
-  /// Those laws that frequency, places and origins do not take up.
+  /// Returns those laws that frequency, places and origins do not take up.
   std::vector<WaveformLaw> leaving_trace(const WaveformFit& fit, const std::vector<WaveformLaw>& laws) const {
-    // Derivatives are differences over 1e-4 of what changes the motion by its amplitude: bent by as much, of
-    // which 1e-8 is left in squares where nothing is.
+    // Derivatives are differences over 1e-4 of what changes the motion by its amplitude, and err by as much:
+    // of a law that does nothing 1e-8 is left in squares.
     constexpr double left_by_differences = 1e-6;
     const std::vector<LawScore> scores = scores_of(runs_, fit, laws, until(3 / fit.frequency()));
     std::vector<WaveformLaw> leaving;
@@ -161,7 +161,7 @@ class WaveformSearch {
     }
   }
 
-  /// The law that makes the whole most probable, if one does.
+  /// Adds the law that makes the whole most probable; returns false where none does.
   bool add_one(WaveformFit& whole) {
     std::vector<WaveformFit> tried;
     std::vector<WaveformLaw> others;
@@ -192,7 +192,8 @@ class WaveformSearch {
     whole = WaveformFit(*best);
     return true;
   }
-  /// Signs are not asked for on the way: what is needless goes in the end.
+  /// Returns the ln odds beforehand of the laws of a fit. Signs are not asked for on the way: what is
+  /// needless goes in the end.
   double cost(const WaveformFit& fit) const {
     const double each = log_odds_of_one_more(static_cast<double>(laws_.size()));
     double sum = 0;
@@ -213,7 +214,8 @@ class WaveformSearch {
     return fit_waveform(runs_, laws, start, options_);
   }
 
-  /// A friction that yields, as strong as the dry one that the fit has.
+  /// Returns a fit with a friction that yields in place of the dry one that the whole has, as strong; nothing
+  /// where it has none.
   std::optional<WaveformFit> in_place_of_dry(const WaveformFit& whole, const WaveformLaw& law) const {
     const double travel = law.term.besides.empty() ? 0 : law.term.besides.back().second;
     double amplitude = 0;
@@ -233,8 +235,8 @@ class WaveformSearch {
     return {};
   }
 
-  /// Where a law of the whole has another one that says the same, the one that explains more stays: a
-  /// pendulum beside its own cubic term adds next to nothing, in place of it it leaves less.
+  /// Puts another law that says the same in the place of one of the whole where it explains more: a pendulum
+  /// beside its own cubic term adds next to nothing, in place of it it leaves less.
   void put_look_alikes_in_place(WaveformFit& whole) const {
     for (std::size_t i = 0; i < whole.laws.size(); ++i)
       for (const WaveformLaw& law : laws_) {
@@ -249,7 +251,8 @@ class WaveformSearch {
       }
   }
 
-  /// A second swing where the residual has its strongest one.
+  /// Returns a fit with a second swing where the residual has its strongest one; nothing where none stands
+  /// out.
   std::optional<WaveformFit> with_mode(const WaveformFit& whole, const WaveformLaw& law) const {
     const double length = longest_of(runs_), swing = whole.frequency();
     const WaveformRun& run = runs_.front();
@@ -271,7 +274,7 @@ class WaveformSearch {
     std::vector<WaveformLaw> laws = whole.laws;
     laws.push_back(law);
     Eigen::VectorXd start = with_zeros(whole.value, {law});
-    // Sine and cosine part by the equation's own response, linear at this frequency.
+    // Take sine and cosine part from the equation's own response, which is linear at this frequency.
     start[start.size() - 2] = found;
     const Eigen::Vector2d parts = linear_mode(runs_, whole, law, found, options_);
     start[start.size() - 4] = parts[0], start[start.size() - 3] = parts[1];

@@ -30,8 +30,8 @@ bool has(const Setup& setup, const EffectRecord& record) {
                      [&](const EffectChoice& choice) { return choice.record == &record; });
 }
 
-/// A value of the command line as it stands in a file: numbers, lists and tables as they are, all else in
-/// quotes.
+/// Returns a value of the command line as it stands in a file: numbers, lists and tables as they are, all
+/// else in quotes.
 std::string as_toml(const std::string& value) {
   try {
     const TomlValue parsed = parse_toml("value = " + value, "");
@@ -63,7 +63,7 @@ std::vector<Override> parsed(const std::vector<std::string>& values) {
   return overrides;
 }
 
-/// The setup that the amended file must give when it is read back.
+/// Returns the setup that the amended file must give when it is read back.
 Setup wanted(const std::string& text, const std::filesystem::path& file, const EffectRecord& record,
              const std::vector<Override>& values) {
   if (has(parse_setup(text, file.string(), all_effects(), {}, file.parent_path()), record))

@@ -15,14 +15,14 @@ namespace shakedown::effect {
 
 namespace {
 
-/// Recorded places of the base; between them the cubic of their four neighbours, beyond them at rest.
+/// The base as it was recorded: between its places the cubic of their four neighbours, beyond them at rest.
 class BaseMotion {
  public:
   explicit BaseMotion(const std::string& samples) : problem_(read(samples)) {}
 
   const std::string& problem() const { return problem_; }
 
-  /// m
+  /// Returns the place of the base at time t (s of the recording), m.
   double at(double t) const {
     if (t <= time_.front()) return place_.front();
     if (t >= time_.back()) return place_.back();
@@ -35,7 +35,7 @@ class BaseMotion {
   }
 
  private:
-  /// What is wrong with it; empty: nothing.
+  /// Reads "time place, time place, ..." and returns what is wrong with it; empty: nothing.
   std::string read(const std::string& samples) {
     const char *at = samples.data(), *end = at + samples.size();
     while (at != end) {
@@ -55,7 +55,7 @@ class BaseMotion {
         std::adjacent_find(time_.begin(), time_.end(), std::greater_equal<>()) == time_.end();
     return forwards ? "" : "has a clock that does not run forwards";
   }
-  /// m/s, of the parabola through a place and its neighbours; at the ends it rests.
+  /// Returns the speed of the parabola through a place and its neighbours, m/s; 0 at the ends.
   double speed(std::size_t i) const {
     if (i == 0 || i + 1 == time_.size()) return 0;
     const double before = time_[i] - time_[i - 1], after = time_[i + 1] - time_[i];
@@ -67,7 +67,8 @@ class BaseMotion {
   std::string problem_;
 };
 
-/// A fit asks for the same motion thousands of times; reading it costs more than a period of the box.
+/// Returns the motion that a text says, and keeps the last sixteen: a fit asks for the same one thousands of
+/// times, and reading it costs more than a period of the box.
 std::shared_ptr<const BaseMotion> motion_of(const std::string& samples) {
   static std::mutex one_at_a_time;
   static std::vector<std::pair<std::string, std::shared_ptr<const BaseMotion>>> read;
@@ -87,7 +88,7 @@ std::vector<ParameterProblem> check_samples(const EffectChoice& choice) {
       {"samples", problem, "write times in s and places in m in turn, e.g. \"0 0 0.02 1.5e-4 0.04 3e-4\""}};
 }
 
-/// What the spring does more because its far end is not at zero.
+/// Adds what the spring does more because its far end is not at zero.
 void apply_base_motion(const EffectChoice& choice, int index, Physics& physics) {
   const std::shared_ptr<const BaseMotion> motion = motion_of(choice.text("samples"));
   const double start = choice.number("start"), stiffness = physics.stiffness, cubic = physics.spring_cubic;

@@ -37,7 +37,7 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
   return result;
 }
 
-/// 0.02 -> "0.02 N"; infinities in words.
+/// Writes a value in its unit, "0.02 N", and infinities in words.
 std::string in_unit(double value, std::string_view unit) {
   return std::isfinite(value) ? write_quantity(value, unit) : value > 0 ? "no limit" : "-no limit";
 }
@@ -47,7 +47,7 @@ std::string bounds_of(const Parameter& parameter) {
   return in_unit(parameter.low, parameter.unit) + " to " + in_unit(parameter.high, parameter.unit);
 }
 
-/// A value as it stands in a setup file.
+/// Returns a value of this strength as it stands in a setup file.
 std::string toml_value(const Parameter& parameter, double strength) {
   switch (parameter.kind) {
     case ParameterKind::number: return toml_of(strength, parameter.unit);
@@ -65,8 +65,8 @@ bool is_strength(const Parameter& parameter) {
              : parameter.kind != ParameterKind::choice || parameter.required;
 }
 
-/// "at 40 mm the slope changes by -0.62 mm/s, hard minus soft by 0.01 +- 0.03"; what the effect adds to the
-/// plain model.
+/// Says what the effect adds to the plain model:
+/// "at 40 mm the slope changes by -0.62 mm/s, hard minus soft by 0.01 +- 0.03".
 std::string differences_of(const EffectRecord& effect) {
   std::string text;
   for (const EngineDifference& row : engine_differences()) {
@@ -81,7 +81,7 @@ std::string differences_of(const EffectRecord& effect) {
   return text;
 }
 
-/// Difference of the engines at both lengths that were measured, mm/s.
+/// Returns what the effect adds to the difference of the engines at both lengths that were measured, mm/s.
 std::string shortly(std::string_view effect) {
   std::string text;
   for (const double length : {0.040, 0.104})

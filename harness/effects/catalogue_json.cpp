@@ -51,7 +51,8 @@ Json json_of(const Capability& capability) {
   return {{"fidelity", name_of(capability.fidelity)}, {"note", capability.note}};
 }
 
-/// In mm/s at the strength measured, a row a box length; empty: not measured, or seen by the camera only.
+/// Returns the differences of the engines in mm/s at the strength measured, a row a box length; empty: not
+/// measured, or seen by the camera only.
 Json differences_json(const EffectRecord& effect) {
   Json rows = Json::array();
   for (const EngineDifference& row : engine_differences()) {
@@ -81,7 +82,7 @@ Json json_of(const SearchedStrength& strength) {
   return json;
 }
 
-/// How a diagnosis looks for it: strengths with their levels, or why it does not.
+/// Returns how a diagnosis looks for it: strengths with their levels, or why it does not.
 Json search_json(const EffectRecord& effect) {
   const Search search = search_of(effect);
   if (!search.not_searched.empty()) return {{"not_searched", search.not_searched}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A coefficient of the contacts as a formula of a speed at first touch and of the setup's own value of it,
-// for effects with the parameters `on` (all, grains, walls), `constants`, and the formula itself.
+// Reads a coefficient of the contacts as a formula of a speed at first touch and of the setup's own value of
+// it, for effects with the parameters `on` (all, grains, walls), `constants`, and the formula itself.
 #pragma once
 #include <array>
 #include <string>
@@ -27,8 +27,8 @@ class ContactFormula {
   /// The words must outlive it. Throws FormulaProblem.
   ContactFormula(const ContactFormulaWords& words, const EffectChoice& choice);
 
-  /// The coefficient at this speed, or `setups` for a contact that has no formula. Throws PhysicsError where
-  /// the formula gives no finite number.
+  /// Returns the coefficient at this speed (m/s), or `setups`, the setup's own, for a contact that has no
+  /// formula. Throws PhysicsError where the formula gives no finite number.
   double operator()(ContactClass kind, double speed, double setups) const;
 
  private:
@@ -37,8 +37,8 @@ class ContactFormula {
   std::string on_;
 };
 
-/// What is wrong with the formula: unreadable, or without a finite value at some speed from none to ten
-/// metres a second, beyond any damper. For EffectRecord::check.
+/// Returns what is wrong with the formula: unreadable, or without a finite value at some speed from none to
+/// ten metres a second, beyond any damper. For EffectRecord::check.
 std::vector<ParameterProblem> problems_of_contact_formula(const ContactFormulaWords& words,
                                                           const EffectChoice& choice);
 

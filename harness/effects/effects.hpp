@@ -7,11 +7,11 @@
 
 namespace shakedown {
 
-/// Every effect that a setup may name, in the order of the documentation. A new effect is one file and one
-/// line in effects.cpp.
+/// Returns every effect that a setup may name, in the order of the documentation. A new effect is one file
+/// and one line in effects.cpp.
 KnownEffects all_effects();
 
-/// The effect of this name, or nullptr.
+/// Returns the effect of this name, or nullptr.
 const EffectRecord* find_effect(std::string_view name);
 
 }  // namespace shakedown

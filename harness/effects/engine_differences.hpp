@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How far apart the hard and the soft engine are with each effect on, measured. What an impulse and a force
-// make of one law is not the same in layers, so the strength of an effect found with one engine in data of
-// the other's kind is uncertain by that much.
+// Tells how far apart the hard and the soft engine are with each effect on, as measured. What an impulse and
+// a force make of one law is not the same in layers, so the strength of an effect found with one engine in
+// data of the other's kind is uncertain by that much.
 #pragma once
 #include <optional>
 #include <span>
@@ -22,7 +22,7 @@ struct EngineDifference {
   double half_width;       ///< m/s, of the 95 % interval of hard_minus_soft
 };
 
-/// All that were measured, as the table beside says them.
+/// Returns all that were measured, as engine_differences.csv has them.
 std::span<const EngineDifference> engine_differences();
 
 /// What the effect does to the slope, and what it adds to the difference of the engines beyond that of the
@@ -34,12 +34,12 @@ struct AddedDifference {
   double half_width;  ///< of the 95 % interval of `added`
 };
 
-/// Empty for an effect or a box length that was not measured (40 and 104 mm were).
+/// Returns nothing for an effect or a box length (m) that was not measured (40 and 104 mm were).
 std::optional<AddedDifference> added_difference(std::string_view effect, double box_length);
 
-/// Relative uncertainty of a strength that was found with one engine in data of the other's kind: root mean
-/// square over the lengths of added / change where `added` differs from zero (else 0), weighted by how well
-/// it is known; 0 where none was looked for.
+/// Returns the relative uncertainty of a strength that was found with one engine in data of the other's kind:
+/// root mean square over the lengths of added / change where `added` differs from zero (else 0), weighted by
+/// how well it is known; 0 where none was looked for.
 double strength_uncertainty(std::string_view effect);
 
 }  // namespace shakedown

@@ -10,8 +10,8 @@
 namespace shakedown::effect {
 
 namespace {
-/// Drawn from the bits of the closing speed, which no two impacts share: both engines call the law with that
-/// number alone, a run repeats to the last bit, and threads need no generator.
+/// Draws a normal deviate from the bits of the closing speed, which no two impacts share: both engines call
+/// the law with that number alone, a run repeats to the last bit, and threads need no generator.
 double deviate(ContactClass kind, double closing_speed) {
   return Random(std::bit_cast<std::uint64_t>(closing_speed), static_cast<std::uint64_t>(kind), Stream::other)
       .normal();

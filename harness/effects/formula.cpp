@@ -34,7 +34,7 @@ double call_lent(void* function, double x, double v, double t) {
   return (*static_cast<const LentFunction*>(function))(x, v, t);
 }
 
-/// x, then the points x1, y1, x2, y2 and so on.
+/// Computes curve(x, x1, y1, x2, y2, ...) for muParser.
 double curve(const double* arguments, int count) {
   if (count < 5 || count % 2 == 0)
     throw mu::ParserError("curve takes x and then two points or more: curve(x, x1, y1, x2, y2)");
@@ -74,13 +74,13 @@ struct Formula::Parser {
     parser.SetExpr(text);
   }
 
-  /// Another of the same formula: muParser's own copies would read the variables of this one.
+  /// Makes another parser of the same formula: muParser's own copies would read the variables of this one.
   std::unique_ptr<Parser> again() const { return std::make_unique<Parser>(text, constants, variables); }
 };
 
 namespace {
 
-/// The identifiers that a formula may use, for "did you mean".
+/// Returns "did you mean ...?" from the identifiers that a formula may use.
 std::string suggestion_for(const std::string& word, const std::map<std::string, double>& constants,
                            const std::vector<std::string>& variables) {
   std::vector<std::string_view> names{"sin", "cos",  "tan",  "exp",   "log",  "ln",   "sqrt", "abs",  "min",

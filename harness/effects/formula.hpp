@@ -20,11 +20,11 @@ struct FormulaProblem {
 /// is called from any thread.
 using LentFunction = std::function<double(double x, double v, double t)>;
 
-/// From now on each formula of this process may hold name(x, v, t). A name is lent once; throws
+/// Lets each formula of this process hold name(x, v, t) from now on. A name is lent once; throws
 /// FormulaProblem.
 void lend_function(const std::string& name, LentFunction function);
 
-/// The variables of a force: position in m, velocity in m/s, time in s.
+/// Returns the variables of a force: position in m, velocity in m/s, time in s.
 const std::vector<std::string>& variables_of_a_force();
 
 /// Beside muParser's functions there is curve(x, x1, y1, x2, y2, ...): monotone_cubic() through points whose
@@ -41,10 +41,10 @@ class Formula {
   Formula& operator=(Formula&&) noexcept;
   ~Formula();
 
-  /// The variables in their order, SI; of a force x in m, v in m/s, t in s. Throws PhysicsError where
-  /// the points of a curve do not ascend.
+  /// Returns the value at these variables in their order, SI; of a force x in m, v in m/s, t in s. Throws
+  /// PhysicsError where the points of a curve do not ascend.
   double operator()(double first, double second, double third = 0) const;
-  /// True when the formula contains this variable.
+  /// Tells whether the formula contains this variable.
   bool uses(const std::string& variable) const;
 
  private:

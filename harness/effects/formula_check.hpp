@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is wrong with a formula that a setup gives.
+// Finds what is wrong with a formula that a setup gives.
 #pragma once
 #include <functional>
 #include <string_view>

@@ -12,7 +12,8 @@ void apply_grain_friction(const EffectChoice& choice, int, Physics& physics) {
   physics.contact.stiffness_ratio = choice.number("stiffness_ratio");
 }
 
-/// A spring with a dashpot turns the slip round or stops it; it cannot leave part of it in its old direction.
+/// Returns what an engine makes of these parameters: a spring with a dashpot turns the slip round or stops
+/// it, and cannot leave part of it in its old direction.
 Capability capability_of_friction(const EffectChoice& choice, std::string_view engine, Capability general) {
   const double tangential = choice.number("tangential_restitution");
   const bool compliant = choice.number("stiffness_ratio") != ContactLaw::turning_ratio;

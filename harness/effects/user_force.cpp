@@ -20,7 +20,8 @@ std::string place_of(double x, double v, double t) {
   return "x = " + write_number(x) + " m, v = " + write_number(v) + " m/s, t = " + write_number(t) + " s";
 }
 
-/// Places at which formulas break: zero, tiny, and the extremes of the paper's damper.
+/// Returns a place where the formula has no finite value, in words, or nothing. Tries places at which
+/// formulas break: zero, tiny, and the extremes of the paper's damper.
 std::string where_no_force(const EffectChoice& choice) {
   constexpr std::array positions{0.0, 1e-6, -1e-6, 1e-3, -1e-3, 0.03, -0.03, 0.1075, -0.1075, 0.2, -0.2};
   constexpr std::array velocities{0.0, 1e-6, -1e-6, 1e-3, -1e-3, 0.1, -0.1, 0.8, -0.8, 2.0, -2.0};
@@ -48,8 +49,8 @@ void apply_user_force(const EffectChoice& choice, int index, Physics& physics) {
   (choice.text("on") == "box" ? physics.box.free : physics.grains.free).push_back({newton, index});
 }
 
-/// Between impacts the hard engine knows the grains' motion in closed form; a force that follows a grain
-/// would bend it.
+/// Returns what an engine makes of this formula: between impacts the hard engine knows the grains' motion in
+/// closed form, which a force that follows a grain would bend.
 Capability capability_of_formula(const EffectChoice& choice, std::string_view engine, Capability general) {
   if (engine != "hard" || choice.text("on") != "grains") return general;
   const Formula formula = force_formula_of(choice);

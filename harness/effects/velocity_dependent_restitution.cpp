@@ -57,7 +57,7 @@ void apply_viscoelastic(const EffectChoice& choice, Physics& physics) {
   };
 }
 
-/// No contact of LAMMPS remembers the speed at which it began.
+/// Returns what an engine makes of this law: no contact of LAMMPS remembers the speed at which it began.
 Capability capability_of_restitution(const EffectChoice& choice, std::string_view engine,
                                      Capability general) {
   if (engine != "lammps" || choice.text("law") == "viscoelastic") return general;

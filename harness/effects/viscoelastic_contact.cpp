@@ -14,8 +14,8 @@ struct Contact {
   double depth, speed;
 };
 
-/// d/ds with time = s^2, in which the motion starts smoothly (depth^(1/2) has no slope at touch in the time
-/// itself).
+/// Returns d/ds of the contact with time = s^2, in which the motion starts smoothly (depth^(1/2) has no slope
+/// at touch in the time itself).
 Contact slope(double s, const Contact& c, double b) {
   const double root = std::sqrt(std::max(c.depth, 0.0));
   return {2 * s * c.speed, -2 * s * root * (c.depth + b * c.speed)};
@@ -26,7 +26,7 @@ struct Step {
   double error;
 };
 
-/// Dormand and Prince's pair of orders 5 and 4.
+/// Takes one step of Dormand and Prince's pair of orders 5 and 4.
 Step stepped(double s, const Contact& c, double h, double b) {
   constexpr std::array<std::array<double, 6>, 6> a{
       {{1. / 5},

@@ -10,14 +10,14 @@
 
 namespace shakedown {
 
-/// Restitution by integrating the contact, b >= 0; error below 1e-11.
+/// Returns the restitution by integrating the contact, b >= 0; error below 1e-11.
 double solved_viscoelastic_restitution(double b);
 
-/// The same from a table made once (70 ms); error below 1e-10 for restitutions above 3.3e-3, 2e-5 below.
-/// Thread-safe.
+/// Returns the same from a table made once (70 ms); error below 1e-10 for restitutions above 3.3e-3, 2e-5
+/// below. Thread-safe.
 double viscoelastic_restitution(double b);
 
-/// The b that gives a restitution in (0, 1]; below 3.3e-3 the end of the table.
+/// Returns the b that gives a restitution in (0, 1]; below 3.3e-3 the end of the table.
 double viscoelastic_damping(double restitution);
 
 /// Duration of an undamped contact times (k/m)^(2/5) v^(1/5).

@@ -60,7 +60,7 @@ class Reader {
     return value;
   }
   std::string_view text() { return take(number<std::uint64_t>()); }
-  /// How many records of `size` bytes follow.
+  /// Reads how many records of `size` bytes follow.
   std::size_t count(std::size_t size) {
     const auto n = number<std::uint64_t>();
     if (n > (bytes_.size() - at_) / size) fail("is cut short or damaged; make the run again with --log");
@@ -70,7 +70,8 @@ class Reader {
   [[noreturn]] void fail(const std::string& what) const { throw FileError(file_.string() + ": " + what); }
 
  private:
-  /// A log that was damaged may still be read, as another motion or one without end.
+  /// Throws FileError where the sum does not fit: a log that was damaged may still be read, as another motion
+  /// or one without end.
   void check_sum() {
     const std::size_t whole = bytes_.size() - std::min(bytes_.size() - at_, sizeof(std::uint64_t));
     std::uint64_t sum = 0;
@@ -119,7 +120,7 @@ State read_state(Reader& from) {
   return state;
 }
 
-/// The grains come from the log itself, so no packing need hold as many of them.
+/// Reads the setup of a log. The grains come from the log itself, so no packing need hold as many of them.
 Setup setup_of_log(const std::string& text, const std::filesystem::path& file, KnownEffects known) {
   const std::string key = "release.initial_grains";
   const Override own_state{key, toml_string(file.string()), file.string()};

@@ -2,11 +2,13 @@
 // A collision log as a file, from which a run can be replayed anywhere that the same program runs.
 // Little-endian:
 //   "shakedown collision log 2\n"
-//   text: program that wrote it; text: setup (TOML)                          a text is its length (8 bytes)
-//   and its bytes run, end time, entries, impacts                                          8 bytes each
+//   the program that wrote it, the setup (TOML): two texts, each its length (8 bytes) and its bytes
+//   run, end time, entries, impacts: 8 bytes each
 //   number of grains, 1 where they spin; x_box, v_box; of each grain position, velocity, spin (if any),
-//   radius, mass    8 bytes a number number of digests and the digests; number of bytes of packed events and
-//   the events (hardsphere/event_log.hpp); FNV-1a of all that
+//   radius, mass: 8 bytes a number
+//   number of digests and the digests; number of bytes of packed events and the events
+//   (hardsphere/event_log.hpp)
+//   FNV-1a of all that
 #pragma once
 #include <filesystem>
 #include <span>
@@ -29,7 +31,7 @@ struct StoredRun {
   std::filesystem::path file{};  ///< that it was read from; empty: none
 };
 
-/// What stands in a file of collisions; read_collision_log reads it back.
+/// Returns what stands in a file of collisions; read_collision_log reads it back.
 std::string collision_log_bytes(const StoredRun& stored);
 
 /// Reads a log, or collision_log_name in a folder. Throws FileError, naming what is wrong with the file.

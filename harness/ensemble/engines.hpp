@@ -9,10 +9,10 @@
 
 namespace shakedown {
 
-/// Names of the engines in this program, the default ("hard") first.
+/// Returns the names of the engines in this program, the default ("hard") first.
 std::vector<std::string> engine_names();
 
-/// One of them, or any program: "command:./my_code". Throws InputError for a name that is neither.
+/// Makes one of them, or any program: "command:./my_code". Throws InputError for a name that is neither.
 std::unique_ptr<Engine> engine_named(std::string_view name);
 
 }  // namespace shakedown

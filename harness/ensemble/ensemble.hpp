@@ -42,11 +42,12 @@ struct Ensemble {
   bool interrupted = false;
   double wall_seconds = 0;
 
-  /// Mean and spread over the runs of a number of theirs.
+  /// Returns mean and spread of a number over the runs.
   Statistic over_runs(const std::function<double(const RunResult&)>& number) const;
 };
 
-/// Throws what the engine throws; of several failing runs, the error of the lowest number.
+/// Runs the setup as often as asked. Throws what the engine throws; of several failing runs, the error of the
+/// lowest number.
 Ensemble run_ensemble(const Engine& engine, const Setup& setup, const EnsembleOptions& options);
 
 }  // namespace shakedown

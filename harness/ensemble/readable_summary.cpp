@@ -13,7 +13,7 @@ namespace shakedown {
 
 namespace {
 
-/// "8.20", of an ensemble "8.20 +- 0.05"; "-" where there is no such number.
+/// Returns "8.20", of an ensemble "8.20 +- 0.05"; "-" where there is no such number.
 std::string with_spread(const Statistic& statistic, int decimals) {
   if (statistic.n == 0) return "-";
   if (statistic.n == 1 || std::isnan(statistic.sd)) return fmt::format("{:.{}f}", statistic.mean, decimals);
@@ -56,7 +56,7 @@ std::string motion_lines(const Ensemble& ensemble, const Setup& setup) {
               rms([](const Decay& decay) { return decay.exponential.rms; }), "mm");
 }
 
-/// Under steady forcing.
+/// Returns the lines about the state under steady forcing.
 std::string forced_lines(const Ensemble& ensemble) {
   const auto seen = [&](double scale, int decimals, double SteadyState::*member) {
     return with_spread(ensemble.over_runs([&](const RunResult& run) {
@@ -107,7 +107,7 @@ double collisions_of(const RunResult& run) {
   return total < 0 ? std::numeric_limits<double>::quiet_NaN() : total;
 }
 
-/// Other people's programs do not tell everything.
+/// Returns the line of a promise, "not told" where a program of other people does not tell it.
 std::string worst_line(const char* label, double worst, const char* unit) {
   return std::isnan(worst) ? line(label, "- (not told)") : line(label, fmt::format("{:.1e}", worst), unit);
 }

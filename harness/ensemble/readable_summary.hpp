@@ -7,7 +7,7 @@
 
 namespace shakedown {
 
-/// The results for people, about twenty lines.
+/// Returns the results for people, about twenty lines.
 std::string readable_summary(const Ensemble& ensemble, const Setup& setup);
 
 }  // namespace shakedown

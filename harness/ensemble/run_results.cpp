@@ -35,7 +35,7 @@ std::string line_of(int run, const Trajectory& trajectory, const Observables& se
   return csv_line(numbers);
 }
 
-/// Where files stand until all of them are written.
+/// Files stand in this folder until all of them are written.
 constexpr const char* unfinished = ".unfinished";
 
 }  // namespace
@@ -59,7 +59,7 @@ void RunResults::write(const std::filesystem::path& name, std::string_view conte
   written_.push_back(name);
 }
 
-/// The setup as used; a file of grains moves into the folder with it.
+/// Writes the setup as used; a file of grains is copied into the folder with it.
 void RunResults::write_used_setup(Setup setup) {
   const std::string copy = "initial_grains.csv";
   std::error_code apart;  // two files, or one of them is not there
@@ -74,7 +74,7 @@ void RunResults::write_used_setup(Setup setup) {
   write("setup.toml", write_setup(setup));
 }
 
-/// The summary goes last: where it stands, all of its run does.
+/// Moves the new files to their places, the summary last: where it stands, all of its run does.
 void RunResults::put_in_place() const {
   for (const std::filesystem::path& name : written_) expect_writable(folder_.path() / name);
   remove_earlier_results();
@@ -91,7 +91,8 @@ void RunResults::put_in_place() const {
   remove_unfinished();
 }
 
-/// What an earlier run left would stand beside the results of this one as if it belonged to them.
+/// Removes what an earlier run left, which would stand beside the results of this one as if it belonged to
+/// them.
 void RunResults::remove_earlier_results() const {
   std::vector<std::filesystem::path> names{"setup.toml",   "initial_grains.csv", "series.csv",
                                            "runs.csv",     "mean_series.csv",    collision_log_name,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A folder of results: of one run or ensemble whole, or as it was before.
+// Keeps a folder of results whole: it holds those of one run or ensemble, or what it held before.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -32,7 +32,7 @@ class RunResults {
   /// collisions/run_NNNN.log.
   void keep_collisions_of(const Setup& setup) { logged_ = setup; }
 
-  /// Hand it to EnsembleOptions::each.
+  /// Takes the next run; to be handed to EnsembleOptions::each.
   void add(int run, const Trajectory& trajectory, const Observables& observables);
 
   /// Writes what is left, and puts all in the place of what an earlier run left. Throws FileError.

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no NaN.
+/// Returns null for what is not finite, as JSON has no NaN.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json decay_json(const Decay& decay) {
@@ -56,7 +56,7 @@ void add_motion(const Observables& seen, Json& json) {
                                {"equivalent_damping_ratio", number(damping.equivalent_ratio)}});
 }
 
-/// Only where the damper is forced.
+/// Adds the state under forcing, only where the damper is forced.
 void add_forced(const Observables& seen, Json& json) {
   if (!seen.steady) return;
   json["forced"] = {{"amplitude_mm", number(1e3 * seen.steady->amplitude)},
@@ -72,7 +72,7 @@ std::string fraction_name(double fraction) {
   return text.str();
 }
 
-/// Effects by name; a second one of the same name gets a number.
+/// Returns the losses to effects by name; a second one of the same name gets a number.
 Json effect_loss_json(const std::vector<double>& loss, const Setup& setup) {
   Json json = Json::object();
   for (std::size_t i = 0; i < loss.size() && i < setup.effects.size(); ++i) {
@@ -133,8 +133,8 @@ Json run_json(const RunResult& run, const Setup& setup) {
   return json;
 }
 
-/// One tree from many of the same shape: numbers become {mean, sd, n}, lists are joined place by place up to
-/// the longest, texts are collected. `extremes` adds the largest value.
+/// Joins many trees of the same shape to one: numbers become {mean, sd, n}, lists are joined place by place
+/// up to the longest, texts are collected. `extremes` adds the largest value.
 Json joined(const std::vector<const Json*>& trees, bool extremes) {
   const Json* shape = nullptr;
   for (const Json* tree : trees)
@@ -178,7 +178,7 @@ Json joined(const std::vector<const Json*>& trees, bool extremes) {
   return result;
 }
 
-/// Keys in the order of the alphabet, which this kind of JSON keeps by itself.
+/// Returns a TOML value as JSON, keys in the order of the alphabet, which this kind of JSON keeps by itself.
 nlohmann::json json_of(const TomlValue& value) {
   using Kind = TomlValue::Kind;
   nlohmann::json json;
@@ -201,7 +201,7 @@ nlohmann::json json_of(const TomlValue& value) {
   return json;
 }
 
-/// The setup as the setup file has it, quantities with their units.
+/// Returns the setup as the setup file has it, quantities with their units.
 Json setup_json(const Setup& setup) { return json_of(parse_toml(write_setup(setup), "setup")); }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "npy_file.hpp"
 #include "output_file.hpp"
@@ -26,7 +27,8 @@ std::filesystem::path write_text(const StoredRun& run, const FrameTimes& times,
   return file;
 }
 
-/// Two files a frame: where not all can be written, or the log ends before, those that were are taken back.
+/// Writes two files a frame: where not all can be written, or the log ends before, those that were are taken
+/// back.
 std::filesystem::path write_paraview(const StoredRun& run, const FrameTimes& times,
                                      const OutputFolder& folder) {
   std::vector<PvdEntry> entries;
@@ -42,6 +44,17 @@ std::filesystem::path write_paraview(const StoredRun& run, const FrameTimes& tim
       write(1, frame.time, fmt::format("frames/box_{:06}.vtp", frame.number), box_vtp(frame));
     });
     folder.write("motion.pvd", pvd(entries));
+    // An earlier export had more frames.
+    std::vector<std::filesystem::path> left;
+    for (std::size_t frame = entries.size() / 2;; ++frame) {
+      const std::array<std::string, 2> two{fmt::format("frames/grains_{:06}.vtp", frame),
+                                           fmt::format("frames/box_{:06}.vtp", frame)};
+      if (!std::filesystem::exists(folder.path() / two[0]) &&
+          !std::filesystem::exists(folder.path() / two[1]))
+        break;
+      left.insert(left.end(), two.begin(), two.end());
+    }
+    folder.remove(left);
   } catch (...) {
     folder.remove(written);
     throw;

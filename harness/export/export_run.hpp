@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Trajectories that other programs open, from a collision log.
+// Writes trajectories that other programs open, from a collision log.
 #pragma once
 #include <filesystem>
 #include <string_view>
@@ -11,7 +11,7 @@ namespace shakedown {
 enum class ExportFormat { xyz, lammps, vtp, npy, csv };
 constexpr std::array<std::string_view, 5> export_format_names{"xyz", "lammps", "vtp", "npy", "csv"};
 
-/// Throws InputError for a name that is none.
+/// Returns the format of this name. Throws InputError for a name that is none.
 ExportFormat export_format_named(std::string_view name);
 
 struct Exported {

@@ -33,7 +33,7 @@ void check(const FrameTimes& times, const CollisionLog& log) {
   if (!found.empty()) throw InputError(std::move(found));
 }
 
-/// What the log cannot give is said with the log's name.
+/// Moves the replay on; where the log does not fit, FileError begins with the log's name.
 void advance(Replay& replay, double time, const std::filesystem::path& file) {
   try {
     replay.advance_to(time);

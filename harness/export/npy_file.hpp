@@ -5,7 +5,7 @@
 
 namespace shakedown {
 
-/// The bytes of a NumPy .npy file (format 1.0) of little-endian doubles in C order.
+/// Returns the bytes of a NumPy .npy file (format 1.0) of little-endian doubles in C order.
 std::string npy(const std::vector<std::size_t>& shape, const std::vector<double>& values);
 
 }  // namespace shakedown

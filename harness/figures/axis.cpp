@@ -17,7 +17,7 @@ double step_of(double length, int wanted) {
   return 10 * power;
 }
 
-/// With a minus that is as wide as a digit.
+/// Returns the number at a tick, with a minus that is as wide as a digit.
 std::string label_of(double value, double step) {
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9);
   if (std::abs(value) < 0.5 * step) value = 0;

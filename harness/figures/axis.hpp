@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where an axis begins and ends, and the numbers that stand at it.
+// Chooses where an axis begins and ends, and the numbers that stand at it.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,8 +12,8 @@ struct Axis {
   std::vector<std::string> labels;  ///< of the ticks
 };
 
-/// From `low` to `high`, finite, with about `wanted` ticks, three at least, at multiples of 1, 2 or 5 times a
-/// power of ten. Widened where both are one number. `rounded`: ends are ticks.
+/// Returns an axis from `low` to `high`, finite, with about `wanted` ticks, three at least, at multiples of
+/// 1, 2 or 5 times a power of ten. It is widened where both are one number. `rounded`: ends are ticks.
 Axis axis_of(double low, double high, int wanted, bool rounded);
 
 }  // namespace shakedown

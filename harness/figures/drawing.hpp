@@ -12,11 +12,6 @@ namespace shakedown {
 /// Points of a printer: 1/72 inch.
 constexpr double points_per_mm = 72 / 25.4;
 
-enum class Width {
-  column,  ///< 85 mm
-  page     ///< 180 mm
-};
-
 enum class Anchor { start, middle, end };
 
 struct DrawnPoint {
@@ -42,21 +37,17 @@ struct Drawing {
   std::vector<Mark> marks;       ///< those behind first
 };
 
-/// Points.
+/// Letters have this size, points.
 constexpr double letter_size = 8;
 
-/// Lays the figure out: panels below each other, on a whole page two beside each other. Axes carry their
-/// units.
-Drawing drawn(const Figure& figure, Width width);
-
-/// Width of a text in Helvetica, points; by classes of letters, so that it needs no font.
+/// Returns the width of a text in Helvetica, points, by classes of letters, so that it needs no font.
 double text_width(const std::string& text);
 
-/// The drawing as SVG text. Letters stay text.
+/// Returns the drawing as SVG text. Letters stay text.
 std::string svg_of(const Drawing& drawing);
 
-/// The drawing as the bytes of a PDF with the font in it. The same drawing gives the same bytes. Throws
-/// FileError where the library fails.
+/// Returns the drawing as the bytes of a PDF with the font in it. The same drawing gives the same bytes.
+/// Throws FileError where the library fails.
 std::string pdf_of(const Drawing& drawing);
 
 }  // namespace shakedown

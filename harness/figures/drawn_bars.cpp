@@ -36,14 +36,14 @@ std::vector<Entry> entries_of_bars(const Figure& figure) {
   return entries;
 }
 
-/// Three digits.
+/// Returns a number with three digits.
 std::string number_of(double value) {
   if (value == 0) return "0";
   const int before = static_cast<int>(std::floor(std::log10(std::abs(value))));
   return before < -3 ? fmt::format("{:.2g}", value) : fmt::format("{:.{}f}", value, std::max(0, 2 - before));
 }
 
-/// Words of a label in lines that fit.
+/// Breaks a label into lines that fit.
 std::vector<std::string> lines_of(const std::string& label, double width) {
   std::vector<std::string> lines{""};
   for (std::size_t at = 0; at < label.size();) {

@@ -10,7 +10,7 @@ namespace shakedown {
 /// Who is drawn; line and colour follow from it, so that a reader knows them again in every figure.
 enum class Look { measured, model, as_given, second, third, fourth };
 
-/// Word of a look, as elements of an SVG have it for their class.
+/// Returns the word of a look, as elements of an SVG have it for their class.
 const char* name_of(Look look);
 
 struct FigureCurve {

@@ -15,7 +15,7 @@ namespace shakedown {
 
 namespace {
 
-/// A number, the mean of an ensemble, or NaN.
+/// Returns a number, the mean of an ensemble, or NaN.
 double number_in(const Json& value) {
   if (value.is_object()) return number_in(value.at("mean"));
   return value.is_null() ? std::nan("") : value.get<double>();
@@ -33,7 +33,7 @@ std::vector<double> times(double factor, std::vector<double> values) {
   return values;
 }
 
-/// A panel for each wanted run; its curves are filled in by `fill`.
+/// Makes a panel for each wanted run; `fill` adds its curves.
 template <class Fill>
 Figure by_run(const Json& curves, const FigureRequest& request, Fill&& fill) {
   Figure figure;
@@ -62,7 +62,7 @@ const char* word_of(const std::string& observable) {
   return observable == "box" ? "position of the box, mm" : "grains' centre, mm";
 }
 
-/// The peaks of simulated runs, which fall along a straight line.
+/// Draws the peaks of simulated runs, which fall along a straight line.
 Figure peaks_figure(const Json& result) {
   FigureCurve peaks{"peaks", Look::measured, {}, {}, {}, true};
   const Json &heights = result.at("peaks_mm"), &moments = result.at("peak_times_s");

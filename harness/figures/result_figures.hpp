@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Which figures the results of a command hold.
+// Finds which figures the results of a command hold.
 #pragma once
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "figure.hpp"
+#include "figure_request.hpp"
 
 namespace shakedown {
 
-/// What is wanted of a result.
-struct FigureRequest {
-  std::string kind;                ///< of figure_kinds; empty: the first that the result holds
-  std::string run;                 ///< of several; empty: all
-  std::string observable = "box";  ///< or "centre", of the grains
-};
-
-/// decay, residuals, ladder, energy, probabilities, restitution.
+/// Returns decay, residuals, ladder, energy, probabilities, restitution.
 const std::vector<std::string>& figure_kinds();
 
 /// Reads a file of results (diagnosis.json, compare's, ladder.json, summary.json, bounce's, report.json), or

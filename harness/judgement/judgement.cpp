@@ -11,7 +11,7 @@ namespace {
 
 bool is_made(const ModelTest& test) { return test.why_not.empty(); }
 
-/// False for NaN too.
+/// Tells whether it lies between 0 and 1; false for NaN too.
 bool is_probability(double p) { return p >= 0 && p <= 1; }
 
 std::string said_of(const ModelTest& test, std::string_view name) {
@@ -25,7 +25,7 @@ std::string times_of(double misfit) {
 
 void add(std::string& list, const std::string& text) { list += (list.empty() ? "" : ", ") + text; }
 
-/// The worst difference that a model which holds cannot have; empty: there is none.
+/// Says what the worst difference is that a model which holds cannot have; empty where there is none.
 std::string too_much(const std::vector<Difference>& left) {
   const Difference* worst = nullptr;
   for (const Difference& one : left)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Does a model hold for a measurement? The one rule by which compare, ladder, fit and diagnose decide.
+// Decides whether a model holds for a measurement: the one rule of compare, ladder, fit and diagnose.
 #pragma once
 #include <limits>
 #include <string>
@@ -8,26 +8,26 @@
 
 namespace shakedown {
 
-/// p-value at or below which what ensembles say of a model rejects it: one right model in a hundred is.
+/// p-value at or below which ensembles reject a model: one right model in a hundred lies there.
 constexpr double features_rejected = 0.01;
 
-/// p-value at or below which the momentum balance is not in order: one experiment in a hundred lies below
-/// 0.01 by chance, and a force from outside is a grave word.
+/// p-value at or below which the momentum balance is not in order. One experiment in a hundred lies below
+/// 0.01 by chance, which is too often to speak of a force from outside.
 constexpr double balance_rejected = 1e-3;
 
 /// Misfit over that of the model's own runs below which a small p-value decides nothing: soft contacts of 0.2
 /// to 0.43 ms judged by hard impacts of the same parameters have 1.1 to 1.33.
 constexpr double codes_differ = 1.4;
 
-/// Times noise and spread from run to run that a model which holds may leave of the measurement at most. Of
-/// 120 ring-downs drawn at random (shakedown-studies ring-downs --cases 60, seeds 4401 and 5519) the 111
+/// Most that a model which holds may leave of the measurement, in times of noise and spread from run to run.
+/// Of 120 ring-downs drawn at random (shakedown-studies ring-downs --cases 60, seeds 4401 and 5519) the 111
 /// right answers left 0.97 at the median and 1.32 at most. Of 23 recordings of real oscillators that others
 /// published the right answers left up to 1.75, and nine of the eleven wrong ones 2.8 and more.
 constexpr double most_left = 2.5;
 
 enum class Standing { holds, undecided, fails };
 
-/// What one test says of a model.
+/// Holds what one test says of a model.
 struct ModelTest {
   double p_value = std::numeric_limits<double>::quiet_NaN();
   /// chi2 over that of the model's own runs.
@@ -38,7 +38,7 @@ struct ModelTest {
   double undecided_below = codes_differ;
 };
 
-/// One rms difference between model and measurement, m. What is no number is not asked about.
+/// Holds one rms difference between model and measurement, m. What is no number is not asked about.
 struct Difference {
   std::string of;  ///< "box", "box of run a"
   double error = std::numeric_limits<double>::quiet_NaN();
@@ -48,13 +48,14 @@ struct Difference {
   std::string looks_like = "";                                  ///< "a swing of 1.7 Hz"; empty: not known
 };
 
-/// How many floors it is; NaN where it is not known.
+/// Returns the error in floors; NaN where it is not known.
 double times_floor(const Difference& difference);
-/// What was added to the error is more than noise and spread are.
+/// Tells whether the error rose from as given by more than noise and spread explain.
 bool has_risen(const Difference& difference);
-/// "2.1 mm, 6 % of the amplitude, a swing of 1.7 Hz".
+/// Returns "2.1 mm (6 % of the amplitude), a swing of 1.7 Hz,".
 std::string words_of(const Difference& difference);
 
+/// Says whether a model holds, and why.
 struct ModelJudgement {
   Standing standing = Standing::undecided;
   bool complete = true;  ///< every test that was made gave a p-value
@@ -62,13 +63,13 @@ struct ModelJudgement {
   bool holds() const { return standing == Standing::holds; }
 };
 
-/// fails: the balance is not in order, or the features are rejected by more than two codes of one physics
-/// differ, or one of the differences is more than most_left floors or rose from as given to final. undecided:
-/// rejected by less than that, or a test gave no p-value, or there was none. holds: else.
+/// Judges a model. fails: the balance is not in order, or the features are rejected by more than two codes of
+/// one physics differ, or one of the differences is more than most_left floors or rose from as given to
+/// final. undecided: rejected by less than that, or a test gave no p-value, or there was none. holds: else.
 ModelJudgement judgement_of(const ModelTest& features, const ModelTest& balance,
                             const std::vector<Difference>& left = {});
 
-/// "holds", "fails" or "undecided".
+/// Returns "holds", "fails" or "undecided".
 std::string_view name_of(Standing standing);
 
 }  // namespace shakedown

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "comma_list.hpp"
 
-namespace shakedown {
+#include "text.hpp"
 
-std::string stripped(std::string_view text) {
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
-  return std::string(text);
-}
+namespace shakedown {
 
 std::vector<std::string> split_at_commas(std::string_view text) {
   std::vector<std::string> parts;
@@ -20,10 +16,10 @@ std::vector<std::string> split_at_commas(std::string_view text) {
     depth += text[i] == '(' || text[i] == '[' || text[i] == '{';
     depth -= text[i] == ')' || text[i] == ']' || text[i] == '}';
     if (text[i] != ',' || depth > 0) continue;
-    parts.push_back(stripped(text.substr(begin, i - begin)));
+    parts.emplace_back(trimmed(text.substr(begin, i - begin)));
     begin = i + 1;
   }
-  parts.push_back(stripped(text.substr(begin)));
+  parts.emplace_back(trimmed(text.substr(begin)));
   return parts;
 }
 

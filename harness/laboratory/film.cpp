@@ -10,7 +10,7 @@ namespace shakedown {
 
 namespace {
 
-/// A position at any instant, s since release.
+/// Returns the position at any instant, s since release.
 double position_at(const SampledMotion& motion, double instant) {
   if (instant <= motion.time.front() || motion.size() < 2) return motion.position.front();
   const auto after = std::upper_bound(motion.time.begin(), motion.time.end(), instant);
@@ -20,8 +20,8 @@ double position_at(const SampledMotion& motion, double instant) {
   return piece.at((instant - piece.start) / piece.length);
 }
 
-/// Where the reader of the rows meets the thing. The reader is a hundred times faster than the thing, so that
-/// each round gains two digits.
+/// Returns where the reader of the rows meets the thing. The reader is a hundred times faster than the thing,
+/// so that each round gains two digits.
 double met_by_reader(const SampledMotion& motion, double start_of_frame, double seconds_a_metre) {
   double place = position_at(motion, start_of_frame);
   if (seconds_a_metre == 0 || std::isnan(place)) return place;
@@ -30,7 +30,8 @@ double met_by_reader(const SampledMotion& motion, double start_of_frame, double 
   return place;
 }
 
-/// A tilted pinhole with a third-order lens, then what was taken for a metre, a metre's zero and its drift.
+/// Returns what the table says of a place: by a tilted pinhole with a third-order lens, then by what was
+/// taken for a metre, a metre's zero and its drift.
 double on_the_table(const Camera& errors, double place, double clock) {
   const double in_reaches = place / camera_lens_reach;
   const double of_tilt = errors.tilt * place * place / camera_lens_reach;
@@ -38,7 +39,8 @@ double on_the_table(const Camera& errors, double place, double clock) {
   return image * (1 + errors.scale) + (errors.origin + errors.drift * clock);
 }
 
-/// The tilted box shortens the distance, the tracker loses a part of it, and the depth enlarges what remains.
+/// Returns the centre that is seen: the tilted box shortens the distance, the tracker loses a part of it, and
+/// the depth enlarges what remains.
 double seen_centre(const Camera& errors, double box, double centre) {
   const double tilt = errors.arc_length > 0 ? 1.5 * box / errors.arc_length : 0;
   const double distance = (centre - box) * std::cos(tilt);
@@ -62,7 +64,7 @@ Frames edge_frames(double edge, double start, const Trajectory& motion) {
   Frames frames;
   for (std::size_t i = 0; i + 1 < motion.time.size(); ++i) {
     const double from = motion.x_box[i] / edge, to = motion.x_box[i + 1] / edge;
-    // Edges between the two samples, in the order in which they are passed.
+    // Collect the edges between the two samples, in the order in which they are passed.
     std::vector<double> passed;
     for (double k = std::ceil(std::min(from, to)); k < std::max(from, to); ++k) passed.push_back(k * edge);
     if (to < from) std::reverse(passed.begin(), passed.end());

@@ -14,6 +14,7 @@
 #include "quantity.hpp"
 #include "setup_keys.hpp"
 #include "suggestion.hpp"
+#include "text.hpp"
 #include "toml_document.hpp"
 #include "value_reading.hpp"
 
@@ -31,7 +32,7 @@ const EffectRecord& effect_named(const std::string& name, const std::string& ori
                      did_you_mean(name, names) + "`shakedown effects` lists them"}});
 }
 
-/// Values for the parameters that must be given: their examples or defaults.
+/// Returns values for the parameters that must be given: their examples or defaults.
 std::vector<Override> examples(const EffectRecord& record, const std::string& origin) {
   std::vector<Override> overrides;
   for (const Parameter& parameter : record.parameters) {
@@ -44,7 +45,7 @@ std::vector<Override> examples(const EffectRecord& record, const std::string& or
   return overrides;
 }
 
-/// The effect at the typical value of its first strength; an effect without strengths at its example.
+/// Returns the effect at the typical value of its first strength; an effect without strengths at its example.
 std::vector<Override> typical(const EffectRecord& record, const Setup& believed, const std::string& origin) {
   const Search search = search_of(record);
   if (search.strengths.empty()) return examples(record, origin);
@@ -52,7 +53,7 @@ std::vector<Override> typical(const EffectRecord& record, const Setup& believed,
   return overrides_of_strength(record, strength, strength.typical, believed, origin);
 }
 
-/// Keys that tell how a run was made, or that nobody can know of a real one.
+/// Tells whether a key says how a run was made, or what nobody can know of a real one.
 bool is_nuisance(const SetupKey& key) {
   constexpr std::array<std::string_view, 4> sections{"run", "hard", "soft", "bullet"};
   return std::find(sections.begin(), sections.end(), key.section()) != sections.end() ||
@@ -77,7 +78,7 @@ nlohmann::ordered_json differences(const HiddenCase& hidden, bool nuisances) {
   return found;
 }
 
-/// Parameters of the hidden effects, SI, under their path.
+/// Returns the parameters of the hidden effects, SI, under their path.
 nlohmann::ordered_json strengths(const HiddenCase& hidden) {
   nlohmann::ordered_json found = nlohmann::ordered_json::object();
   for (const EffectChoice& choice : hidden.truth.effects) {
@@ -129,7 +130,7 @@ constexpr std::array<RecordingFlag, 3> recording_flags{
      {"stamped", &RecordingSettings::stamped, "stamped=true when the table has each frame's true instant"},
      {"declared", &RecordingSettings::declared, "declared=false when nobody knows the noise"}}};
 
-/// A bare number of frames per second, a quantity, or what is wrong.
+/// Returns a bare number of frames per second, a quantity, or what is wrong.
 ValueOrProblem<double> recording_value(const RecordingKey& key, std::string text) {
   if (text.size() > 1 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
   if (key.name == "fps" && text.find_first_not_of("0123456789.eE+") == text.npos) text += " Hz";
@@ -147,7 +148,7 @@ ValueOrProblem<double> recording_value(const RecordingKey& key, std::string text
 ValueOrProblem<double> memory_of(const std::string& text) {
   TomlValue value;
   value.kind = TomlValue::Kind::text;
-  value.text = stripped(text);
+  value.text = trimmed(text);
   const ValueOrProblem<double> read = number_in(value, "s");
   if (const double* seconds = std::get_if<double>(&read); seconds && !(*seconds > 0))
     return Problem{"has no memory of " + value.text, "write size/memory, e.g. wander=20um/0.3s"};
@@ -214,7 +215,7 @@ const EffectRecord& formula_effect() {
 std::vector<Override> overrides_of_effect(std::string_view text, const std::string& origin,
                                           const Setup& believed) {
   const std::size_t equals = std::min(text.find('='), text.size());
-  const EffectRecord& record = effect_named(stripped(text.substr(0, equals)), origin);
+  const EffectRecord& record = effect_named(std::string(trimmed(text.substr(0, equals))), origin);
   if (equals == text.size()) return typical(record, believed, origin);
   std::vector<Override> overrides;
   std::vector<Violation> found;
@@ -228,8 +229,8 @@ std::vector<Override> overrides_of_effect(std::string_view text, const std::stri
                            std::string(record.parameters.front().name) + ":..."});
       continue;
     }
-    overrides.push_back({std::string(record.name) + "." + stripped(part.substr(0, colon)),
-                         stripped(part.substr(colon + 1)), origin});
+    overrides.push_back({std::string(record.name) + "." + std::string(trimmed(part.substr(0, colon))),
+                         std::string(trimmed(part.substr(colon + 1))), origin});
   }
   if (!found.empty()) throw InputError(std::move(found));
   return overrides;
@@ -262,9 +263,9 @@ std::vector<KnownValue> with_known(std::vector<KnownValue> usual, const std::vec
                        "write KEY=VALUE +- ERROR, e.g. \"box.mass=434 g +- 2 g\""});
       continue;
     }
-    TomlEntry entry{stripped(text.substr(0, equals)), {origin, 0, 0}, {}};
+    TomlEntry entry{std::string(trimmed(text.substr(0, equals))), {origin, 0, 0}, {}};
     entry.value.kind = TomlValue::Kind::text;
-    entry.value.text = stripped(text.substr(equals + 1));
+    entry.value.text = trimmed(text.substr(equals + 1));
     entry.value.place = entry.place;
     table.entries.push_back(std::move(entry));
   }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* origin = "blind suite";
 
-/// "constant_acceleration.z"; of an effect with one strength its name.
+/// Returns "constant_acceleration.z"; for an effect with one strength its name.
 std::string id_of(const EffectRecord& record, const SearchedStrength& strength, std::size_t ways) {
   const std::string name(record.name);
   return ways == 1 ? name : name + strength.parameters.substr(strength.parameters.rfind('.'));
@@ -46,7 +46,7 @@ struct Force {
   bool of_the_dictionary = false, takes_table = false;
 };
 
-/// Straight between its heights, which stand 30 mm apart from -90 to 90 mm.
+/// Formula of a force that is straight between its heights, which stand 30 mm apart from -90 to 90 mm.
 constexpr const char* table_of_seven =
     "c*(a0*max(0,1-abs(x/w+3))+a1*max(0,1-abs(x/w+2))+a2*max(0,1-abs(x/w+1))+a3*max(0,1-abs(x/w))"
     "+a4*max(0,1-abs(x/w-1))+a5*max(0,1-abs(x/w-2))+a6*max(0,1-abs(x/w-3)))";
@@ -65,7 +65,7 @@ std::vector<Hideable> forces_of_no_list() {
        "x0 = \"45 mm\", w = \"12 mm\", v0 = \"10 mm/s\"", 0.05, "N", true},
       {"force:hysteresis", "-c*abs(x)*v/sqrt(v^2+v0^2)", "v0 = \"10 mm/s\"", 1, "N/m", true},
       // Forms of no dictionary: a brake between two places, a stop that loses energy, a saw tooth, knocks,
-      // drag where x > 0 alone, a spring that the speed softens, a table drawn at random.
+      // drag at positive x alone, a spring that the speed softens, a table drawn at random.
       {"force:brake between", "-c*v*(x>x0)*(x<x1)", "x0 = \"20 mm\", x1 = \"50 mm\"", 0.2, "N s/m"},
       {"force:lossy stop", "-c*max(x-x0,0)*(1+v/v0)", "x0 = \"60 mm\", v0 = \"200 mm/s\"", 5, "N/m"},
       {"force:saw tooth", "c*(t/T-rint(t/T))", "T = \"1.7 s\"", 0.1, "N"},

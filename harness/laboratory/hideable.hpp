@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a blind suite hides, each with one number that says how strong it is: every effect of the list, by its
-// record's search, and forces that no list has.
+// Lists what a blind suite hides, each with one number that says how strong it is: every effect of the list,
+// by its record's search, and forces that no list has.
 #pragma once
 #include <array>
 #include <string>
@@ -13,8 +13,7 @@
 
 namespace shakedown {
 
-/// One way of being wrong. Strengths are counted in typical ones: 1 is typical, of a length without end at
-/// none half of it at strength 2.
+/// Describes one thing to hide. Strengths count in typical ones; strength 2 of a length is half of it.
 struct Hideable {
   std::string
       id;  ///< the effect's name, of several ways with the way ("constant_acceleration.z"); "force:..."
@@ -29,25 +28,26 @@ struct Hideable {
   bool takes_table = false;        ///< its constants a0, a1 ... are a table drawn at random
 };
 
-/// Every effect that a diagnosis looks for, in the order of the list, each strength of its own.
+/// Returns every effect that a diagnosis looks for, in the order of the list, each strength of its own.
 const std::vector<Hideable>& hideable_effects();
-/// Forces that no list has: some of a form that a diagnosis offers (its dictionary of formulas), some of
-/// none.
+/// Returns forces that no list has: some of a form that a diagnosis offers (its dictionary of formulas), some
+/// of none.
 const std::vector<Hideable>& hideable_forces();
+/// Returns the effect or force of this id; null where there is none.
 const Hideable* find_hideable(std::string_view id);
 
-/// What is drawn beside a strength: frequency and phase of what oscillates, heights of a force that is a
-/// table.
+/// Holds what is drawn beside a strength: frequency (Hz) and phase (rad) of what oscillates, heights of a
+/// force that is a table.
 struct DrawnTone {
   double frequency = 2.3, phase = 0.7;
   std::array<double, 7> table{0.6, -0.8, 0.3, 0.9, -0.5, 0.7, -0.4};  ///< in units of its strength
 };
 
-/// Overrides that put it into this setup.
+/// Returns overrides that put it into this setup, so many typical strengths strong.
 std::vector<Override> at_strength(const Hideable& hideable, double strength, const Setup& setup = {},
                                   const DrawnTone& tone = {});
 
-/// The setup with overrides on top.
+/// Returns the setup with overrides on top.
 Setup changed(const Setup& setup, const std::vector<Override>& overrides, KnownEffects known);
 
 }  // namespace shakedown

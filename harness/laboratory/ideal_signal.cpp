@@ -21,8 +21,8 @@ using Matrix = Eigen::MatrixXd;
 constexpr double bin = 0.1;  // s: shorter than a tenth of a period of any damper that is filmed
 constexpr int samples_a_bin = 10;
 
-/// Means over bins of the box, then of the grains' centre. As many of every run of a setup, whichever sample
-/// is its last.
+/// Returns means over bins of the box, then of the grains' centre, m; as many of every run of a setup,
+/// whichever sample is its last.
 Vector features_of(const Trajectory& motion, double duration, bool grains) {
   const auto bins = static_cast<Eigen::Index>(std::floor(duration / bin + 1e-9));
   Vector features = Vector::Zero(grains ? 2 * bins : bins);
@@ -36,7 +36,7 @@ Vector features_of(const Trajectory& motion, double duration, bool grains) {
   return features;
 }
 
-/// Simulations of one planned run: a column each.
+/// Holds the simulations of one planned run, a column each.
 struct Runs {
   Matrix all;
   Vector mean() const { return all.rowwise().mean(); }
@@ -79,7 +79,7 @@ class Simulations {
   const TrialTools& tools_;
 };
 
-/// Variance of the camera's noise in each bin.
+/// Returns the variance of the camera's noise in each bin, m^2.
 Vector noise_of(const RecordingSettings& camera, Eigen::Index features, bool grains) {
   const double frames = std::max(1.0, camera.frame_rate * bin * (1 - camera.missing));
   Vector noise = Vector::Constant(features, camera.box_noise * camera.box_noise / frames);
@@ -87,7 +87,7 @@ Vector noise_of(const RecordingSettings& camera, Eigen::Index features, bool gra
   return noise;
 }
 
-/// Of data with this sample covariance, for each of them.
+/// Returns the ln likelihood of data with this sample covariance, for each of them, up to a constant.
 double log_likelihood(const Matrix& covariance, const Matrix& sample) {
   const Eigen::LLT<Matrix> root(covariance);
   return -0.5 * root.solve(sample).trace() - root.matrixLLT().diagonal().array().log().sum();
@@ -97,7 +97,7 @@ Matrix sample_covariance(const Matrix& residuals, Eigen::Index means) {
   return residuals * residuals.transpose() / static_cast<double>(residuals.cols() - means);
 }
 
-/// This half's spread, drawn towards its diagonal as far as the other half finds most likely.
+/// Returns this half's spread, drawn towards its diagonal as far as the other half finds most likely.
 Matrix likely_covariance(const Matrix& sample, const Matrix& other, const Vector& noise) {
   constexpr std::array<double, 6> towards_diagonal{0.05, 0.1, 0.2, 0.4, 0.6, 0.9};
   Matrix best, noisy = other;
@@ -112,7 +112,7 @@ Matrix likely_covariance(const Matrix& sample, const Matrix& other, const Vector
   return best;
 }
 
-/// One planned run, in two halves.
+/// Holds one planned run, in two halves.
 struct Block {
   std::array<Matrix, 2> signatures;        ///< a column each change
   std::array<Matrix, 2> covariance;        ///< to find directions with
@@ -193,8 +193,8 @@ bool same_run(const PlannedRun& a, const PlannedRun& b) {
       [](const Override& x, const Override& y) { return x.key == y.key && x.value == y.value; });
 }
 
-/// Products of the signatures of one half with those of the other, whose noises are independent, so that
-/// noise adds nothing. C is of one half; the other half's spread along each direction sets its scale.
+/// Returns the products of the signatures of one half with those of the other, whose noises are independent,
+/// so that noise adds nothing. C is of one half; the other half's spread along each direction sets its scale.
 Matrix seen(const std::vector<Block>& blocks, std::size_t finds, std::size_t sees) {
   const Eigen::Index changes = blocks.front().signatures[0].cols();
   Eigen::Index size = 0;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "film.hpp"
 #include "in_order.hpp"
 #include "measured_file.hpp"
@@ -21,8 +21,8 @@ namespace {
 
 double rounded(double value, double step) { return std::round(value / step) * step; }
 
-/// Noise, jumps and losses of one frame at a time. Every frame draws the same number of random numbers, so
-/// that a setting changes only what it is about.
+/// Makes noise, jumps and losses, one frame at a time. Every frame draws the same number of random numbers,
+/// so that a setting changes only what it is about.
 class Tracker {
  public:
   Tracker(const RecordingSettings& settings, std::uint64_t seed, std::uint64_t run)
@@ -42,7 +42,7 @@ class Tracker {
   bool lost_ = false;
 };
 
-/// A slow error of tracking that forgets itself, frame by frame.
+/// Makes a slow error of tracking that forgets itself, frame by frame.
 class WanderOfTrack {
  public:
   WanderOfTrack(const RecordingSettings& settings, std::uint64_t seed, std::uint64_t run)
@@ -66,7 +66,8 @@ class WanderOfTrack {
   double box_, centre_;
 };
 
-/// Frames before the release, which a clock that is behind would give a negative time, are not recorded.
+/// Records what is seen. Frames before the release, which a clock that is behind would give a negative time,
+/// are left out.
 void record(const Recording& seen, const RecordingSettings& settings, bool has_grains, Tracker tracker,
             WanderOfTrack wander, MeasuredRun& run) {
   for (std::size_t i = 0; i < seen.time.size(); ++i) {
@@ -95,7 +96,7 @@ MeasuredRun planned(const PlannedRun& plan, const RecordingSettings& recording) 
   return run;
 }
 
-/// What changes from run to run: how far the box was drawn, how late the clock was.
+/// Holds what changes from run to run: how much farther the box was drawn (m), how late the clock was (s).
 struct ByRun {
   double release, trigger;
 };
@@ -114,7 +115,7 @@ Camera camera_of(const Setup& truth, const RecordingSettings& settings) {
   return camera;
 }
 
-/// Frames of one run, to the end of its motion.
+/// Returns the frames of one run, to the end of its motion.
 Frames frames_of(const RecordingSettings& settings, std::uint64_t seed, std::uint64_t run,
                  const Trajectory& motion) {
   const double start = settings.start + of_run(settings, seed, run).trigger;
@@ -132,7 +133,8 @@ Frames frames_of(const RecordingSettings& settings, std::uint64_t seed, std::uin
   return frames;
 }
 
-/// Instants between the frames are needed where the shutter or an uneven or late clock asks for them.
+/// Returns the sample rate, Hz. Instants between the frames are needed where the shutter or an uneven or late
+/// clock asks for them.
 double sample_rate_for(const Camera& camera, const RecordingSettings& settings) {
   constexpr double enough = 1000;  // Hz; a grain's kick bends the cubics by 1 um
   if (camera.shutter == 0 && settings.trigger == 0 && settings.start == 0 && settings.jitter == 0 &&

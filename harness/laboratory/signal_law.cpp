@@ -18,7 +18,7 @@ namespace {
 
 double kept(double chi2, double degrees) { return std::sqrt(std::max(chi2 - degrees, 0.0)); }
 
-/// The hidden case as a camera of the default noise sees it, and what of it needs no ensembles.
+/// Holds the hidden case as a camera of the default noise sees it, and what of it needs no ensembles.
 struct Sight {
   Measurement measurement;
   MomentumAudit momentum;
@@ -36,7 +36,7 @@ Sight sight_of(const HiddenCase& hidden, std::uint64_t seed, const std::vector<P
   return sight;
 }
 
-/// The free parameters, and `effects` beside them.
+/// Fits the free parameters, and `effects` beside them.
 Refit refit_of(const Sight& sight, const Setup& believed, const std::vector<Candidate>& effects,
                const RefitOptions& options, const TrialTools& tools) {
   const MomentumAudit& momentum = sight.momentum;
@@ -133,7 +133,7 @@ SignalLaw signal_law(const Hideable& hideable, const Setup& believed, std::uint6
   Signal signal;
   for (int round = 1; round <= most_rounds; ++round) {
     const bool last = round == most_rounds;
-    // before, only to find the way
+    // Rounds before the last only find the way.
     signal = signal_at(law.strength, round - 1, last ? std::numeric_limits<double>::infinity() : too_much);
     if (last || (signal.most() > too_little && signal.most() < too_much)) break;
     const double next = std::min(law.strength * std::clamp(wanted / std::max(signal.most(), 3.0), 0.05, 4.0),

@@ -27,11 +27,12 @@ namespace shakedown {
 
 namespace {
 
-/// Simulations of the setup as believed, and for what its free parameters do: as a screening makes.
+/// Numbers of simulations of the setup as believed, and for what its free parameters do, as a screening makes
+/// them.
 constexpr int of_nothing = 192, of_slopes = 96;
 constexpr double shutter_of_no_knob = 1e-3;  // s, width of a knob that the setup has not
 
-/// One effect at one strength: change of every run's mean features, m.
+/// Holds one effect at one strength: change of every run's mean features, m.
 struct SimulatedLevel {
   double strength = 0;
   std::vector<Eigen::VectorXd> change;
@@ -55,7 +56,8 @@ class Mapper {
     workshop_.store.journal = options.journal;
     knobs_ = straight(believed(free_parameters(setup), planned.known, options.known), 0.5);
     for (Knob& knob : camera_knobs(setup, planned, options.known)) knobs_.push_back(std::move(knob));
-    const auto is_shutter = [](const Knob& knob) { return knob.key == shutter; };
+    const std::string shutter = options.known.key_of(&Camera::shutter);
+    const auto is_shutter = [&](const Knob& knob) { return knob.key == shutter; };
     if (std::none_of(knobs_.begin(), knobs_.end(), is_shutter))
       knobs_.push_back(exact_knob(shutter, 0, 1e-3 * shutter_of_no_knob));
   }
@@ -73,10 +75,9 @@ class Mapper {
   }
 
  private:
-  static constexpr const char* shutter = "camera_shutter.time";
   static constexpr int first_run = 8000000;
 
-  /// Features of all runs in units of what one line's experiment does not know, less what is free.
+  /// Turns features of all runs into units of what one line's experiment does not know, less what is free.
   struct Metric {
     std::vector<Eigen::LLT<Eigen::MatrixXd>> roots;
     std::optional<Outside> outside;
@@ -115,15 +116,17 @@ class Mapper {
     return metric;
   }
 
-  /// To which the number is known in this line's experiment; 0: it is not.
-  static double error_of(const Knob& knob, const MapLine& line) {
+  /// Returns the error to which the number is known in this line's experiment; 0: it is not.
+  double error_of(const Knob& knob, const MapLine& line) const {
     const bool restitution = knob.key.starts_with("restitution");
     if (restitution && line.restitution_error > 0) return line.restitution_error;
-    if (knob.key == shutter && line.shutter >= 0) return std::max(line.shutter, 1e-7);
+    if (line.shutter >= 0 && knob.key == options_.known.key_of(&Camera::shutter))
+      return std::max(line.shutter, 1e-7);
     return knob.believed_error;
   }
 
-  /// Of the mean over repeats of a run, m^2; what two codes differ by is the same in all of them.
+  /// Returns the covariance of the mean over repeats of a run, m^2; what two codes differ by is the same in
+  /// all of them.
   Eigen::MatrixXd covariance_of(std::size_t r, const MapLine& line) const {
     MeasuredFeatures run = measured_[r];
     for (Feature& feature : run.plan.features) feature.noise *= line.noise;
@@ -212,7 +215,7 @@ class Mapper {
     return effect;
   }
 
-  /// From its absence; infinite where the strongest is not seen.
+  /// Returns the smallest strength that is seen, from absence; infinite where the strongest is not seen.
   double smallest(const Candidate& candidate, const std::vector<SimulatedLevel>& simulated,
                   const Metric& metric, double sign) const {
     std::vector<SignatureLevel> levels;

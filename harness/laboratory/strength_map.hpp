@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How good a camera must be: for a design of an experiment, the smallest strength of each effect that a
+// Tells how good a camera must be: for a design of an experiment, the smallest strength of each effect that a
 // diagnosis would see, against noise, wander, shutter, number of runs and what is known of the restitutions.
 // One set of simulations serves all cameras: what changes from one to another is arithmetic.
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace shakedown {
 
-/// The experiment as planned but for one thing.
+/// Describes the experiment as planned but for one thing.
 struct MapLine {
   std::string varied;            ///< "noise of a frame"; empty: as planned
   std::string value;             ///< "0.1 mm", for people
@@ -29,9 +29,10 @@ struct MapLine {
   double restitution_error = 0;  ///< to which both restitutions are known; 0: as planned
 };
 
-/// As planned, then each thing varied by itself. `noise`: of a frame as planned, m.
+/// Returns the experiment as planned, then each thing varied by itself. `noise`: of a frame as planned, m.
 std::vector<MapLine> usual_lines(double noise);
 
+/// Holds the smallest strengths of one effect.
 struct MappedEffect {
   std::string effect, key, unit;
   double typical = 0;            ///< SI; of a length (a pendulum) the length
@@ -39,6 +40,7 @@ struct MappedEffect {
                                  ///< a length 0)
 };
 
+/// Holds the smallest strengths of all effects, and what was left out.
 struct StrengthMap {
   std::vector<MapLine> lines;
   std::vector<MappedEffect> effects;
@@ -50,6 +52,7 @@ struct StrengthMap {
   double seconds = 0;
 };
 
+/// Says what is mapped and how much is simulated.
 struct MapOptions {
   KnownEffects known;
   std::vector<std::string> effects;  ///< these only; empty: all that a diagnosis may add
@@ -61,11 +64,11 @@ struct MapOptions {
   std::function<void(const std::string& stage, double fraction)> progress{};  ///< may be empty
 };
 
-/// Seen: the evidence that a diagnosis would find in the mean of such experiments, with restitutions,
-/// frequency and camera free within what is known of them, makes the effect more probable than 95 % beside
-/// nothing; so in half of the experiments it would be seen. `planned`: measurements as the experiment would
-/// make them, nothing hidden in them, of the setup as believed. Throws InputError where no run has grains,
-/// Interrupted.
+/// Maps the smallest strengths that are seen. Seen means: the evidence that a diagnosis would find in the
+/// mean of such experiments, with restitutions, frequency and camera free within what is known of them, makes
+/// the effect more probable than 95 % beside nothing; so in half of the experiments it would be seen.
+/// `planned`: measurements as the experiment would make them, nothing hidden in them, of the setup as
+/// believed. Throws InputError where no run has grains, Interrupted.
 StrengthMap strength_map(const Setup& setup, const Measurement& planned, const Engine& engine,
                          const std::vector<MapLine>& lines, const MapOptions& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A diagnosis tried out: measure what is hidden, diagnose without the answer, compare with the answer.
+// Tries out a diagnosis: measures what is hidden, diagnoses without the answer, compares with the answer.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace shakedown {
 
-/// What is measured, and how.
+/// Says what is measured, and how.
 struct Trial {
   HiddenCase hidden;
   std::vector<PlannedRun> runs;
@@ -20,6 +20,7 @@ struct Trial {
   std::vector<KnownValue> known{};  ///< what the experimenter weighed and measured
 };
 
+/// Holds what trials are made with.
 struct TrialTools {
   const Engine* laboratory = nullptr;  ///< measures
   const Engine* model = nullptr;       ///< the diagnosis' engine
@@ -33,33 +34,33 @@ struct TrialTools {
   void (*damage)(Experiment& experiment) = nullptr;  ///< done to what was measured before it is diagnosed
 };
 
-/// The trial's measurements, in memory. Throws what make_measurements() throws.
+/// Returns the trial's measurements, in memory. Throws what make_measurements() throws.
 Experiment measured_in(const Trial& trial, const TrialTools& tools);
 
 /// Measures in memory and diagnoses the believed setup. Throws what these throw.
 Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools);
 
-/// How a diagnosis compares with the answer.
+/// Says how a diagnosis compares with the answer.
 struct TrialJudgement {
   bool detected = false;  ///< it says that something is missing, known or unknown
   bool named =
       false;  ///< verdict and missing effects are exactly the hidden ones (of a hidden formula: "unknown")
   bool invented = false;  ///< an effect among the missing ones that is not hidden
 };
-/// With nothing hidden "adequate" and "refit" are right, with other parameters "refit" alone. An error of the
-/// camera may be named as missing or, by the verdict `measurement`, be among the numbers of the camera that
-/// stand out (`measured`: their effects).
+/// Judges a diagnosis. With nothing hidden "adequate" and "refit" are right, with other parameters "refit"
+/// alone. An error of the camera may be named as missing or, by the verdict `measurement`, be among the
+/// numbers of the camera that stand out (`measured`: their effects).
 TrialJudgement judge(const std::vector<std::string>& hidden, bool other_parameters, Verdict verdict,
                      const std::vector<std::string>& missing, const std::vector<std::string>& measured = {});
 
-/// Effects of the camera whose numbers stand out.
+/// Returns the effects of the camera whose numbers stand out.
 std::vector<std::string> effects_standing_out(const std::vector<NuisanceFound>& camera);
 
-/// Those that act on box and grains: without errors of camera, clock and origin and without nuisances. What
-/// is no effect of the list counts as physics. Sorted.
+/// Returns those that act on box and grains: without errors of camera, clock and origin and without
+/// nuisances. What is no effect of the list counts as physics. Sorted.
 std::vector<std::string> physics_among(const std::vector<std::string>& effects, KnownEffects known);
 
-/// What repeated trials of one hidden case come to.
+/// Says what repeated trials of one hidden case come to.
 struct Power {
   Share detected, named;
   /// Verdict and missing effects of each trial, e.g. "missing grain_friction", and how often.

@@ -39,22 +39,21 @@ std::vector<MeasuredFeatures> features_with_camera(const Measurement& measuremen
 
 namespace {
 
-constexpr std::string_view clock = "camera_time_offset.offset";
-
-/// How late all runs are seen together, s: a frame's time is that of one of its rows, where a camera says so
-/// the first (Android Camera2, SENSOR_TIMESTAMP), so that the middle of a picture of 0.4 m is read by half of
-/// the shutter's time later. 0: the clock or the shutter is known exactly.
+/// Returns how late all runs may be seen together, s, as a standard deviation. A frame's time is that of one
+/// of its rows, where a camera says so the first (Android Camera2, SENSOR_TIMESTAMP), so that the middle of a
+/// picture of 0.4 m is read by half of the shutter's time later. Returns 0 where the clock or the shutter is
+/// known exactly.
 double late_by_rows(const Setup& setup, const std::vector<CameraNuisance>& nuisances, KnownEffects known,
                     const std::optional<ValueWithError>& shutter) {
   const auto find = [&](std::string_view key) {
     return std::find_if(nuisances.begin(), nuisances.end(),
                         [&](const CameraNuisance& nuisance) { return nuisance.key == key; });
   };
-  const auto rows = find(shutter_key);
-  if (rows == nuisances.end() || find(clock) == nuisances.end()) return 0;
+  const std::string key = known.key_of(&Camera::shutter);
+  const auto rows = find(key);
+  if (rows == nuisances.end() || find(known.key_of(&Camera::time_offset)) == nuisances.end()) return 0;
   const ValueWithError taken =
-      shutter ? *shutter
-              : ValueWithError{get_number(setup, std::string(shutter_key), known), rows->deviation()};
+      shutter ? *shutter : ValueWithError{get_number(setup, key, known), rows->deviation()};
   return std::hypot(taken.value, taken.error) / 2;
 }
 
@@ -69,7 +68,7 @@ std::vector<Knob> camera_knobs(const Setup& setup, const Measurement& measuremen
     knobs.push_back(exact_knob(nuisance.key, get_number(setup, nuisance.key, known), nuisance.deviation()));
   }
   if (const double late = late_by_rows(setup, nuisances, known, shutter); late > 0) {
-    const std::string key(clock);
+    const std::string key = known.key_of(&Camera::time_offset);
     knobs.push_back(exact_knob(key, get_number(setup, key, known), late));
   }
   return knobs;
@@ -77,7 +76,7 @@ std::vector<Knob> camera_knobs(const Setup& setup, const Measurement& measuremen
 
 namespace {
 
-/// Sum of the weights, each by exp(sign (t - middle) / memory).
+/// Returns the sum of the weights, each times exp(sign (t - middle) / memory).
 double weighed(const FeaturePlan::Reading& reading, double middle, double memory, double sign) {
   double sum = 0;
   for (std::size_t i = 0; i < reading.weight.size(); ++i)

@@ -26,7 +26,8 @@ using Known = KnownEffects;
 
 constexpr int points = 5;
 constexpr double slowest = 0.032, step = 2.5;  // of the box's greatest speed
-/// The point at which the curve is 1: between a tenth and four tenths of the losses are of slower impacts.
+/// Index of the point at which the curve is 1: slower impacts make between a tenth and four tenths of the
+/// losses.
 constexpr int reference = 3;
 
 const Parameter& parameter_of_kind(const EffectRecord& record, ParameterKind kind) {
@@ -42,7 +43,7 @@ std::string key_of(const EffectRecord& record, ParameterKind kind) {
 
 std::string fall(int i) { return "fall_" + std::to_string(i + 1); }
 
-/// Height of a point over that of the reference: "1+fall_2+fall_3".
+/// Returns the height of a point over that of the reference, as a formula: "1+fall_2+fall_3".
 std::string height(int point) {
   std::string text = "1";
   for (int i = point; i < reference; ++i) text += "+" + fall(i);
@@ -61,7 +62,7 @@ const EffectRecord& formula_or_refuse(const CurveLaw& law, Known known) {
   return *record;
 }
 
-/// "user_restitution.constants.", with which the keys of the falls begin.
+/// Returns "user_restitution.constants.", with which the keys of the falls begin.
 std::string constants_of(const CurveLaw& law, Known known) {
   return key_of(formula_or_refuse(law, known), ParameterKind::constants) + ".";
 }
@@ -74,7 +75,7 @@ std::string formula_through(const CurveLaw& law, const std::vector<double>& spee
   return text + ")";
 }
 
-/// Coefficients of both kinds of contact at these speeds, one after the other.
+/// Returns the coefficients of grain and wall contacts at these speeds, one kind after the other.
 Eigen::VectorXd coefficients_of(const CurveLaw& law, const Setup& setup, const std::vector<double>& speeds) {
   const Physics physics = physics_of(setup);
   Eigen::VectorXd list(2 * std::ssize(speeds));
@@ -90,8 +91,9 @@ Setup moved(Setup setup, const std::string& keys, double by, Known known) {
   return setup;
 }
 
-/// Change of the coefficients for one standard error of this value, to the side where it changes more: no
-/// coefficient goes beyond its bounds, and no key.
+/// Returns the change of each coefficient by one standard error of this value, to the side where it changes
+/// more, because coefficients are cut off at their bounds. A side on which a key would leave its bounds
+/// counts as no change.
 Eigen::VectorXd change_by(const CurveLaw& law, const FittedValue& value, const Setup& fitted,
                           const std::vector<double>& speeds, Known known) {
   const Eigen::VectorXd here = coefficients_of(law, fitted, speeds);
@@ -105,8 +107,8 @@ Eigen::VectorXd change_by(const CurveLaw& law, const FittedValue& value, const S
   return most;
 }
 
-/// What the law may differ by from the curve between two of its points, one standard deviation: half of what
-/// a step at an unknown place between them makes.
+/// Returns by how much the law may differ from the curve between two of its points, as a standard deviation:
+/// half of what a step at an unknown place between them makes.
 Eigen::VectorXd between_points(const CurveLaw& law, const Setup& fitted, const std::vector<double>& speeds) {
   const std::vector<double> points_at = speeds_of_curve(fitted);
   const Eigen::VectorXd heights = coefficients_of(law, fitted, points_at);
@@ -186,7 +188,7 @@ std::vector<double> speeds_of_curve(const Setup& setup) {
 
 namespace {
 
-/// Whether none of these contacts has the coefficient.
+/// Tells whether the coefficient is 0 in all of these contacts, at this speed (m/s).
 bool is_none(const CurveLaw& law, const Setup& setup, const std::string& contacts, double speed) {
   const ContactLaw contact = physics_of(setup).contact;
   for (const ContactClass kind : {ContactClass::grain_grain, ContactClass::end_wall, ContactClass::side_wall})

@@ -34,8 +34,9 @@ bool matters(const DamperError& error) {
   return std::any_of(error.deviation.begin(), error.deviation.end(), [](double one) { return one > 0; });
 }
 
-/// Of each run, m: where it was let go less the mean of its repeats. A straight line carries a run so far: a
-/// hundredth of the release, of which the square is a tenth of a thousandth.
+/// Returns for each run, m, where it was let go less the mean of its repeats. A straight line holds up to a
+/// hundredth of the release, whose square is a tenth of a thousandth; repeats that lie farther apart get no
+/// shift.
 std::vector<double> shifts_of(const Measurement& measurement, const std::vector<double>& deviation) {
   constexpr double alike = 0.01;
   std::map<std::string, std::vector<std::size_t>> groups;

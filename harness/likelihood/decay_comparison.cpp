@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "frame_motion.hpp"
 #include "in_order.hpp"
 #include "landings.hpp"
@@ -24,7 +24,8 @@ struct Numbers {
   std::vector<Landing> landings{};
 };
 
-/// Frames of one run that take part: right ones, from its start to the end of what still moves.
+/// Holds the frames of one run that take part: those with a position, from the run's start to the end of what
+/// still moves.
 struct UsedFrames {
   std::vector<double> time, x, centre;  ///< s, m; centre of the grains: empty where it was not tracked
   double middle = 0;                    ///< m, about which the recorded box swings
@@ -47,8 +48,8 @@ UsedFrames used_frames(const Measurement::Run& run, double end) {
   return used;
 }
 
-/// Places at other times, along straight lines: between the samples of a simulation, 500 a second, they are
-/// off by less than a micrometre for each centimetre of amplitude.
+/// Returns the places at other times, along straight lines. Between the samples of a simulation, 500 a
+/// second, these are off by less than a micrometre for each centimetre of amplitude.
 std::vector<double> at_times(const std::vector<double>& times, const std::vector<double>& time,
                              const std::vector<double>& place) {
   std::vector<double> x;
@@ -61,7 +62,8 @@ std::vector<double> at_times(const std::vector<double>& times, const std::vector
   return x;
 }
 
-/// Of a forced run, from frames on whatever clock; a cubic between them would be off where grains land.
+/// Returns the steady state of a forced run from frames on any clock. Straight lines join the frames; a cubic
+/// between them would be off where grains land.
 std::optional<SteadyState> steady_by_frames(const Setup& setup, const std::vector<double>& time,
                                             const std::vector<double>& x, const std::vector<double>& centre) {
   const std::optional<SteadyForcing> forcing = steady_forcing_of(setup);
@@ -86,7 +88,7 @@ std::optional<SteadyState> steady_by_frames(const Setup& setup, const std::vecto
   return steady_state_if_any(seen, even);
 }
 
-/// Of a run that is not forced.
+/// Returns the first landings of a run that is not forced.
 std::vector<Landing> landings_of(const UsedFrames& frames, const Setup& setup) {
   constexpr std::size_t most = 12;  // later ones are slow, and chaos has parted the runs
   if (frames.centre.empty() || is_shaken(setup)) return {};
@@ -98,7 +100,8 @@ std::vector<Landing> landings_of(const UsedFrames& frames, const Setup& setup) {
   return found;
 }
 
-/// What is told of single landings has the camera's noise in it, of simulations as of the film.
+/// Adds the camera's noise to the frames of a simulation, because what is told of single landings has it in
+/// the film too.
 UsedFrames with_noise(UsedFrames frames, const RunAudit& audit, std::uint64_t seed, int run) {
   Random random(seed, static_cast<std::uint64_t>(run), Stream::camera);
   for (double& x : frames.x) x += audit.box.standard_deviation * random.normal();
@@ -119,7 +122,7 @@ Numbers numbers_of(const UsedFrames& frames, const Setup& setup, int most_peaks)
   return numbers;
 }
 
-/// Mean and spread of what the simulations have; none: NaN.
+/// Sets a measured number beside mean and spread of the simulated ones; NaN where fewer than two are finite.
 MeasuredNumber beside(double measured, const std::vector<double>& simulated) {
   std::vector<double> finite;
   std::copy_if(simulated.begin(), simulated.end(), std::back_inserter(finite),
@@ -128,7 +131,7 @@ MeasuredNumber beside(double measured, const std::vector<double>& simulated) {
   return told.n < 2 ? MeasuredNumber{measured, absent, absent} : MeasuredNumber{measured, told.mean, told.sd};
 }
 
-/// Each measured landing beside those of the simulations that come within a quarter of a period of it.
+/// Compares each measured landing with those of the simulations that come within a quarter of a period of it.
 std::vector<LandingComparison> compare_landings(const std::vector<Landing>& measured,
                                                 const std::vector<Numbers>& simulated, double period) {
   std::vector<LandingComparison> list;
@@ -156,7 +159,7 @@ MeasuredNumber number(const Numbers& measured, const std::vector<Numbers>& simul
   return beside(pick(measured), values);
 }
 
-/// "lag 0.31 (0.30 +- 0.01) rad": measured (model +- spread).
+/// Returns "lag 0.31 (0.30 +- 0.01) rad": measured (model +- spread).
 template <class Row>
 std::string told(const Row& row, const MeasuredNumber& number) {
   return row.label +

@@ -72,7 +72,7 @@ Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::
 
 namespace {
 
-/// Scattered values of one simulation, the actual ones after bounds.
+/// Returns the scattered z of one simulation, after its values were kept within the bounds.
 Eigen::VectorXd scatter(const std::vector<Knob>& knobs, std::uint64_t seed, int run, double sparse) {
   Random random(seed, static_cast<std::uint64_t>(run), Stream::other);
   Eigen::VectorXd z(static_cast<Eigen::Index>(knobs.size()));
@@ -89,13 +89,14 @@ Eigen::VectorXd scatter(const std::vector<Knob>& knobs, std::uint64_t seed, int 
   return z;
 }
 
-/// Residuals are scaled up for the degrees of freedom that the coefficients took.
+/// Returns the share of the degrees of freedom that the coefficients leave, 0.05 at least: by its root
+/// residuals are scaled up.
 double share_left(const Eigen::MatrixXd& terms) {
   return std::max(static_cast<double>(terms.rows() - terms.cols()) / static_cast<double>(terms.rows()), 0.05);
 }
 
-/// A parameter whose column is constant, or the sum of others, has no slope to tell: whoever asks for one has
-/// mixed up the columns, or scattered a knob that cannot move.
+/// Expects that no column is constant or the sum of others. A parameter with such a column has no slope to
+/// tell: whoever asks for one has mixed up the columns, or scattered a knob that cannot move.
 void expect_full_rank(const Eigen::MatrixXd& terms) {
   constexpr double rounding = 1e-9;  // of columns whose entries are of order one
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(terms);
@@ -114,7 +115,8 @@ Emulator regress(Eigen::MatrixXd terms, const Eigen::MatrixXd& features) {
   return emulator;
 }
 
-/// A run, or, where the grains collapse so that the engine gives up, the same setup from another microstate.
+/// Runs the setup; where the grains collapse so that the engine gives up, runs it from another microstate, up
+/// to three times more.
 Trajectory run_surely(const Setup& setup, int run, const Workshop& workshop) {
   constexpr int tries = 4, far_away = 100000000;
   for (int attempt = 0;; ++attempt) {
@@ -137,7 +139,8 @@ Trajectory run_surely(const Setup& setup, int run, const Workshop& workshop) {
   }
 }
 
-/// Measured runs of one setup (repeats), which share simulations as long as the longest of them needs.
+/// Holds the measured runs of one setup (repeats). They share simulations, as long as the longest of them
+/// needs.
 struct Group {
   std::vector<std::size_t> members;
   Setup setup;
@@ -164,7 +167,7 @@ bool is_point(const std::vector<Knob>& knobs) {
                      [](const Knob& knob) { return knob.width == 0 || knob.exact; });
 }
 
-/// Places among the knobs of those that simulations are scattered over: none where all stand at a point.
+/// Returns the places of the knobs that simulations are scattered over; none where all stand at a point.
 std::vector<Eigen::Index> scattered_places(const std::vector<Knob>& knobs) {
   std::vector<Eigen::Index> places;
   if (is_point(knobs)) return places;
@@ -173,7 +176,7 @@ std::vector<Eigen::Index> scattered_places(const std::vector<Knob>& knobs) {
   return places;
 }
 
-/// What the exact knobs do at z to a run's features, m.
+/// Returns what the exact knobs at z do to a run's features, m.
 Eigen::VectorXd by_exact_knobs(const MeasuredFeatures& measured, const std::vector<Knob>& knobs,
                                const Eigen::VectorXd& z) {
   Eigen::VectorXd change = Eigen::VectorXd::Zero(measured.values.size());
@@ -183,7 +186,7 @@ Eigen::VectorXd by_exact_knobs(const MeasuredFeatures& measured, const std::vect
   return change;
 }
 
-/// The regression with a term for each exact knob among those of the scattered ones.
+/// Returns the regression with a term for each exact knob among those of the scattered ones.
 Emulator with_exact(const Emulator& e, const MeasuredFeatures& measured, const std::vector<Knob>& knobs) {
   const bool has_slopes = e.coefficients.rows() > 1;  // a point's regression has none
   std::vector<Eigen::Index> exact, regressed{0};
@@ -207,8 +210,8 @@ Emulator with_exact(const Emulator& e, const MeasuredFeatures& measured, const s
   return full;
 }
 
-/// What simulations must share to be comparable: the setup but for the knobs' values, which knobs, and what
-/// is read off.
+/// Names what simulations must share to be comparable: the setup but for the knobs' values, which knobs, and
+/// what is read off.
 std::string model_name(const Group& group, const std::vector<MeasuredFeatures>& measured,
                        const std::vector<Knob>& knobs, const Workshop& workshop) {
   Setup canonical = group.setup;
@@ -224,7 +227,7 @@ std::string model_name(const Group& group, const std::vector<MeasuredFeatures>& 
   return name + digest(canonical);
 }
 
-/// A pooled run's place in the box; empty: it lies outside.
+/// Returns the z of a pooled run; empty where it lies outside of 1.25 times the box.
 std::optional<Eigen::VectorXd> place_in_box(const PooledRun& run, const std::vector<Knob>& knobs) {
   constexpr double edge = 1.25;
   Eigen::VectorXd z(run.values.size());

@@ -17,7 +17,8 @@ constexpr std::size_t least_features = 4;
 
 const char* name_of(Observable observable) { return observable == Observable::box ? "box" : "grain centre"; }
 
-/// The measured box at each feature's time: where it is, how fast, and the height of the swing about then.
+/// Holds the measured box at each feature's time; tells its place, the height of its swing and its phase
+/// about then.
 struct Swing {
   std::vector<double> time, x;
 
@@ -40,7 +41,7 @@ struct Swing {
       if (std::abs(time[i] - t) <= about_half * period) most = std::max(most, std::abs(x[i]));
     return most;
   }
-  /// 0 at the release side's turning point, growing with time, in (-pi, pi].
+  /// Returns the phase, rad: 0 at the release side's turning point, growing with time, in (-pi, pi].
   double phase(double t, double period) const {
     const double speed =
         (at(t + period / 16) - at(t - period / 16)) / (period / 8) * period / (2 * std::numbers::pi);
@@ -58,7 +59,7 @@ Swing swing_of(const MeasuredFeatures& m) {
   return swing;
 }
 
-/// `share` of the run's largest.
+/// Names an amplitude by its share of the run's largest.
 std::string amplitude_word(double share) {
   constexpr std::array<std::pair<double, const char*>, 3> words{
       {{0.6, "amplitude above 60 % of the largest"},
@@ -165,7 +166,7 @@ std::vector<FailureCell> judge_cells(const std::vector<Cell>& cells,
                      std::sqrt(squares / static_cast<double>(cells[c].features.size())),
                      (sums[i] - mean[i]) / std::max(1e-12, deviation[i]),
                      1};
-    if (!std::isfinite(cell.sigmas)) continue;  // no number tells nothing of a place; p of the whole does
+    if (!std::isfinite(cell.sigmas)) continue;  // tells nothing of a place; p of the whole does
     cell.p_value = static_cast<double>(1 + (worst.array() >= cell.sigmas).count()) /
                    static_cast<double>(1 + pseudo.rows());
     list.push_back(std::move(cell));

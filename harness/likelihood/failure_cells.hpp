@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where a model fails: parts of an experiment (a stretch of time of one run, a phase of the swing, a range of
-// amplitudes, landings) whose residuals are larger than chaos and camera noise make them, with the number of
-// parts looked at allowed for.
+// Finds where a model fails: parts of an experiment (a stretch of time of one run, a phase of the swing, a
+// range of amplitudes, landings) whose residuals are larger than chaos and camera noise make them, with the
+// number of parts looked at allowed for.
 #pragma once
 #include <string>
 #include <utility>
@@ -11,7 +11,7 @@
 
 namespace shakedown {
 
-/// Some features of an experiment that belong together.
+/// Holds features of an experiment that belong together.
 struct Cell {
   std::string run;         ///< empty: all runs
   std::string observable;  ///< "box" or "grain centre"
@@ -21,12 +21,12 @@ struct Cell {
   std::vector<std::pair<std::size_t, Eigen::Index>> features;  ///< run and place in its features
 };
 
-/// Every cell with four features at least: each run whole and in stretches of 2 s, octants of the swing's
-/// phase, amplitudes above 60, 30, 10 and below 10 % of the largest, grains near an end wall (landing) or on
-/// their way (flight).
+/// Returns every cell with four features at least: each run whole and in stretches of 2 s; of all runs
+/// together octants of the swing's phase, amplitudes above 60, 30, 10 and below 10 % of the run's largest,
+/// grains near an end wall (landing) or on their way (flight).
 std::vector<Cell> cells_of(const std::vector<MeasuredFeatures>& measured);
 
-/// A cell and how badly the model fails there.
+/// Says how badly the model fails in a cell.
 struct FailureCell {
   std::string run, observable, what;
   double from = 0, to = 0;  ///< s
@@ -36,11 +36,13 @@ struct FailureCell {
   double p_value = 1;  ///< family-wise: share of pseudo-experiments with any cell that bad
 };
 
-/// Sum of squares of residual over spread in each cell; one residual and one spread for each run.
+/// Returns the sum of squares of residual over spread in each cell. `residuals`, `spreads`: one vector a run,
+/// m, in the order of the run's features.
 Eigen::VectorXd cell_sums(const std::vector<Cell>& cells, const std::vector<Eigen::VectorXd>& residuals,
                           const std::vector<Eigen::VectorXd>& spreads);
 
-/// The cells judged, worst first. `pseudo`: cell sums of pseudo-experiments, one row each.
+/// Returns the cells judged, worst first. `residuals`, `spreads`: as of cell_sums(); `pseudo`: cell sums of
+/// pseudo-experiments, experiments x cells.
 std::vector<FailureCell> judge_cells(const std::vector<Cell>& cells,
                                      const std::vector<Eigen::VectorXd>& residuals,
                                      const std::vector<Eigen::VectorXd>& spreads,

@@ -10,12 +10,13 @@ namespace shakedown {
 
 namespace {
 
-/// Correlations kept, less than one by these: the likelihood is flat over a factor of three.
+/// Shrinkages that are tried: correlations are multiplied by one less these. The likelihood is flat over a
+/// factor of three.
 constexpr std::array shrinkages{0.003, 0.01, 0.03, 0.1, 0.3, 1.0};
 
-/// ln of the likelihood of `unseen` simulations (camera noise of the variance `white` added, averaged over
-/// it) by the covariance of `seen` ones. In the space of simulations, which are fewer than features
-/// (Woodbury): C = D + X' X with X = sqrt((1 - s) / n) seen.
+/// Returns ln of the likelihood of `unseen` simulations (camera noise of the variance `white` added, averaged
+/// over it) by the covariance of `seen` ones. It works in the space of simulations, which are fewer than
+/// features (Woodbury): C = D + X' X with X = sqrt((1 - s) / n) seen.
 double log_likelihood(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& unseen,
                       const Eigen::VectorXd& white, double shrinkage) {
   const auto n = static_cast<double>(seen.rows());
@@ -38,7 +39,7 @@ double log_likelihood(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& unseen
   return -(log_determinant + squares + inverse.dot(white)) / 2;
 }
 
-/// By which every other simulation tells the rest best, both ways round.
+/// Returns the shrinkage with which each half of the simulations, even and odd, tells the other best.
 double best_shrinkage(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& white) {
   constexpr Eigen::Index least = 8;
   if (residuals.rows() < least) return shrinkages.back();

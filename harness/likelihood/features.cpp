@@ -9,7 +9,8 @@ namespace shakedown {
 
 namespace {
 
-/// The variance of a weighted sum of frames whose noise is correlated over a few frames.
+/// Returns the standard deviation, m, of a weighted sum of frames whose noise is correlated over a few
+/// frames.
 double noise_of(const FeaturePlan::Reading& reading, const NoiseFound& noise) {
   double variance = 0;
   for (std::size_t i = 0; i < reading.weight.size(); ++i) {
@@ -20,7 +21,7 @@ double noise_of(const FeaturePlan::Reading& reading, const NoiseFound& noise) {
   return noise.standard_deviation * std::sqrt(std::max(variance, 0.0));
 }
 
-/// Weights that give the value at the middle of a parabola through the frames (least squares).
+/// Returns the weights that give the value at `middle` (s) of a parabola through the frames (least squares).
 std::vector<double> level_weights(const std::vector<double>& time, double middle) {
   Eigen::MatrixXd basis(static_cast<Eigen::Index>(time.size()), 3);
   const double half = std::max(1e-9, (time.back() - time.front()) / 2);
@@ -33,9 +34,9 @@ std::vector<double> level_weights(const std::vector<double>& time, double middle
   return {weight.data(), weight.data() + weight.size()};
 }
 
-/// Until when a run tells something: the last frame farther than `rest` from where the box ends up, or one
-/// and a half times as far as it still swings there (a layer pressed on one wall by a steady force swings on
-/// without loss).
+/// Returns until when a run tells something, s: one second after the last frame farther than `rest` from
+/// where the box ends up, or farther than one and a half times as far as it still swings there, but not than
+/// 5 `rest` (a layer pressed on one wall by a steady force swings on without loss).
 double end_of_motion(const MeasuredRun& run, const std::vector<double>& x_box, double rest) {
   std::vector<double> late;
   for (std::size_t i = 0; i < run.time.size(); ++i)
@@ -50,7 +51,7 @@ double end_of_motion(const MeasuredRun& run, const std::vector<double>& x_box, d
 }
 
 struct Bins {
-  double width = 0;  ///< s, of equal ones from the first frame on to plan.end
+  double width = 0;  ///< s, of equal bins from time 0 to plan.end
   std::size_t frames = 0;
 };
 

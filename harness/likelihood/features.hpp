@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What of a recorded run is compared with a model: both positions in bins of 0.1 s. A bin's value is its
-// level at the middle of the bin, by a parabola through its frames, so that lost frames do not shift it;
-// simulated series are read at the very same frames.
+// Reads off a recorded run what is compared with a model: both positions in bins of 0.1 s, or of eight frames
+// where these take longer. A bin's value is its level at the middle of the bin, by a parabola through its
+// frames, so that lost frames do not shift it; simulated series are read at the very same frames.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -13,16 +13,17 @@ namespace shakedown {
 
 enum class Observable { box, centre };
 
-/// Grains that the table has and the setup has not cannot be compared.
+/// Says which tracks are compared. Grains that the table tracks and the setup lacks are not.
 enum class Observed { box_only, all };
 
+/// Describes one number that is compared: the level of one track in one bin.
 struct Feature {
   Observable observable;
   double time;   ///< s, middle of the bin
   double noise;  ///< m, standard deviation of the camera's noise in it
 };
 
-/// How one measured run is looked at.
+/// Says how one measured run is looked at.
 struct FeaturePlan {
   std::vector<Feature> features;
   double end = 0;  ///< s, last time that is needed of a simulation
@@ -33,20 +34,22 @@ struct FeaturePlan {
   std::vector<Reading> readings;
 };
 
-/// Bins from release to the end of what still moves: the last peak above `rest` (m), and one second more; of
-/// a damper that is shaken to the end of the film.
+/// Returns the bins of a run from time 0 on, `bin` s wide or eight frames where these take longer. They end
+/// one second after the last frame that lies farther from where the box ends up than `rest` (m), or than 1.5
+/// times its swing there where that is more (5 `rest` at most); those of a damper that is shaken end with the
+/// film. Bins with too few frames are left out.
 FeaturePlan plan_features(const Measurement::Run& measurement, Observed observed = Observed::all,
                           double rest = 4e-3, double bin = 0.1);
 
-/// The features of the measured run itself.
+/// Returns the features of the measured run itself, m.
 Eigen::VectorXd measured_features(const FeaturePlan& plan, const Measurement::Run& measurement);
 
-/// The features of two series on the frames of the measured run; centre may be empty where no feature needs
-/// it.
+/// Returns the features of two series (m) on the frames of the measured run, m; centre may be empty where no
+/// feature needs it.
 Eigen::VectorXd features_on_frames(const FeaturePlan& plan, const std::vector<double>& time,
                                    const std::vector<double>& box, const std::vector<double>& centre);
 
-/// The features of a simulated recording (500 Hz or any constant rate).
+/// Returns the features of a simulated recording (500 Hz or any constant rate), m.
 Eigen::VectorXd simulated_features(const FeaturePlan& plan, const Recording& recording);
 
 }  // namespace shakedown

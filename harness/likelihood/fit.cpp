@@ -10,6 +10,8 @@
 #include "distributions.hpp"
 #include "free_parameters.hpp"
 #include "key_unit.hpp"
+#include "refit.hpp"
+#include "refit_options.hpp"
 #include "setup_file.hpp"
 #include "suggestion.hpp"
 #include "told_apart.hpp"
@@ -18,12 +20,12 @@ namespace shakedown {
 
 namespace {
 
-/// Until when runs are looked at, stage by stage, s; then wholly.
+/// Until when the first stages look at the runs, s; the last stage looks at them wholly.
 constexpr double first_looks[] = {2.5, 6.0};
-/// Two estimates with a correlation beyond this are one.
+/// Correlation beyond which only a combination of two estimates is told.
 constexpr double confounded = 0.95;
 
-/// The run up to a time only.
+/// Returns the run up to this time (s) only.
 MeasuredFeatures beginning_of(const MeasuredFeatures& whole, double end) {
   MeasuredFeatures part{whole.run, whole.setup, {}, {}};
   std::vector<double> values;
@@ -39,8 +41,8 @@ MeasuredFeatures beginning_of(const MeasuredFeatures& whole, double end) {
   return part;
 }
 
-/// A regression on as many simulations as it has terms leaves nothing between them: what is chaos would seem
-/// known.
+/// Refuses fewer simulations than twice the regression's terms: one on as many simulations as it has terms
+/// leaves nothing between them, so that what is chaos would seem known.
 void refuse_too_few_simulations(const std::vector<Knob>& knobs, int count) {
   const int terms = static_cast<int>(
       regression_terms(knobs, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs.size()))).size());
@@ -57,7 +59,7 @@ void add_remark(FittedParameter& parameter, const std::string& remark) {
   parameter.remark += (parameter.remark.empty() ? "" : "; ") + remark;
 }
 
-/// `knob`: where the fit ended; `start`: where it began.
+/// Returns the parameter with what is to be said of it. `knob`: where the fit ended; `start`: where it began.
 FittedParameter told_parameter(const Knob& knob, const Knob& start, double value, double error, bool at_bound,
                                KnownEffects known) {
   FittedParameter found{knob.key,
@@ -236,7 +238,7 @@ Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance) {
 
 namespace {
 
-/// In the units of the values.
+/// Returns the covariance of the parameters in the units of the values.
 Eigen::MatrixXd covariance_of(const Fit& fit) {
   Eigen::VectorXd error(std::ssize(fit.parameters));
   for (std::size_t k = 0; k < fit.parameters.size(); ++k)

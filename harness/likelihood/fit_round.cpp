@@ -111,7 +111,7 @@ void FitRound::calibrate(const Eigen::VectorXd& z, double observed, Refit& resul
   const std::vector<Cell> cells = cells_of(measured_);
   PseudoExperiments made = made_by_the_model(z, cells);
   std::vector<double>& sums = made.sums;
-  // A comparison with what is no number counts as neither: no p-value is made of it.
+  // Where a sum is no number no p-value is made of it.
   const bool finite = std::isfinite(observed) &&
                       std::all_of(sums.begin(), sums.end(), [](double sum) { return std::isfinite(sum); });
   if (finite) std::sort(sums.begin(), sums.end());
@@ -130,7 +130,7 @@ void FitRound::calibrate(const Eigen::VectorXd& z, double observed, Refit& resul
 
 void FitRound::set_floors(std::size_t r, const Eigen::VectorXd& z, const Eigen::ArrayX2d& squares,
                           RunComparison& run) const {
-  // The model's mean is as uncertain as its simulations make it; a recording is of another code.
+  // Widen by the error of the model's mean; add what two codes of one physics differ by.
   const Eigen::VectorXd phi = regression_terms(knobs_, z);
   const double wider = 1 + phi.dot(emulators_[r].inverse_normal * phi);
   const Eigen::ArrayX2d errors = (wider * squares + whitened_[r].codes).sqrt();

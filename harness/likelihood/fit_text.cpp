@@ -28,7 +28,7 @@ Json runs_json(const std::vector<RunComparison>& runs) {
   return list;
 }
 
-/// "-" where the grains' centre was not tracked.
+/// Returns a length in mm; "-" where the grains' centre was not tracked.
 std::string of_centre(const RunComparison& run, double metres) {
   return run.floor_centre > 0 ? fmt::format("{:.3f}", 1e3 * metres) : "-";
 }

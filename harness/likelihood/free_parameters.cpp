@@ -14,8 +14,8 @@ namespace shakedown {
 
 namespace {
 
-/// Elastic grains never come to rest; and pressed layers of very inelastic ones make endless impacts (0.1: 30
-/// times the events of 0.75), so a fit goes there only when it starts near.
+/// Bounds of restitutions. Elastic grains never come to rest; and pressed layers of very inelastic ones make
+/// endless impacts (0.1: 30 times the events of 0.75), so a fit goes there only when it starts near.
 constexpr double least_restitution = 0.05, usual_restitution = 0.3, most_restitution = 0.995;
 
 Knob knob_of_setup_key(const SetupKey& key, double start) {
@@ -34,7 +34,8 @@ Knob knob_of_setup_key(const SetupKey& key, double start) {
           true};
 }
 
-/// The beam formula's, other engines', how the exact engine works, and the speed of grains without a spring.
+/// Tells whether a key moves nothing that a fit simulates: keys of the beam formula, of other engines, of how
+/// the exact engine works, and the speed of grains without a spring.
 bool moves_nothing(const SetupKey& key) {
   return key.section() == "blade" || key.section() == "soft" || key.section() == "bullet" ||
          key.section() == "hard" || key.path == "release.grain_speed";

@@ -3,6 +3,8 @@
 
 #include "camera_features.hpp"
 #include "parameter_knobs.hpp"
+#include "refit.hpp"
+#include "refit_options.hpp"
 
 namespace shakedown {
 

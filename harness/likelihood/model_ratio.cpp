@@ -10,12 +10,12 @@ namespace shakedown {
 
 namespace {
 
-/// Squares per feature that count as spread: more is a mean that is off, which no spread explains. An
-/// assumption; side walls of 0.11 instead of 0.76 make it 1.33 times as much.
+/// Most squares per feature that count as spread: more is a mean that is off, which no spread explains. An
+/// assumption; side walls of restitution 0.11 instead of 0.76 make it 1.33 times as much.
 constexpr double widest = 1.5;
 
-/// -2 ln of the likelihood of squares that sum to `squares` by unit variances, all of them larger by the
-/// factor that suits best, which its prior hardly moves: features are many.
+/// Returns -2 ln of the likelihood of squares that sum to `squares` by unit variances, all of them larger by
+/// the factor that suits best. The prior of that factor hardly moves it, because features are many.
 double deviance(double squares, double features, double codes_differ) {
   const double factor = codes_differ > 1 ? std::max(1.0, squares / features) : 1.0,
                away = codes_differ > 1 ? 2 * (factor - 1) / (codes_differ - 1) : 0;
@@ -41,7 +41,7 @@ double chi2_per_feature_of(const FirstModel& first) {
          static_cast<double>(first.residual.size());
 }
 
-/// `change` outside of the free parameters.
+/// Returns the kappa of log_likelihood_ratio(). `change`: less what the free parameters take up.
 double kappa(const Outside& outside, const Eigen::VectorXd& change, const FirstModel& first) {
   const double along = (outside(first.simulations.transpose()).transpose() * change).squaredNorm() /
                        static_cast<double>(first.simulations.rows());

@@ -11,8 +11,8 @@ namespace shakedown {
 
 namespace {
 
-/// Far from a minimum the sum is some thousand times the degrees, by which the search for the minimum is
-/// scaled badly and stops on its way: its logarithm has the same minimum.
+/// Returns the objective by its logarithm, which has the same minimum. Far from it the sum is some thousand
+/// times the degrees, by which a search is scaled badly and stops on its way.
 double scaled(const Objective& objective, const Eigen::VectorXd& z) {
   return objective.degrees * std::log1p(std::max(0.0, objective(z)) / objective.degrees);
 }
@@ -53,7 +53,7 @@ double Objective::disbelief(const Eigen::VectorXd& z) const {
 
 double Objective::operator()(const Eigen::VectorXd& z) const {
   const Eigen::VectorXd phi = regression_terms(*knobs, z);
-  // How much wider the emulator's error makes what chaos and a wrong model leave.
+  // The emulator's error widens what chaos and a wrong model leave: by less where these leave more.
   const double left = true_sum(phi), of_model = std::max(1.0, left / degrees);
   return left + degrees * std::log1p((inflation(phi) - 1) / of_model) + disbelief(z);
 }

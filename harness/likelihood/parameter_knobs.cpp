@@ -18,7 +18,7 @@ namespace {
 constexpr double reach_as_given = 2.5;  // standard deviations
 constexpr double reach_of_a_fit = 1.5;  // of what is believed, as that of the restitutions
 
-/// One knob for each number of an effect that is known to an error, so many errors wide.
+/// Returns one knob for each number of an effect that is known to an error, so many errors wide.
 std::vector<Knob> of_effects(const std::vector<KnownValue>& known, KnownEffects effects, double errors,
                              bool curved) {
   std::vector<Knob> knobs;

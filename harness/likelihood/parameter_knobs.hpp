@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parameters that every comparison varies: the two restitutions and the spring's frequency.
+// Makes knobs of the parameters that every comparison varies: the two restitutions and the spring's
+// frequency.
 #pragma once
 #include <vector>
 
@@ -15,27 +16,29 @@ namespace shakedown {
 /// and grain_wall more by 0.015, lies along the valley of the two.)
 constexpr double code_restitution = 0.004, code_frequency = 1e-4;
 
-/// A number that is known to an error and whose columns are known (Knob::exact), about what was said of it.
+/// Returns a knob for a number that is known to an error and whose columns are known (Knob::exact), about
+/// what was said of it.
 Knob exact_knob(const std::string& key, double value, double deviation);
 
-/// What the user's restitutions are worth beforehand: it decides only along valleys that the data leave open.
-/// Restitutions of .42 and .94 imitate friction of .3 between grains of .75 and .76 to within 3 % of chi2.
+/// Standard deviation of the user's restitutions beforehand: it decides only along valleys that the data
+/// leave open. Restitutions of .42 and .94 imitate friction of .3 between grains of .75 and .76 to within 3 %
+/// of chi2.
 constexpr double believed_restitution = 0.1;
 
-/// The parameters as given, as far as two codes of the same physics agree on what they mean.
-/// Where [known] gives an error they may be off by that too.
-/// Numbers of `effects` that [known] gives with an error are among them.
+/// Returns knobs for the parameters as given. They may be off by what two codes of the same physics disagree
+/// on their meaning and, where [known] gives an error, by that too. In a box with grains numbers of `effects`
+/// that [known] gives with an error are among them.
 std::vector<Knob> as_given(const Setup& setup, const std::vector<KnownValue>& known = {},
                            KnownEffects effects = {});
 
-/// What a user may refit, about the setup's values; the spring's about `frequency` (Hz), which the momentum
-/// balance may know better, within
-/// +- width (Hz).
+/// Returns knobs for what a user may refit, about the setup's values; the spring's about `frequency` (Hz),
+/// which the momentum balance may know better, within +- width (Hz). The second takes the setup's own
+/// frequency and 1 % of it.
 std::vector<Knob> free_parameters(const Setup& setup, double frequency, double width);
 std::vector<Knob> free_parameters(const Setup& setup);
 
-/// The same with what [known] says of them for the belief; what it knows exactly is no knob any more. Numbers
-/// of `effects` that it gives with an error are added.
+/// Returns the knobs with what [known] says of them as what is believed; what it knows exactly is no knob any
+/// more. Numbers of `effects` that it gives with an error are added.
 std::vector<Knob> believed(std::vector<Knob> knobs, const std::vector<KnownValue>& known,
                            KnownEffects effects = {});
 

@@ -18,7 +18,7 @@ namespace {
 /// How far (in boxes) the regression's slopes are trusted about simulations at one point, and the share of
 /// chi2 that a step must promise to be worth simulations of its own at its end.
 constexpr double nearby = 0.5, step_gain = 0.1;
-/// Scatter that no other place along a valley mends.
+/// Scatter from which on no other place along a valley mends a fit.
 constexpr double beyond_a_valley = 2;
 
 double root_mean_square(const std::vector<RunComparison>& runs, double RunComparison::*what) {
@@ -45,13 +45,13 @@ void judge_at(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z,
   round.calibrate(z, result.chi2, result);
 }
 
-/// The emulator promised much more than its solution keeps.
+/// Tells whether the emulator promised much more than its solution keeps.
 bool misled(const Refit& result) {
   constexpr double more = 0.3;  // codes of one physics differ by 0.1 to 0.33 (rules.hpp)
   return result.scatter > (1 + more) * result.promised_scatter + more;
 }
 
-/// The knobs about z, where a line is enough.
+/// Returns the knobs about z, straight, for there a line is enough.
 std::vector<Knob> centred_at(const Eigen::VectorXd& z, std::vector<Knob> knobs) {
   for (std::size_t k = 0; k < knobs.size(); ++k) {
     knobs[k].centre = knobs[k].at(z[static_cast<Eigen::Index>(k)]);
@@ -66,8 +66,8 @@ std::vector<Emulator> simulated(std::vector<Knob> knobs, int count, int first_ru
   return emulate(measured, knobs, count, first_run, workshop);
 }
 
-/// Simulations at one point, and what the regression's slopes make of their mean: the regression itself, led
-/// by what it cannot follow, may miss the minimum near by.
+/// Holds simulations at one point, and the minimum that the regression's slopes find about their mean: the
+/// regression itself, led by what it cannot follow, may miss the minimum near by.
 struct Confirmed {
   std::vector<Knob> about;
   FitRound round;
@@ -88,14 +88,15 @@ struct Confirmed {
   Confirmed& operator=(const Confirmed&) = delete;
 
   bool worth_a_step() const { return chi2_there < (1 - step_gain) * chi2_here; }
-  /// A minimum that promises much is not believed before simulations have seen it.
+  /// Returns the minimum, or the point itself where the minimum promises so much that simulations have to see
+  /// it first.
   Eigen::VectorXd solution() const {
     return worth_a_step() ? Eigen::VectorXd::Zero(minimum.size()).eval() : minimum;
   }
   double chi2() const { return worth_a_step() ? chi2_here : chi2_there; }
 };
 
-/// Simulations at the solution judge it, and move it (a step of Gauss and Newton).
+/// Judges the solution by simulations made there, which also move it (a step of Gauss and Newton).
 void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& measured,
              const Workshop& workshop, const RefitOptions& options, const Eigen::VectorXd& z, Refit& result) {
   result.promised_scatter = result.scatter;
@@ -105,7 +106,7 @@ void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& meas
   std::optional<Confirmed> second;
   if (first.worth_a_step())
     second.emplace(z + first.minimum, first_run + 250, emulated, measured, workshop, options);
-  // what the slopes promised may not be there
+  // What the slopes promised may not be there.
   const Confirmed& best = second && second->chi2() < first.chi2() ? *second : first;
   const Eigen::VectorXd solution = best.solution();
   judge_at(best.round, measured.size(), solution, result);
@@ -120,7 +121,7 @@ void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& meas
     result.judged_chi2 += best.round.judged_chi2(r, solution, rules[r]);
 }
 
-/// The most that two codes differ by in any effect of these models.
+/// Returns the most that two codes differ by in any effect of these models.
 double codes_differ_in(const std::vector<MeasuredFeatures>& measured) {
   double most = codes_differ;
   for (const MeasuredFeatures& run : measured)
@@ -178,9 +179,9 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
   return result;
 }
 
-/// The box for the next round: about the solution, as wide as what is still open, so that a long valley is
-/// seen whole. Never much wider than the first one allowed: a regression over more than it can follow takes
-/// its own misfit for chaos.
+/// Returns the box for the next round: about the solution, as wide as what is still open, so that a long
+/// valley is seen whole, but not wider than 0.6 of the first one: a regression over more than it can follow
+/// takes its own misfit for chaos.
 std::vector<Knob> next_box(std::vector<Knob> knobs, const Minimum& minimum, const Eigen::MatrixXd& covariance,
                            const std::vector<Knob>& first) {
   for (std::size_t k = 0; k < knobs.size(); ++k) {
@@ -197,8 +198,9 @@ std::vector<Knob> next_box(std::vector<Knob> knobs, const Minimum& minimum, cons
   return knobs;
 }
 
-/// Where to look next, about the best solution so far: nearer where the emulator was misled; along a
-/// valley 1.5 standard errors to one side, then to the other. Empty: no need.
+/// Returns the box to look at next, about the best solution so far: half as wide where the emulator was
+/// misled; else along the valley 1.5 standard errors to one side, then to the other. Empty where there is no
+/// need.
 std::vector<Knob> next_look(const Refit& latest, const Refit& best, const std::vector<Knob>& last,
                             const RefitOptions& options, int looks) {
   const bool nearer = misled(latest) && latest.promised_chi2 < options.look_again_below;
@@ -216,8 +218,8 @@ std::vector<Knob> next_look(const Refit& latest, const Refit& best, const std::v
   return knobs;
 }
 
-/// Rounds about better and better places; `best` is kept up to date, so that it stands where simulations are
-/// refused. Where there is one already, these are looks beside it.
+/// Makes rounds about better and better places; `best` is kept up to date, so that it stands where
+/// simulations are refused. Where there is one already, these are looks beside it.
 Refit refit_by_rounds(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs,
                       const Workshop& workshop, const RefitOptions& options, std::optional<Refit>& best) {
   const std::vector<Knob> first = knobs;

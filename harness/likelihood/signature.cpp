@@ -12,13 +12,13 @@ namespace shakedown {
 
 namespace {
 
-/// Of a polynomial through so many levels.
+/// Returns the order of the polynomial for this many levels.
 Eigen::Index order_of(std::size_t levels) {
   constexpr std::size_t for_a_cubic = 4;
   return levels >= for_a_cubic ? 3 : levels > 1 ? 2 : 1;
 }
 
-/// Ascending; empty where a polynomial will do.
+/// Returns the strengths, ascending, between which the change is straight; empty where a polynomial will do.
 std::vector<double> corners_of(const std::vector<SignatureLevel>& levels) {
   constexpr double most_of_a_polynomial = 16;  // strongest over weakest
   std::vector<double> corners;
@@ -115,8 +115,8 @@ double PairSignature::log_likelihood(double first, double second) const {
 
 namespace {
 
-/// Strengths that are equally likely beforehand: a Cauchy distribution is uniform in the angle whose tangent
-/// the strength is.
+/// Returns strengths that are equally likely beforehand: a Cauchy distribution is uniform in the angle whose
+/// tangent is the strength over the prior's scale.
 Eigen::ArrayXd likely_strengths(const StrengthPrior& prior, int steps) {
   EXPECT(prior.typical > 0 && prior.low < prior.high);
   const double first = std::atan(prior.low / prior.typical), last = std::atan(prior.high / prior.typical);
@@ -165,7 +165,7 @@ StrengthPosterior posterior_of(const Signature& signature, const StrengthPrior& 
   found.gain = 2 * std::max(0.0, most);
   found.strength = strength[at];
   found.share_seen = signature.share_seen(strength[at]);
-  // Flat in the strength: each of the steps by its width.
+  // Flat in the strength: each of the steps counts by its width.
   const Eigen::ArrayXd weight = relative * (1 + (strength / prior.typical).square());
   const double mean = (weight * strength).sum() / weight.sum();
   found.error = std::sqrt((weight * (strength - mean).square()).sum() / weight.sum());

@@ -10,8 +10,8 @@ namespace shakedown {
 
 namespace {
 
-/// Slopes of the features at the solution, a column a knob: terms 1 ... of the regression, which count in
-/// widths.
+/// Returns the slopes of the features at the solution, m per unit of a knob, a column a knob: terms 1 ... of
+/// the regression, which count in widths.
 Eigen::MatrixXd slopes_of(const std::vector<Knob>& knobs, const Emulator& emulator) {
   Eigen::MatrixXd slopes =
       emulator.coefficients.middleRows(1, static_cast<Eigen::Index>(knobs.size())).transpose();
@@ -29,7 +29,7 @@ ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::v
     width[static_cast<Eigen::Index>(k)] = knobs[k].width;
     possible[static_cast<Eigen::Index>(k)] = knobs[k].high - knobs[k].low;
   }
-  // In widths of the knobs until the end.
+  // Information and scatter are in widths of the knobs.
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count), scatter = information;
   for (std::size_t r = 0; r < measured.size(); ++r) {
     const Emulator& emulator = emulators[r];
@@ -52,7 +52,7 @@ ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::v
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(information);
   information =
       axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).asDiagonal() * axes.eigenvectors().transpose();
-  // What is known anyway: the bounds, and what is believed.
+  // Add what is known anyway: the bounds, and what is believed.
   Eigen::VectorXd known = (width.array() / possible.array()).square();
   for (Eigen::Index k = 0; k < count; ++k)
     if (const double error = knobs[static_cast<std::size_t>(k)].believed_error; error > 0)

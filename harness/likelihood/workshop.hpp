@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who simulates, how, and where simulations are kept.
+// Says who simulates, how, and where simulations are kept.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace shakedown {
 
-/// On how many threads, who may stop it, who hears of it.
+/// Says on how many threads to work, who may stop the work and who hears of it.
 struct Execution {
   int threads = 0;                          ///< 0: one for each core
   const std::atomic<bool>* stop = nullptr;  ///< set to true to stop; may be null
@@ -21,14 +21,16 @@ struct Execution {
   /// empty.
   std::function<void(std::int64_t more)> ask_for{};
 
-  /// Before each batch of so many and, with 0, by every simulation at its start and now and then on its way.
-  /// Throws Interrupted once it was stopped, and BudgetSpent.
+  /// Is called before each batch of so many simulations and, with 0, by every simulation at its start and now
+  /// and then on its way. Throws Interrupted once it was stopped, and BudgetSpent.
   void ask(std::int64_t more) const;
+  /// Tells of so many finished simulations.
   void finished(int runs) const {
     if (done) done(runs);
   }
 };
 
+/// Holds what simulations are made with.
 struct Workshop {
   const Engine* engine = nullptr;
   KnownEffects known{};

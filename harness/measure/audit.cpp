@@ -9,17 +9,16 @@
 #include "outliers.hpp"
 #include "robust_statistics.hpp"
 #include "slow_wander.hpp"
+#include "text.hpp"
 
 namespace shakedown {
 
 namespace {
 
 double frame_interval_of(const std::vector<double>& time) {
-  std::vector<double> intervals;
-  for (std::size_t i = 1; i < time.size(); ++i) intervals.push_back(time[i] - time[i - 1]);
-  const double typical = median(intervals);
+  const double typical = typical_interval(time);
   double frames = 0;
-  for (const double interval : intervals) frames += std::round(interval / typical);
+  for (std::size_t i = 1; i < time.size(); ++i) frames += std::round((time[i] - time[i - 1]) / typical);
   return (time.back() - time.front()) / frames;
 }
 
@@ -48,8 +47,8 @@ OwnFrames own_frames(const std::vector<double>& time, const std::vector<double>&
   return own;
 }
 
-/// Variance that wrong frames too near to be seen add: as many per millimetre as there are among those just
-/// far enough. Seen is what lies some seven standard deviations off.
+/// Returns the variance that wrong frames too near to be seen add, m^2: as many per millimetre as there are
+/// among those just far enough. Seen is what lies some seven standard deviations off.
 double unseen_outliers(const std::vector<double>& raw, const std::vector<double>& kept, double deviation) {
   const double seen = 7 * deviation;
   double near = 0, present = 0;
@@ -107,8 +106,8 @@ void count_gaps(const std::vector<double>& time, const std::vector<double>& x, d
   noise.missing = std::max(0, frames - present - noise.outliers);
 }
 
-/// The packed layer rests at its largest distance from the centre: the 95 % quantile of the recorded
-/// distance, smoothed over 20 ms, in the first two seconds.
+/// Finds the plateau: the packed layer rests at its largest distance from the centre, the 95 % quantile of
+/// the recorded distance, smoothed over 20 ms, in the first two seconds.
 void find_plateau(const MeasuredRun& run, const RunAudit& audit, double& plateau, double& error) {
   plateau = nothing;
   error = nothing;
@@ -132,12 +131,6 @@ void find_plateau(const MeasuredRun& run, const RunAudit& audit, double& plateau
   // The 95 % quantile: packed for more than a tenth of the time, and far from the noise's own extremes.
   plateau = smooth[smooth.size() * 95 / 100];
   error = std::max(noise / std::sqrt(2.0 * half + 1), 1e-4);  // the layer's thickness repeats to about 0.1 mm
-}
-
-std::string millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g mm", metres * 1e3);
-  return text;
 }
 
 std::string source_in_words(const NoiseFound& noise) {
@@ -220,10 +213,10 @@ void pool_series(const std::vector<const MeasuredRun*>& recorded, const std::vec
   }
 }
 
-/// Noise alone rarely spans more of its standard deviations in the frames of a period.
+/// Noise alone rarely spans more than this many of its standard deviations in the frames of a period.
 constexpr double still = 8;
 
-/// Frames that lie in a stretch of both, so that neither box nor grains move.
+/// Returns the stretches that both lists have in common, so that neither box nor grains move.
 std::vector<RestStretch> common_to(const std::vector<RestStretch>& one,
                                    const std::vector<RestStretch>& other) {
   std::vector<RestStretch> both;

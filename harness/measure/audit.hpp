@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the frames themselves say, before any model: noise and its colour, outliers, gaps, release, packed
-// layer.
+// Finds what the frames themselves say, before any model: noise and its colour, outliers, gaps, release,
+// packed layer.
 #pragma once
 #include <string>
 #include <vector>
@@ -21,15 +21,15 @@ struct RunAudit {
   std::vector<double> x_box, x_com;  ///< the run's series with outliers taken out (NaN)
 };
 
-/// Noise, outliers, wander and release of one run, from its frames alone.
+/// Finds noise, outliers, wander and release of one run, from its frames alone.
 RunAudit audit_run(const MeasuredRun& run);
 
-/// One camera films all runs: its colour is the same in runs of one frame rate, and so is its noise unless
-/// runs differ by more than the error of each. Pooling halves that error, which otherwise widens the test of
-/// the momentum balance. `runs[i]` was found by audit_run in `recorded[i]`.
+/// Pools the noise of runs that one camera filmed: its colour is the same in runs of one frame rate, and so
+/// is its noise unless runs differ by more than the error of each. Pooling halves that error, which otherwise
+/// widens the test of the momentum balance. `runs[i]` was found by audit_run in `recorded[i]`.
 void pool_noise(const std::vector<const MeasuredRun*>& recorded, const std::vector<RunAudit*>& runs);
 
-/// What the frames of a run give reason to say, sentences for people.
+/// Returns what the frames of a run give reason to say, sentences for people.
 std::vector<std::string> warnings_of(const RunAudit& run);
 
 }  // namespace shakedown

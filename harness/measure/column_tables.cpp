@@ -22,7 +22,7 @@ class PositionReader {
   PositionReader(const ExperimentReader& reader, const ColumnChoice& choice, double pixel_size)
       : reader_(&reader), choice_(&choice), pixel_size_(pixel_size) {}
 
-  /// m; nothing when it is absent or wrong (reported).
+  /// Returns the position, m; nothing when it is absent or wrong (reported).
   std::optional<double> read(std::string_view key) const {
     const TomlValue* value = reader_->find(key);
     if (!value) return std::nullopt;
@@ -65,7 +65,7 @@ class PositionReader {
   double pixel_size_;
 };
 
-/// What [column.NAME] says, on top of what a wider table said before.
+/// Reads what [column.NAME] says, on top of what a wider table said before.
 ColumnChoice column_choice(const TomlValue& table, const std::string& path, ColumnChoice choice,
                            double pixel_size, Violations& violations) {
   const ExperimentReader reader(table, ExperimentTable::column, path, violations);
@@ -87,7 +87,8 @@ ColumnChoice column_choice(const TomlValue& table, const std::string& path, Colu
   return choice;
 }
 
-/// Of the box's velocity or acceleration.
+/// Reads the column of the box's velocity or acceleration: sets the derivative, and reports an origin, which
+/// is of no use there.
 ColumnChoice rate_choice(ColumnChoice choice, const TomlEntry& entry, const std::string& path,
                          Violations& violations) {
   choice.derivative = entry.key == "box_velocity" ? 1 : 2;

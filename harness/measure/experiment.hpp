@@ -68,4 +68,14 @@ struct Experiment {
   Sensor sensor = Sensor::camera;
 };
 
+/// Returns the frames a second by the median interval of these times (s); 0: fewer than two.
+double typical_rate(const std::vector<double>& time);
+
+/// Tells whether the first position and speed of the run are its own: it says release = "unknown", or says
+/// nothing and its box is empty. `setup` is that of the run.
+bool starts_anywhere(const MeasuredRun& run, const Setup& setup);
+
+/// Returns what is known of one run: its own values, and the experiment's where it has none.
+std::vector<KnownValue> known_of(const Experiment& experiment, const MeasuredRun& run);
+
 }  // namespace shakedown

@@ -27,7 +27,7 @@ namespace {
 using TomlKind = TomlValue::Kind;
 using Violations = std::vector<Violation>;
 
-/// A value of the file as an override of the setup would be written on the command line.
+/// Returns a value of the file as an override of the setup would be written on the command line.
 std::string as_written(const TomlValue& value) {
   if (value.kind == TomlKind::text) return toml_string(value.text);
   if (value.kind == TomlKind::integer) return std::to_string(value.integer);
@@ -57,7 +57,8 @@ const Override* find_override(const MeasuredRun& run, std::string_view key) {
   return nullptr;
 }
 
-/// A bare word among the setup's dotted keys is a mistyped key of [[run]].
+/// Takes the setup's keys of a [[run]] as overrides; a bare word among them is a mistyped key of [[run]] and
+/// is reported.
 void split_run_keys(const TomlValue& table, const std::string& file, MeasuredRun& run,
                     Violations& violations) {
   TomlValue rest;
@@ -82,7 +83,7 @@ struct Defaults {
   KnownEffects effects{};  ///< whose numbers [known] may say
 };
 
-/// Without a declared time column and with an empty box there is nothing to miss.
+/// Tells whether the run says that its box holds no grains, so that their centre cannot be missing.
 bool is_empty_box(const MeasuredRun& run) {
   const Override* count = find_override(run, "grains.count");
   return count && count->value == "0";
@@ -103,7 +104,7 @@ void take_length_and_grains(const ExperimentReader& reader, const std::filesyste
         grains->place);
 }
 
-/// box.length, as the setup writes it, means the same as box_length.
+/// Takes box.length, as the setup writes it, for box_length.
 void take_length_of_setup(const TomlValue& table, MeasuredRun& run, Violations& violations) {
   const TomlValue* box = table.find("box");
   const TomlValue* length = box && box->kind == TomlKind::table ? box->find("length") : nullptr;
@@ -128,7 +129,7 @@ void append(Violations& violations, Violations more) {
                     std::make_move_iterator(more.end()));
 }
 
-/// What the table calls 1 s is 1 s times 1 plus this.
+/// Returns the relative error of the clock: what the table calls 1 s is 1 s times 1 plus this.
 double clock_error(const MeasuredRun& run, const Experiment& experiment) {
   for (const std::vector<KnownValue>* values : {&run.known, &std::as_const(experiment).known})
     if (const KnownValue* clock = find_known(*values, "clock")) return clock->value;
@@ -222,7 +223,8 @@ void read_run(const TomlValue& table, const std::filesystem::path& folder, const
 
 namespace {
 
-/// As said, else a camera where something tells of one: pixels, a rate of frames, grains that are seen.
+/// Returns the sensor as said, else a camera where something tells of one: pixels, a rate of frames, grains
+/// that are seen.
 Sensor sensor_of(const std::string& said, const Defaults& defaults, const Experiment& experiment) {
   const std::vector<std::string_view>& words = experiment_key(ExperimentTable::camera, "sensor").choices;
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -233,7 +235,8 @@ Sensor sensor_of(const std::string& said, const Defaults& defaults, const Experi
   return films ? Sensor::camera : Sensor::other;
 }
 
-/// The tree of the file; throws InputError with what to do where a table or a setup was given instead.
+/// Returns the tree of the file; throws InputError with what to do where a table or a setup was given
+/// instead.
 TomlValue parsed_experiment(std::string_view text, const std::string& name) {
   TomlValue root;
   try {
@@ -324,27 +327,6 @@ std::string digest(const Experiment& experiment) {
     }
   }
   return hexadecimal(hash);
-}
-
-double typical_rate(const std::vector<double>& time) {
-  std::vector<double> intervals;
-  for (std::size_t i = 1; i < time.size(); ++i)
-    if (std::isfinite(time[i] - time[i - 1])) intervals.push_back(time[i] - time[i - 1]);
-  if (intervals.empty()) return 0;
-  std::nth_element(intervals.begin(), intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2),
-                   intervals.end());
-  return 1 / intervals[intervals.size() / 2];
-}
-
-bool starts_anywhere(const MeasuredRun& run, const Setup& setup) {
-  return run.start == Start::anywhere || (run.start == Start::not_said && setup.grains.count == 0);
-}
-
-std::vector<KnownValue> known_of(const Experiment& experiment, const MeasuredRun& run) {
-  std::vector<KnownValue> known = run.known;
-  for (const KnownValue& one : experiment.known)
-    if (!find_known(run.known, one.key)) known.push_back(one);
-  return known;
 }
 
 }  // namespace shakedown

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one table of the keys of an experiment file: reading, messages, JSON schema and reference come from it.
+// One table holds the keys of an experiment file: reading, messages, JSON schema and reference come from it.
 #pragma once
 #include <limits>
 #include <span>
@@ -37,16 +37,16 @@ struct ExperimentKey {
   std::vector<std::string_view> choices{};
 };
 
-/// Every key, table by table.
+/// Returns every key, table by table.
 std::span<const ExperimentKey> experiment_keys();
 
-/// The names of the keys of one table.
+/// Returns the names of the keys of one table.
 std::vector<std::string_view> names_of_keys(ExperimentTable table);
 
-/// The key of this name; throws nothing: it must be there (EXPECT).
+/// Returns the key of this name, which must be there (EXPECT).
 const ExperimentKey& experiment_key(ExperimentTable table, std::string_view name);
 
-/// How a table is written: "", "[camera]", "[column.NAME]", "[[run]]".
+/// Returns how a table is written: "", "[camera]", "[column.NAME]", "[[run]]".
 std::string_view written_name(ExperimentTable table);
 
 }  // namespace shakedown

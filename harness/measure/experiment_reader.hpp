@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values of one table of an experiment file, read as the table of its keys says.
+// Reads values of one table of an experiment file as the table of its keys says.
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,27 +10,30 @@
 
 namespace shakedown {
 
-/// What is wrong goes to `violations`. Every key that is asked for must be one of the table's (EXPECT).
+/// A table of an experiment file. What is wrong in it goes to `violations`. Every key that is asked for must
+/// be one of the table's (EXPECT).
 class ExperimentReader {
  public:
   ExperimentReader(const TomlValue& table, ExperimentTable which, std::string path,
                    std::vector<Violation>& violations)
       : table_(&table), which_(which), path_(std::move(path)), violations_(&violations) {}
 
-  /// The value as it stands there, or nullptr.
+  /// Returns the value as it stands there, or nullptr.
   const TomlValue* find(std::string_view key) const;
 
-  /// The value of a key of this section; empty or false where it is not given.
+  /// Return the value of a key of this table; empty or false where it is not given.
   std::string text(std::string_view key) const;
   std::vector<std::string> texts(std::string_view key) const;
   bool flag(std::string_view key) const;
-  /// A quantity in SI, within the bounds of its key.
+  /// Returns a quantity in SI, within the bounds of its key; `otherwise` where it is not given or wrong
+  /// (reported).
   double number(std::string_view key, double otherwise) const;
-  /// One of the key's words; empty when it is absent or a table.
+  /// Returns one of the key's words; empty when it is absent or a table.
   std::string choice(std::string_view key) const;
-  /// The table of this name; nullptr when there is none or it is something else (reported).
+  /// Returns the table of this name; nullptr when there is none or it is something else (reported).
   const TomlValue* table(std::string_view key) const;
 
+  /// Adds a violation about a value of this table, with its place and what to do.
   void report(const TomlValue& value, std::string_view key, const std::string& problem,
               const std::string& remedy) const;
 
@@ -46,7 +49,7 @@ class ExperimentReader {
   std::vector<Violation>* violations_;
 };
 
-/// "did you mean 'x'? known: a, b, c"
+/// Returns "did you mean 'x'? known: a, b, c".
 std::string remedy_for_word(std::string_view word, const std::vector<std::string_view>& known);
 
 }  // namespace shakedown

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The experiment file for people and for editors, made from the tables of keys that read it.
+// Describes the experiment file for people and for editors, from the tables of keys that read it.
 #pragma once
 #include <string>
 
 namespace shakedown {
 
-/// JSON Schema (draft 2020-12) of an experiment file, with a line end.
+/// Returns the JSON Schema (draft 2020-12) of an experiment file, with a line end.
 std::string experiment_schema();
 
-/// Every key with its unit, example and meaning, and the conventions, in Markdown.
+/// Returns every key with its unit, example and meaning, and the conventions, in Markdown.
 std::string experiment_keys_markdown();
 
 }  // namespace shakedown

@@ -14,11 +14,12 @@ namespace shakedown {
 
 namespace {
 
-/// Scales and origins of a camera move the centre by some per cent of its way; beyond this it is no camera's.
+/// Scales and origins of a camera move the centre by some per cent of its way; what is beyond this is no
+/// error of a camera.
 constexpr double beyond = 1.5;    // halves of the box
 constexpr double too_many = 0.1;  // of the frames
 
-/// x_com changed to a x_com + b.
+/// The change of x_com to `factor` x_com + `shift` (m).
 struct Change {
   double factor = 1, shift = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Grains cannot leave their box: a centre that does is in another unit, on the wrong side or of something
-// else.
+// Checks the column of the grains' centre: grains cannot leave their box, so a centre that does is in another
+// unit, on the wrong side or of something else.
 #pragma once
 #include <optional>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace shakedown {
 
-/// `x_box`, `x_com`: m, NaN where missing, without wrong frames; `length`: m, of the box inside. Nothing
-/// where the centre stays within the box.
+/// Returns what is wrong with the centre; nothing where it stays within the box. `x_box`, `x_com`: m, NaN
+/// where missing, without wrong frames; `length`: m, of the box inside.
 std::optional<Problem> problem_of_grains(const std::vector<double>& x_box, const std::vector<double>& x_com,
                                          double length);
 

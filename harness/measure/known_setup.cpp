@@ -21,7 +21,7 @@ const EffectRecord* camera_record(std::string_view known_as, KnownEffects known)
   return nullptr;
 }
 
-/// Key and value for every number that this sets, other parameters that it needs first.
+/// Returns key and value for every number that this sets, other parameters that it needs first.
 std::vector<std::pair<std::string, double>> numbers_set_by(const KnownValue& value, KnownEffects known) {
   const std::string key = setup_key_of(value, known);
   if (key.empty()) return {};

@@ -46,19 +46,20 @@ const CameraKey* find_camera_key(std::string_view path) {
   return nullptr;
 }
 
-/// Nobody measures the sections that only steer a simulation.
+/// Tells whether a key can be measured: nobody measures the sections that only steer a simulation.
 bool can_be_known(const SetupKey& key) {
   constexpr std::array<std::string_view, 6> measured{"box",    "spring",      "blade",
                                                      "grains", "restitution", "release"};
   return is_numeric(key) && std::find(measured.begin(), measured.end(), key.section()) != measured.end();
 }
 
-/// Films of the whole damper tell what acts on the box; of these a test of the grains alone tells more.
+/// Tells whether an effect acts in contacts or on grains: a test of the grains alone tells more of it than
+/// films of the whole damper, which tell what acts on the box.
 bool is_in_contacts(const EffectRecord& record) {
   return record.acts_on == ActsOn::contact || record.acts_on == ActsOn::grains;
 }
 
-/// What of the setup is weighed with its error. Of all else a value without error may be said.
+/// These keys of the setup are weighed with their error. Of all others a value without error may be said.
 constexpr std::array<std::string_view, 6> weighed_keys{
     "box.mass",         "grains.mass",         "restitution.grain_grain", "restitution.grain_wall",
     "spring.frequency", "release.displacement"};
@@ -90,7 +91,7 @@ std::optional<Target> target_of(std::string_view path, KnownEffects effects) {
   return Target{key->unit, key->low, key->high, key->low_excluded};
 }
 
-/// "box.mass or grains.mass" for "mass"; else the nearest key.
+/// Returns "box.mass or grains.mass" for "mass"; else the nearest key.
 std::string meant_by(std::string_view path) {
   std::vector<std::string_view> candidates;
   std::string same_name;
@@ -150,7 +151,8 @@ struct ValueAndError {
   bool unit_at_error_only = false;
 };
 
-/// Nothing when no error is given. "434 g +- 2 g", "434 +- 2 g", "434 g +- 2", "(434 +- 2) g".
+/// Splits "434 g +- 2 g", "434 +- 2 g", "434 g +- 2", "(434 +- 2) g" into value and error; nothing when no
+/// error is given.
 std::optional<ValueAndError> split_error(std::string_view text) {
   text = trimmed(text);
   std::string_view unit_of_both;
@@ -186,7 +188,7 @@ ValueOrProblem<double> number_of(const Written& written, std::string_view unit) 
   return number_in(value, unit);
 }
 
-/// A per cent of a quantity with a unit is a share of its value: "434 g +- 0.5 %".
+/// Returns the error in SI. A per cent of a quantity with a unit is a share of its value: "434 g +- 0.5 %".
 ValueOrProblem<double> error_of(const ValueAndError& both, double value, std::string_view unit) {
   if (both.error.unit != "%" || unit.empty() || both.value.unit == "%") return number_of(both.error, unit);
   const ValueOrProblem<double> share = number_of(both.error, "");
@@ -194,7 +196,7 @@ ValueOrProblem<double> error_of(const ValueAndError& both, double value, std::st
   return share;
 }
 
-/// Value and error of `known`, or the problem.
+/// Sets value and error of `known`, or returns the problem.
 std::optional<Problem> take(const TomlValue& from, const Target& target, KnownValue& known) {
   const std::string remedy = "write value and error, e.g. " + example_with_error(target.unit);
   if (from.kind != TomlKind::text)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was weighed and measured before the experiment, and how well: [known] of an experiment file.
+// Reads what was weighed and measured before the experiment, and how well: [known] of an experiment file.
 #pragma once
 #include <span>
 #include <string>
@@ -32,19 +32,21 @@ struct CameraKey {
   bool each_run = false;  ///< drawn anew in every run; else common to all
   std::string_view sentence;
 };
+/// Returns all keys of camera and clock.
 std::span<const CameraKey> camera_keys();
 
-/// A value as it could stand in a file: "0 +- 0.5 %".
+/// Returns a value as it could stand in a file: "0 +- 0.5 %".
 std::string example_of(const CameraKey& key);
 
-/// The keys of the setup that [known] can say: numbers that somebody can measure.
+/// Returns the keys of the setup that [known] can say: numbers that somebody can measure.
 std::vector<const SetupKey*> knowable_setup_keys();
 
-/// True for what is drawn anew in every run, whose error is of each run by itself: the release and the
-/// trigger.
+/// Tells whether a key is drawn anew in every run, so that its error is of each run by itself: the release
+/// and the trigger.
 bool is_of_each_run(std::string_view key);
 
-/// False for what the runs of one experiment have in common: restitutions, the spring, a tracker's wander.
+/// Tells whether a key may differ between the runs of one experiment: not restitutions, the spring, a
+/// tracker's wander.
 bool may_differ_between_runs(std::string_view key);
 
 /// Reads [known]: keys in quotes ("box.mass") or with a dot, values as `value +- error [unit]` with the unit
@@ -53,15 +55,14 @@ bool may_differ_between_runs(std::string_view key);
 std::vector<KnownValue> read_known(const TomlValue& table, const std::string& path,
                                    std::vector<Violation>& violations, KnownEffects effects = {});
 
-/// The value of this key, nullptr when it is not known.
+/// Returns the value of this key, nullptr when it is not known.
 const KnownValue* find_known(const std::vector<KnownValue>& known, std::string_view key);
 
-/// The number of an effect that a component test tells: of what acts inside the contacts or on the grains, a
-/// number by itself. Null: what acts on the box the momentum balance measures, and all else is no such
-/// number.
+/// Returns the number of an effect that a component test tells: of what acts inside the contacts or on the
+/// grains, a number by itself. Null for all else; what acts on the box the momentum balance measures.
 const Parameter* find_component_number(KnownEffects effects, std::string_view key);
 
-/// As a line of an experiment file, without its end: "box.mass" = "434 g +- 2 g".
+/// Returns the value as a line of an experiment file, without its end: "box.mass" = "434 g +- 2 g".
 std::string known_line(const KnownValue& known, KnownEffects effects = {});
 
 }  // namespace shakedown

@@ -40,7 +40,7 @@ std::vector<Layer> layers_like(const Experiment& experiment, const std::vector<S
 
 std::string mm(double metres) { return write_quantity(std::round(metres * 1e4) / 1e4, "mm"); }
 
-/// The run that a wrong one was exchanged with, or nullptr: each fits the other's length.
+/// Returns the run that a wrong one was exchanged with, or nullptr: each fits the other's length.
 const Layer* exchanged_with(const std::vector<Layer>& layers, const Layer& wrong, double thickness) {
   const auto fits = [&](const Layer& layer, double length) {
     return std::abs(length / 2 - layer.plateau - thickness) < layer_scatter;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measured, or made-up, positions as a table.
+// Writes positions, measured or made up, as a table.
 #pragma once
 #include <filesystem>
 
@@ -11,8 +11,8 @@ namespace shakedown {
 /// positions are blank. Throws FileError.
 void write_measured_run(const std::filesystem::path& file, const MeasuredRun& run);
 
-/// An experiment file for tables that write_measured_run has written, one a run under its name + ".csv", with
-/// declared uncertainties and each run's own keys. Throws FileError.
+/// Writes an experiment file for tables that write_measured_run has written, one a run under its name +
+/// ".csv", with declared uncertainties and each run's own keys. Throws FileError.
 void write_experiment(const std::filesystem::path& file, const Experiment& experiment);
 
 }  // namespace shakedown

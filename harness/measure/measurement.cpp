@@ -7,7 +7,7 @@
 #include <map>
 
 #include "errors.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "known_setup.hpp"
 #include "nothing.hpp"
 #include "setup_file.hpp"
@@ -17,7 +17,8 @@ namespace shakedown {
 
 namespace {
 
-/// How thick the layer is depends on the grains: runs with others have a plateau of their own.
+/// Returns the run's own keys of the grains, on which the layer's thickness depends: runs with others have a
+/// plateau of their own.
 std::string grains_of(const MeasuredRun& run) {
   std::string text;
   for (const Override& override : run.overrides)

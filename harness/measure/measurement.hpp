@@ -25,7 +25,7 @@ struct Measurement {
     RunAudit audit;
     Setup setup;  ///< the user's, with the run's own keys
     bool shaken =
-        false;  ///< until the film ends, by the setup it was read with: no model changes what is seen
+        false;  ///< the setup it was read with drives it to the end, so it is compared over its whole length
   };
   std::string title, file;
   std::vector<std::string> notes;     ///< what was assumed in reading, in words
@@ -36,26 +36,26 @@ struct Measurement {
   Sensor sensor = Sensor::camera;
 };
 
-/// What was assumed and what the frames give reason to say.
+/// Returns what was assumed and what the frames give reason to say.
 std::vector<std::string> all_notes(const Measurement& measurement);
 
-/// The setup of one run: the user's, with the run's own keys. Throws InputError that names the run's line for
-/// a key that does not exist or does not fit.
+/// Returns the setup of one run: the user's, with the run's own keys. Throws InputError that names the run's
+/// line for a key that does not exist or does not fit.
 Setup setup_of_run(const Setup& setup, const MeasuredRun& run, KnownEffects known);
 
 /// Audits the frames, and gives each run its setup, with what is known put in. Throws as setup_of_run does.
 Measurement measurement_of(const Setup& setup, Experiment experiment, KnownEffects known);
 
-/// The same with setups made elsewhere, one for each run.
+/// Audits the frames of an experiment with setups made elsewhere, one for each run.
 Measurement measurement_of(const std::vector<Setup>& setups, Experiment experiment);
 
-/// What is known of one run: its own values, and the measurement's where it has none.
+/// Returns what is known of one run: its own values, and the measurement's where it has none.
 std::vector<KnownValue> known_of(const Measurement& measurement, const Measurement::Run& run);
 
-/// The same measurement beside another setup of the user: each run gets it with the run's own keys.
+/// Returns the measurement beside another setup of the user: each run gets it with the run's own keys.
 Measurement with_setup(Measurement measurement, const Setup& changed, KnownEffects known);
 
-/// What the frames show up to so many seconds after release.
+/// Returns the measurement with its frames up to so many seconds after release.
 Measurement up_to(Measurement measurement, double seconds);
 
 }  // namespace shakedown

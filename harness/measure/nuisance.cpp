@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "effect_strength.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "key_unit.hpp"
 #include "setup_file.hpp"
 
@@ -14,7 +14,7 @@ namespace shakedown {
 
 namespace {
 
-/// What is known of this key in one run: of the run itself, else of all; null: nothing.
+/// Returns what is known of this key in one run: of the run itself, else of all; null: nothing.
 const KnownValue* known_in(const Measurement& measurement, const Measurement::Run& run,
                            std::string_view key) {
   const KnownValue* own = find_known(run.recorded.known, key);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is known of camera, clock and scales, and how well: as the experiment says ([known]), else as such
-// things usually are.
+// Tells what is known of camera, clock and scales, and how well: as the experiment says ([known]), else as
+// such things usually are.
 #pragma once
 #include <optional>
 #include <span>
@@ -23,6 +23,7 @@ struct CameraNuisance {
   bool each_run = false;  ///< every run has its own (a trigger, or said of a run), else one camera films all
   double deviation() const;  ///< of the run that knows it least
 };
+/// Returns the errors of camera and clock that this sensor can have and that some run does not know exactly.
 std::vector<CameraNuisance> camera_nuisances(const Measurement& measurement, KnownEffects known);
 
 /// A number of the setup that was weighed or measured, of runs that have it in common.
@@ -32,7 +33,7 @@ struct WeighedNuisance {
   std::vector<std::size_t> runs{};  ///< that were weighed together
   bool of_one_run = false;          ///< said of that run alone
 };
-/// None where no run has grains: alone a mass is a stiffness.
+/// Returns the masses that are not known exactly. None where no run has grains: alone a mass is a stiffness.
 std::vector<WeighedNuisance> weighed_nuisances(const Measurement& measurement);
 
 /// A mass, SI, as well as it is known, whether runs have grains or not: value and standard deviation in the
@@ -42,7 +43,8 @@ struct ValueWithError {
 };
 ValueWithError known_mass(const Measurement& measurement, std::string_view key);
 
-/// The spring's frequency beforehand, Hz, with the error that the clock adds; nothing where it is not known.
+/// Returns the spring's frequency beforehand, Hz, with the error that the clock adds; nothing where it is not
+/// known.
 std::optional<ValueWithError> known_frequency(const Measurement& measurement);
 
 /// The wander of the track: deviation, m, and memory, s; nothing where it is not known.
@@ -51,8 +53,8 @@ struct KnownWander {
 };
 std::optional<KnownWander> known_wander(const Measurement& measurement);
 
-/// Effects of the camera that the experiment knows exactly, or that its sensor cannot have: none can be
-/// missing.
+/// Returns the effects of the camera that the experiment knows exactly, or that its sensor cannot have, so
+/// that none of them can be missing.
 std::vector<std::string> exactly_known(const Measurement& measurement, KnownEffects known);
 
 }  // namespace shakedown

@@ -8,7 +8,6 @@
 
 #include "audit.hpp"
 #include "base_column.hpp"
-#include "experiment_file.hpp"
 #include "quantity.hpp"
 #include "robust_statistics.hpp"
 #include "rough_motion.hpp"
@@ -17,7 +16,7 @@ namespace shakedown {
 
 namespace {
 
-/// Frames that are there.
+/// The frames that are not missing.
 struct Frames {
   std::vector<double> time, x;
   std::size_t size() const { return time.size(); }
@@ -30,7 +29,7 @@ Frames present(const std::vector<double>& time, const std::vector<double>& x) {
   return frames;
 }
 
-/// m/s at each frame, over a twentieth of a period to either side.
+/// Returns the speed at each frame, m/s, over a twentieth of a period to either side.
 std::vector<double> speeds(const Frames& f, double period) {
   std::vector<double> speed(f.size(), 0);
   std::size_t left = 0, right = 0;
@@ -44,8 +43,8 @@ std::vector<double> speeds(const Frames& f, double period) {
   return speed;
 }
 
-/// The first frame at which the box rushes from one side of the centre to the other, as only a free swing
-/// does: a hand pulls it from the middle, and more slowly.
+/// Returns the first frame at which the box rushes from one side of the centre to the other, as only a free
+/// swing does: a hand pulls it from the middle, and more slowly. f.size() where there is none.
 std::size_t first_rush(const Frames& f, double period, double centre, double amplitude) {
   constexpr double fast = 0.6, far = 0.4;  // of the fastest, of the amplitude
   const std::vector<double> speed = speeds(f, period);
@@ -86,7 +85,8 @@ Stay stay_before(const Frames& f, std::size_t rush, double period, double centre
   return stay;
 }
 
-/// The first frame of the stay from which on it stands at its level: the hand has brought the box there.
+/// Returns the first frame of the stay from which on it stands at its level: the hand has brought the box
+/// there.
 std::size_t settled_from(const Frames& f, const Stay& stay, double amplitude, double deviation) {
   constexpr double still = 2e-3;  // of the amplitude
   constexpr int in_a_row = 5;
@@ -107,7 +107,8 @@ std::string rounded_seconds(double seconds) {
   return write_quantity(std::strtod(digits, nullptr), "s");
 }
 
-/// A table whose clock does not begin with 0 and whose first frame shows the box at rest where it was let go.
+/// Tells whether the clock of a table does not begin with 0 while its first frame shows the box at rest where
+/// it was let go.
 bool begins_with_the_release(const MeasuredRun& run) {
   constexpr double worth_saying = 0.02;  // of a period
   const RoughMotion motion = rough_motion(run.time, run.x_box);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a film shows before the box swings freely: it rests, is pulled aside, is held, and let go.
+// Finds what a film shows before the box swings freely: it rests, is pulled aside, is held, and let go.
 #pragma once
 #include <optional>
 #include <string>
@@ -14,16 +14,16 @@ struct Prelude {
   double held = 0;     ///< s that it stood still directly before; 0: it turned there
 };
 
-/// `x`: m, NaN where missing, without wrong frames; `deviation`: m, of one frame's noise. Nothing where the
-/// series begins with the free swing, or where the frames do not tell.
+/// Returns the release after a prelude; nothing where the series begins with the free swing, or where the
+/// frames do not tell. `x`: m, NaN where missing, without wrong frames; `deviation`: m, of one frame's noise.
 std::optional<Prelude> prelude_of(const std::vector<double>& time, const std::vector<double>& x,
                                   double deviation);
 
-/// The run with its clock counted from this time of it, and what comes before as its lead-in.
+/// Returns the run with its clock counted from this time of it, s, and what comes before as its lead-in.
 MeasuredRun counted_from(MeasuredRun run, double release);
 
-/// Runs whose release the experiment does not say, each counted from where the frames show it. What was done
-/// joins the experiment's notes, with the line that says the same. `setups` are those of the runs.
+/// Counts runs whose release the experiment does not say from where the frames show it. What was done joins
+/// the experiment's notes, with the line that says the same. `setups` are those of the runs.
 Experiment with_releases_seen(Experiment experiment, const std::vector<Setup>& setups);
 
 }  // namespace shakedown

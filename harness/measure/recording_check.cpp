@@ -9,9 +9,10 @@
 
 #include "audit.hpp"
 #include "base_column.hpp"
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "grain_column.hpp"
 #include "grain_file.hpp"
+#include "initial_state.hpp"
 #include "layer_check.hpp"
 #include "quantity.hpp"
 #include "rough_motion.hpp"
@@ -31,7 +32,7 @@ struct Finding {
   Violation violation;
 };
 
-/// Three digits and a unit.
+/// Returns three digits and a unit.
 std::string rounded(double si, const char* unit) {
   char digits[32];
   std::snprintf(digits, sizeof digits, "%.3g", si);
@@ -39,7 +40,7 @@ std::string rounded(double si, const char* unit) {
 }
 std::string rounded_mm(double metres) { return rounded(metres, "mm"); }
 
-/// What cameras run at, where one is within 5 %.
+/// Returns the frame rate at which cameras run, Hz, that is within 5 % of this one; else this one.
 double usual_rate_near(double rate) {
   constexpr std::array<double, 14> usual{24, 25, 30, 48, 50, 60, 90, 100, 120, 200, 240, 480, 500, 960};
   for (const double one : usual)
@@ -55,7 +56,7 @@ std::string factor_text(double factor) {
 
 class RunCheck {
  public:
-  /// Wrong frames say nothing of units, origins and columns: they are left out beforehand.
+  /// Begins without wrong frames, which say nothing of units, origins and columns.
   RunCheck(const MeasuredRun& run, const Setup& setup, std::vector<Finding>& findings)
       : run_(run),
         setup_(setup),
@@ -92,8 +93,8 @@ class RunCheck {
            setup_.release.displacement != 0;
   }
 
-  /// Noise and memory are found from frames in a row: with two thirds of them in no stretch of five, nothing
-  /// is known of either, and any model would do.
+  /// Reports recordings with more than two thirds of their time in no stretch of five frames: noise and its
+  /// memory are found from frames in a row, and without them any model would do.
   bool check_frames() {
     constexpr double least = 1.0 / 3;
     const auto enough = [&](const char* what, const std::vector<double>& x, double unbroken) {
@@ -145,7 +146,8 @@ class RunCheck {
     return false;
   }
 
-  /// Between the landings of grains at least ten frames a swing are needed; a swing alone can do with six.
+  /// Reports fewer than ten frames a swing, which are needed between the landings of grains; a swing alone
+  /// can do with six.
   bool check_rate() {
     constexpr double least = 10, least_alone = 6;
     const double frames = 1 / (motion_.frequency * audit_.frame_interval);
@@ -252,7 +254,8 @@ class RunCheck {
     return std::abs(motion_.start_delay) < std::max(of_a_period / motion_.frequency, 5 * motion_.delay_error);
   }
 
-  /// Between impacts grains fly straight; only the box swings like a spring.
+  /// Reports columns that are swapped: between impacts grains fly straight, and only the box swings like a
+  /// spring.
   bool check_columns() {
     if (!run_.has_com()) return false;
     // What is shaken swings as it is shaken, box and grains alike, and its momentum is not the spring's
@@ -272,9 +275,9 @@ class RunCheck {
     return false;
   }
 
-  /// Share of the momentum's change, box and grains as weighed, that no spring on `box` explains (of the sum
-  /// of squares over windows of 0.6 periods): M x_box'' + N m x_com'' = -k x_box, k free, by parts as in the
-  /// balance. 1 where nothing can be said.
+  /// Returns the share of the momentum's change, box and grains as weighed, that no spring on `box` explains
+  /// (of the sum of squares over windows of 0.6 periods): M x_box'' + N m x_com'' = -k x_box, k free, by
+  /// parts as in the balance. 1 where nothing can be said.
   double unbalanced(const std::vector<double>& box, const std::vector<double>& grains) const {
     const double length = 0.6 / motion_.frequency, half = length / 2,
                  mass = static_cast<double>(setup_.grains.count) * setup_.grains.mass;
@@ -313,7 +316,7 @@ class RunCheck {
   RoughMotion motion_;
 };
 
-/// Alike findings of several runs in one: the first with its numbers, and the names of the others.
+/// Puts alike findings of several runs into one: the first with its numbers, and the names of the others.
 void gather(const std::vector<Finding>& findings, RecordingCheck& result) {
   std::vector<char> said(findings.size(), 0);
   for (std::size_t i = 0; i < findings.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What looks wrong in recordings, said before any model is asked: units off by powers of ten, origin, side,
+// Says what looks wrong in recordings before any model is asked: units off by powers of ten, origin, side,
 // swapped columns, lengths, releases.
 #pragma once
 #include <string>
@@ -14,10 +14,10 @@ struct RecordingCheck {
   std::vector<std::string> notes;     ///< sentences for people, with the line to write where it is known
 };
 
-/// `setups` are those of the runs, in their order.
+/// Checks the recordings. `setups` are those of the runs, in their order.
 RecordingCheck check_recordings(const Experiment& experiment, const std::vector<Setup>& setups);
 
-/// The notes of reading and of the check. Throws InputError for what is impossible.
+/// Returns the notes of reading and of the check. Throws InputError for what is impossible.
 std::vector<std::string> notes_before_modelling(const Experiment& experiment,
                                                 const std::vector<Setup>& setups);
 

@@ -9,14 +9,14 @@ namespace shakedown {
 /// errors.
 constexpr double normal_95 = 1.959963984540054;
 
-/// Probability that chi-squared with `degrees` > 0 of freedom exceeds `value`. Relative error below 1e-12.
-/// NaN has no tail: NaN.
+/// Returns the probability that chi-squared with `degrees` > 0 of freedom exceeds `value`; NaN of NaN.
+/// Relative error below 1e-12.
 double chi_squared_tail(double value, double degrees);
 
-/// Probability that |Student's t| exceeds `value` >= 0; degrees of freedom real and positive.
+/// Returns the probability that |Student's t| exceeds `value` >= 0; degrees of freedom real and positive.
 double student_two_sided_tail(double value, double degrees_of_freedom);
 
-/// t with P(|T| < t) = 0.95 for Student's distribution; degrees of freedom real and at least 1.
+/// Returns t with P(|T| < t) = 0.95 for Student's distribution; degrees of freedom real and at least 1.
 double student_95(double degrees_of_freedom);
 
 }  // namespace shakedown

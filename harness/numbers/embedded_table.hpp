@@ -8,7 +8,8 @@
 
 namespace shakedown {
 
-/// The rows below the titles, each with as many words as there are titles; spaces around words are dropped.
+/// Returns the rows below the titles, each with as many words as there are titles; spaces around words are
+/// dropped.
 std::vector<std::vector<std::string>> embedded_rows(std::string_view table);
 
 }  // namespace shakedown

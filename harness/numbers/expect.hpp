@@ -3,6 +3,7 @@
 
 namespace shakedown {
 
+/// Says on standard error which assertion failed and ends the program with exit code 70.
 [[noreturn]] void report_bug(const char* condition, const char* file, int line);
 
 }  // namespace shakedown

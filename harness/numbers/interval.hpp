@@ -17,7 +17,7 @@ struct Estimate {
   double low = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the interval is not known
   double high = std::numeric_limits<double>::quiet_NaN();
 
-  /// 95 % interval of a normal distribution.
+  /// Returns the value with the 95 % interval of a normal distribution.
   static Estimate with_error(double value, double standard_error) {
     return {value, value - normal_95 * standard_error, value + normal_95 * standard_error};
   }

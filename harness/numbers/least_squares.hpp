@@ -11,21 +11,21 @@ struct LeastSquares {
   double rms = 0;              ///< root mean square of the residuals
 };
 
-/// Coefficients c that make |columns c - values| smallest (QR with pivoting). Needs at least as many rows as
-/// columns. For values of different errors divide each row and value by its error first.
+/// Finds the coefficients c that make |columns c - values| smallest (QR with pivoting). Needs at least as
+/// many rows as columns. For values of different errors divide each row and value by its error first.
 LeastSquares least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
 
-/// The coefficients alone.
+/// Returns the coefficients alone.
 Eigen::VectorXd least_squares_coefficients(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
 
-/// What gives them when multiplied with any values: a row a column, a column a row.
+/// Returns the matrix W with coefficients = W values for any values; its shape is (columns, rows).
 Eigen::MatrixXd least_squares_weights(const Eigen::MatrixXd& columns);
 
-/// Of all coefficients that fit best the shortest, where columns depend on each other (complete orthogonal
-/// decomposition).
+/// Returns the shortest of all best-fitting coefficients, where columns depend on each other (complete
+/// orthogonal decomposition).
 Eigen::VectorXd shortest_coefficients(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values);
 
-/// The inverse of a matrix that may have none: that of Moore and Penrose.
+/// Returns the inverse of Moore and Penrose, which singular matrices have too.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix);
 
 }  // namespace shakedown

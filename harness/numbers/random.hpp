@@ -28,10 +28,11 @@ class Random {
   Random(std::uint64_t seed, std::uint64_t run, Stream stream)
       : state_(mix(mix(mix(seed + 0x9e3779b97f4a7c15u) ^ run) ^ static_cast<std::uint64_t>(stream))) {}
 
+  /// Draws 64 random bits.
   std::uint64_t bits() { return mix(state_ += 0x9e3779b97f4a7c15u); }
-  /// Uniform in (0, 1).
+  /// Draws a number uniform in (0, 1).
   double uniform() { return (static_cast<double>(bits() >> 11) + 0.5) * 0x1p-53; }
-  /// Standard normal.
+  /// Draws a standard normal deviate.
   double normal() {
     const double radius = std::sqrt(-2 * std::log(uniform()));
     return radius * std::cos(2 * std::numbers::pi * uniform());

@@ -16,6 +16,12 @@ double median(std::vector<double> values) {
   return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
+double typical_interval(const std::vector<double>& ascending) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < ascending.size(); ++i) steps.push_back(ascending[i] - ascending[i - 1]);
+  return median(std::move(steps));
+}
+
 double robust_deviation(const std::vector<double>& values) {
   const double centre = median(values);
   std::vector<double> deviations;

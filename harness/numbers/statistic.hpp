@@ -13,7 +13,7 @@ struct Statistic {
   int n = 0;
 };
 
-/// NaN counts as absent.
+/// Returns mean, standard deviation and number of the values; NaN counts as absent.
 Statistic statistic_of(std::span<const double> values);
 
 }  // namespace shakedown

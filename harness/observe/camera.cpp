@@ -16,14 +16,14 @@ struct Place {
   double box, centre;
 };
 
-/// Lens and tilt.
+/// Returns the place (m) at which lens and tilt show x.
 double through_glass(const Camera& camera, double x) {
   const double relative = x / camera_lens_reach;
   return x * (1 + camera.tilt * relative + camera.lens * relative * relative);
 }
 
-/// Newton; from the recorded position it converges to rounding in five rounds for any glass that does not
-/// fold.
+/// Returns x from the place at which lens and tilt show it, by Newton's method: from the recorded position it
+/// converges to rounding in five rounds for any glass that does not fold.
 double before_glass(const Camera& camera, double seen) {
   double x = seen;
   if (camera.lens == 0 && camera.tilt == 0) return x;
@@ -37,7 +37,7 @@ double before_glass(const Camera& camera, double seen) {
   return x;
 }
 
-/// Share that the camera shows of the distance from the middle of the box to the grains' centre.
+/// Returns the share that the camera shows of the distance from the middle of the box to the grains' centre.
 double share_seen(const Camera& camera, double box) {
   const double share = 1 - camera.centre_bias;
   return camera.arc_length > 0 ? share * std::cos(1.5 * box / camera.arc_length) : share;
@@ -45,7 +45,7 @@ double share_seen(const Camera& camera, double box) {
 
 bool needs_box(const Camera& camera) { return camera.centre_bias != 0 || camera.arc_length > 0; }
 
-/// All that the camera does to one frame but its times.
+/// Does to one frame all that the camera does but to its time.
 Place in_picture(const Camera& camera, double time, Place at) {
   double centre = at.centre;  // which is all where the box is lost and the camera needs it not
   if (std::isfinite(at.box) || needs_box(camera))
@@ -69,12 +69,13 @@ double centre_at(const Recording& recording, std::size_t i) {
 
 enum class Way { forth, back };
 
-/// Each position as it is when its row of the picture is read, or the inverse. `time` is the camera's.
+/// Returns each position as it is when its row of the picture is read, or the inverse. `time` is the
+/// camera's.
 std::vector<double> read_by_rows(double shutter, const std::vector<double>& time,
                                  const std::vector<double>& position, Way way) {
   if (shutter == 0) return position;
   const double delay = shutter / camera_track;
-  const LocalCubics cubics(time, position, std::abs(delay) * camera_lens_reach);
+  const LocalCubics cubics(time, position, std::abs(delay) * camera_track / 2);
   const auto shift = [delay](double x) { return delay * x; };
   return way == Way::forth ? cubics.later(position, shift) : cubics.earlier(position, shift);
 }

@@ -19,7 +19,7 @@ Decay::Linear straight_line(const Eigen::VectorXd& time, const Eigen::VectorXd& 
   return {fit.coefficients[0], fit.errors[0], fit.coefficients[1], fit.errors[1], fit.rms};
 }
 
-/// Gauss-Newton from the straight line through the logarithms.
+/// Fits an exponential by Gauss-Newton from the straight line through the logarithms.
 Decay::Exponential exponential(const Eigen::VectorXd& time, const Eigen::VectorXd& height) {
   const Decay::Linear logarithm = straight_line(time, height.array().log());
   double amplitude = std::exp(logarithm.intercept), rate = -logarithm.slope;

@@ -13,11 +13,11 @@ constexpr double absent = std::numeric_limits<double>::quiet_NaN();  ///< "there
 /// A peak is small below this share of the release: 10 mm of the paper's 107.5 mm.
 constexpr double small_share = 10 / 107.5;
 
-/// The peaks from which slope and linearity are computed: t < 8 s, up to the last one before the first below
-/// `small` (m).
+/// Returns the peaks from which slope and linearity are computed: t < 8 s, up to the last one before the
+/// first below `small` (m).
 std::vector<Peak> peaks_of_the_decay(const std::vector<Peak>& peaks, double small);
 
-/// Time of the first peak below `small` (m), s; absent when there is none.
+/// Returns the time of the first peak below `small` (m), s; absent when there is none.
 double first_small_peak(const std::vector<Peak>& peaks, double small);
 
 /// |peak|(t): a + b t, A exp(-r t), and a + b t + c t^2. Numbers are absent where there
@@ -38,9 +38,10 @@ struct Decay {
   double curvature = absent,
          curvature_error = absent;  ///< m/s^2, 2c: 0 for a straight line, > 0 when the decay slows down
 };
+/// Fits the three curves to these peaks.
 Decay decay_through(const std::vector<Peak>& points);
 
-/// The same of peaks_of_the_decay.
+/// Fits them to peaks_of_the_decay.
 Decay decay_of(const std::vector<Peak>& peaks, double small);
 
 /// Damping over one half period, from a peak to the next.
@@ -53,7 +54,7 @@ struct HalfPeriodDamping {
   double equivalent_ratio = 0;
 };
 
-/// One entry a half period, the first from the release (m) to peaks[0].
+/// Returns one entry a half period, the first from the release (m) to peaks[0].
 std::vector<HalfPeriodDamping> damping_of(double release, const std::vector<Peak>& peaks);
 
 }  // namespace shakedown

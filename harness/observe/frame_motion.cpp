@@ -15,8 +15,8 @@ namespace shakedown {
 
 namespace {
 
-/// Half of the window of a fit: a part of the period, as short as kinks ask where frames are many, and five
-/// frames at least.
+/// Half of a fit's window has this part of the period, as short as kinks ask where frames are many, and this
+/// many frames at least, so that five lie within.
 constexpr double window_periods = 1.0 / 16, window_frames = 2.6;
 
 struct Frames {
@@ -28,10 +28,7 @@ Frames frames_of(const std::vector<double>& time, const std::vector<double>& x, 
   Frames frames;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (std::isfinite(x[i])) frames.time.push_back(time[i]), frames.x.push_back(x[i] - middle);
-  std::vector<double> apart;
-  for (std::size_t i = 1; i < frames.time.size(); ++i) apart.push_back(frames.time[i] - frames.time[i - 1]);
-  if (apart.empty()) return frames;
-  frames.interval = median(std::move(apart));
+  if (frames.time.size() > 1) frames.interval = typical_interval(frames.time);
   return frames;
 }
 
@@ -47,7 +44,8 @@ struct LocalSwing {
   }
 };
 
-/// Nothing where the frames lie on one side only, or are too few.
+/// Fits a swing of angular frequency w to the frames within `half` (s) of `about`; nothing where they lie on
+/// one side only, or are too few.
 std::optional<LocalSwing> local_swing(const Frames& frames, double about, double half, double w) {
   const auto first = std::lower_bound(frames.time.begin(), frames.time.end(), about - half);
   const auto last = std::upper_bound(first, frames.time.end(), about + half);
@@ -65,7 +63,7 @@ std::optional<LocalSwing> local_swing(const Frames& frames, double about, double
   return LocalSwing{about, w, fit[0] - fit[1], fit[1], fit[2]};
 }
 
-/// The extremum of the given sign nearest to `about`; nothing where the frames show none there.
+/// Returns the extremum of the given sign nearest to `about`; nothing where the frames show none there.
 std::optional<Peak> extremum(const Frames& frames, double about, double sign, double half, double w) {
   std::optional<Peak> peak;
   for (int pass = 0; pass < 3; ++pass) {
@@ -118,7 +116,7 @@ FrameMotion frame_motion(const std::vector<double>& time, const std::vector<doub
     motion.why_not = "the box passes its middle less than twice";
     return motion;
   }
-  // A half of a tenth in frames may be missing by the crossings' own error.
+  // The crossings' own error may make the frames a period 2 % too few.
   const double in_a_period = 2 * half_period / frames.interval;
   if (in_a_period < 0.98 * least_frames_per_period) {
     motion.why_not = too_few(in_a_period);

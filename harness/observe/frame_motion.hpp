@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Peaks and frequency of a motion of which only frames are known, few a period perhaps: each from a swing
-// fitted to the frames about it.
+// Finds peaks and frequency of a motion of which only frames are known, few a period perhaps: each from a
+// swing fitted to the frames about it.
 #pragma once
 #include <string>
 #include <vector>
@@ -19,8 +19,8 @@ struct FrameMotion {
   std::string why_not;            ///< why there are no peaks, for people; empty where there are
 };
 
-/// `x`: m, NaN where missing, at `time`, s, increasing; wrong frames taken out. `middle`: m, about which it
-/// swings. `shortest`: s, as for zero_crossings().
+/// Returns peaks and frequency of a motion. `x`: m, NaN where missing, at `time`, s, increasing; wrong frames
+/// taken out. `middle`: m, about which it swings. `shortest`: s, as for zero_crossings().
 FrameMotion frame_motion(const std::vector<double>& time, const std::vector<double>& x, double middle,
                          double shortest);
 

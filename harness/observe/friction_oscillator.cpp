@@ -12,7 +12,7 @@ namespace shakedown {
 
 namespace {
 
-/// Number of the half period that a time lies in, and the phase in it, rad; at the end of the motion the
+/// The half period that a time lies in, by number, and the phase in it, rad; at the end of the motion the
 /// phase stays 0.
 struct Phase {
   int n = 0;

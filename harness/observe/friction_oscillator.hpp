@@ -16,12 +16,12 @@ struct FrictionOscillator {
   double half_period() const;  ///< s
   Peak extremum(int n) const;  ///< the n-th turning point; n = 0 is the release; stays at the last one
   int last_extremum() const;   ///< number of the turning point where it sticks
-  double position_at(double time) const;
-  double velocity_at(double time) const;
+  double position_at(double time) const;  ///< m, at a time >= 0, s since release
+  double velocity_at(double time) const;  ///< m/s, likewise
 };
 
-/// The friction that the paper reads off a run: k (Delta0 - |x_n|) / (2 n), n-th extremum after release (Eq.
-/// frictioncoeff), N.
+/// Returns the friction that the paper reads off a run, N: k (Delta0 - |x_n|) / (2 n), with `peak` = x_n, m,
+/// the n-th extremum after release (Eq. frictioncoeff).
 double effective_friction(double stiffness, double release, double peak, int n = 3);
 
 }  // namespace shakedown

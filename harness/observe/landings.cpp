@@ -13,7 +13,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// FrameRange with both tracks.
+/// The frames in which both tracks have a position.
 struct Tracks {
   std::vector<double> time, centre, inside;  ///< s, m, m: of the grains in the laboratory and in the box
 };
@@ -60,7 +60,8 @@ Line line_through(const std::vector<double>& time, const std::vector<double>& pl
   return {x, tx / tt};
 }
 
-/// Passages through the middle of the box from one side to the other: places between frames, s.
+/// Returns the times at which the layer passes through the middle of the box from one side to the other, s,
+/// interpolated between frames.
 std::vector<double> passages(const Tracks& tracks) {
   constexpr double reached = 0.3;  // of the farthest: less is a wiggle about the middle
   double farthest = 0;
@@ -114,11 +115,11 @@ class OneLanding {
   double slope_between(double from, double to) const {
     return line_through(tracks_.time, tracks_.inside, frames_between(tracks_.time, from, to)).slope;
   }
-  /// m/s, towards the wall.
+  /// Returns the speed towards the wall, m/s.
   double speed_about(double time) const {
     return side_ * slope_between(time - window_ / 2, time + window_ / 2);
   }
-  /// speed_.size(): none moves towards the wall.
+  /// Returns the frame of the greatest speed; speed_.size() where none moves towards the wall.
   std::size_t fastest_frame() const {
     std::size_t fastest = speed_.size();
     for (std::size_t k = 0; k < speed_.size(); ++k)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What the layer of grains does when it lands on an end wall, read from tracks of the box and of the grains'
-// centre: in microgravity the layer flies from wall to wall, and what it gives to the wall from one flight to
-// the next, how it rebounds, how thick it lies and how long it takes to land tell of the contacts (A. Sack et
-// al., Phys. Rev. Lett. 111, 018001 (2013), "collect and collide").
+// Reads from tracks of the box and of the grains' centre what the layer of grains does when it lands on an
+// end wall. In microgravity the layer flies from wall to wall, and what it gives to the wall from one flight
+// to the next, how it rebounds, how thick it lies and how long it takes to land tell of the contacts (A. Sack
+// et al., Phys. Rev. Lett. 111, 018001 (2013), "collect and collide").
 #pragma once
 #include <vector>
 
@@ -27,13 +27,13 @@ struct LandingBox {
   double period = 0;       ///< s, of the swing
 };
 
-/// Of a period. Speeds are slopes of straight lines over so much, and a layer that is caught at once comes
-/// 14 % too slow by that: two recordings are to be compared at the same frames. With fewer than five frames
-/// in it nothing is told.
+/// Speeds are slopes of straight lines over this part of a period, by which a layer that is caught at once
+/// comes 14 % too slow: two recordings are to be compared at the same frames. With fewer than five frames in
+/// it nothing is told.
 constexpr double landing_window = 1.0 / 30;
 
-/// `box`, `centre`: m, in the laboratory, at `time`, s; NaN where missing. A number that the frames do not
-/// tell is NaN. In order; the last is the last that a flight follows.
+/// Returns the landings in order of time, up to the last that a flight follows. `box`, `centre`: m, in the
+/// laboratory, at `time`, s; NaN where missing. A number that the frames do not tell is NaN.
 std::vector<Landing> landings(const std::vector<double>& time, const std::vector<double>& box,
                               const std::vector<double>& centre, const LandingBox& of);
 

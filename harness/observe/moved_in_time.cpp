@@ -27,9 +27,9 @@ std::size_t half_width(std::span<const double> time, double longest_shift) {
 
 enum class Solve { by_rotations, by_normal_equations };
 
-/// Weights for the coefficients of a least-squares cubic in `time` but its constant. The normal equations are
-/// ten times as fast; the powers of a time within +-1 have a condition of some hundreds at worst, and its
-/// square costs five digits of sixteen.
+/// Returns the weights for the coefficients of a least-squares cubic in `time` but its constant. The normal
+/// equations are ten times as fast; the powers of a time within +-1 have a condition of some hundreds at
+/// worst, and its square costs five digits of sixteen.
 Eigen::Matrix3Xd cubic_weights(const Eigen::ArrayXd& time, Solve way) {
   const Eigen::Index n = time.size(), terms = std::min<Eigen::Index>(4, n);
   const double reach = std::max(time.abs().maxCoeff(), 1e-300);

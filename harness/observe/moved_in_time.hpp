@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Positions a little earlier or later than they were sampled. Each sample keeps its own noise: only the
-// change within the shift is taken from a local cubic through the samples around it.
+// Moves positions to times a little earlier or later than they were sampled. Each sample keeps its own noise:
+// only the change within the shift is taken from a local cubic through the samples around it.
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
@@ -21,11 +21,11 @@ class LocalCubics {
   /// converges.
   LocalCubics(std::span<const double> time, std::span<const double> position, double longest_shift);
 
-  /// x(t + shift(x)) for each sample, where the series is x(t): m.
+  /// Returns x(t + shift(x)) for each sample, m, where the series is x(t).
   std::vector<double> later(std::span<const double> position, const Shift& shift) const;
-  /// The series whose later() is `position`, to 1e-13 m where the fixed point converges so far.
+  /// Returns the series whose later() is `position`, m, to 1e-13 m where the fixed point converges so far.
   std::vector<double> earlier(std::span<const double> position, const Shift& shift) const;
-  /// Slope at each sample, m/s.
+  /// Returns the slope at each sample, m/s.
   std::vector<double> slope(std::span<const double> position) const;
 
  private:

@@ -32,17 +32,18 @@ struct Observables {
   std::optional<SteadyState> steady;  ///< of a forced damper, over its last cycles
 };
 
-/// All of them of one motion; what it does not tell is `absent`.
+/// Returns the observables of one motion; what it does not tell is `absent`.
 Observables observe(const Trajectory& trajectory, const Setup& setup);
 
-/// Below which a peak is small, m: small_share of the release.
+/// Returns the height below which a peak is small, m: small_share of the release.
 double small_peak(const Setup& setup);
 
-/// Shortest time between two zero crossings that counts as a half period: a tenth of the empty box's, s.
+/// Returns the shortest time between two zero crossings that counts as a half period: a tenth of the empty
+/// box's, s.
 double shortest_half_period(const Setup& setup);
 
-/// First time at which the total energy is at most `fraction` of the initial energy, s, interpolated; absent
-/// when never.
+/// Returns the first time at which the total energy is at most `fraction` of the initial energy, s,
+/// interpolated; absent when never.
 double seconds_to_energy_fraction(const Trajectory& trajectory, double fraction);
 
 }  // namespace shakedown

@@ -9,7 +9,8 @@ namespace shakedown {
 
 namespace {
 
-/// Slope at sample i of the parabola through it and its neighbours (at the ends: through the three nearest).
+/// Returns the slope at sample i of the parabola through it and its neighbours (at the ends: through the
+/// three nearest), m/s.
 double parabola_slope(const SampledMotion& motion, std::size_t i) {
   const std::size_t last = motion.size() - 1;
   const auto secant = [&](std::size_t k) {

@@ -22,18 +22,18 @@ struct CubicPiece {
   double start = 0, length = 0;           ///< s
   double c0 = 0, c1 = 0, c2 = 0, c3 = 0;  ///< position = c0 + c1 u + c2 u^2 + c3 u^3, m
 
-  /// Value and time at u of 0 (its beginning) to 1 (its end); SI.
+  /// Return value and time at u of 0 (its beginning) to 1 (its end); SI.
   double at(double u) const { return c0 + u * (c1 + u * (c2 + u * c3)); }
   double time_at(double u) const { return start + u * length; }
 };
 
-/// The piece from sample i to sample i + 1.
+/// Returns the piece from sample i to sample i + 1.
 CubicPiece piece_of(const SampledMotion& motion, std::size_t i);
 
-/// Places u strictly inside (0, 1) where the piece is stationary; at most two.
+/// Returns the places u strictly inside (0, 1) where the piece is stationary; at most two.
 std::vector<double> stationary_places(const CubicPiece& piece);
 
-/// A place where the piece is zero, given that its ends have opposite signs.
+/// Returns a place u where the piece is zero, given that its ends have opposite signs.
 double zero_place(const CubicPiece& piece);
 
 }  // namespace shakedown

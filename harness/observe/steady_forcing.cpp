@@ -16,15 +16,15 @@ namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
 
-/// Sampled values at a time between samples.
+/// Returns the value at a place between samples, counted in samples, on the straight line between them.
 double value_at(const std::vector<double>& values, double place) {
   const auto i = std::min(static_cast<std::size_t>(place), values.size() - 2);
   const double part = place - static_cast<double>(i);
   return (1 - part) * values[i] + part * values[i + 1];
 }
 
-/// Integral of f(k) over samples from place `from` to `to` (fractional), trapezoids with cut ends; in units
-/// of one sample.
+/// Returns the integral of f(k) over samples from place `from` to `to` (fractional), by trapezoids with cut
+/// ends; in units of one sample.
 template <class F>
 auto integral(F f, double from, double to) {
   const auto first = static_cast<std::size_t>(std::ceil(from)),
@@ -45,7 +45,8 @@ std::optional<SteadyForcing> forcing_of(const EffectChoice& choice) {
   return SteadyForcing{amplitude, choice.number(harmonic->frequency), choice.number(harmonic->phase)};
 }
 
-/// The far end of the spring, where it moves at all: its force on a box at rest in the middle tells it.
+/// Returns the forcing by the far end of the spring where it moves at all, as its force on a box at rest in
+/// the middle tells.
 std::optional<SteadyForcing> forcing_by_base(const Setup& setup, const EffectChoice& choice) {
   Setup alone = setup;
   alone.effects = {choice};
@@ -110,8 +111,8 @@ Setup long_enough_for_forcing(const Setup& setup) {
 
 namespace {
 
-/// Half the way from the lowest to the highest place of each of the last cycles, of `cycle` samples from
-/// sample `begin` on.
+/// Returns mean and spread of half the way from the lowest to the highest place of each of the last cycles,
+/// which have `cycle` samples from sample `begin` on.
 Statistic amplitude_of_cycles(const std::vector<double>& x, double begin, double cycle) {
   std::vector<double> amplitudes;
   for (int c = 0; c < steady_cycles; ++c) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The damper under harmonic forcing along its axis (effect oscillating_acceleration, or base_motion where the
-// base swings as a sine), once the start is forgotten.
+// Observes the damper under harmonic forcing along its axis (effect oscillating_acceleration, or base_motion
+// where the base swings as a sine), once the start is forgotten.
 #pragma once
 #include <optional>
 
@@ -24,16 +24,16 @@ struct SteadyForcing {
   double base = 0;          ///< m, of the far end of the spring
 };
 
-/// Whether something shakes the damper all the time: it never comes to rest, and its momentum is not the
-/// spring's alone.
+/// Tells whether something shakes the damper all the time: it never comes to rest, and its momentum is not
+/// the spring's alone.
 bool is_shaken(const Setup& setup);
 
-/// The setup's forcing along the axis; nothing when there is none, more than one, or a base that does not
-/// swing as a sine up to the end of the run.
+/// Returns the setup's forcing along the axis; nothing when there is none, more than one, or a base that does
+/// not swing as a sine up to the end of the run.
 std::optional<SteadyForcing> steady_forcing_of(const Setup& setup);
 
-/// The setup with its duration set to the cycles above and at least 200 samples a cycle; unchanged without
-/// forcing.
+/// Returns the setup with its duration set to the cycles above and at least 200 samples a cycle; unchanged
+/// without forcing, and where the base is forced.
 Setup long_enough_for_forcing(const Setup& setup);
 
 struct SteadyState {
@@ -48,13 +48,14 @@ struct SteadyState {
   double effective_mass = 0;
 };
 
-/// Over the last cycles of the trajectory, which has `steady_cycles` of them and 20 samples a cycle; a sweep
-/// simulates long_enough_for_forcing(setup). The loss is the work of the forcing, int (M a v_box + N m a
-/// v_com) dt or int k b v_box dt, less what the energy grew by (nothing where the trajectory does not say):
-/// by parts it needs positions only.
+/// Returns the state over the last cycles of the trajectory, which must have `steady_cycles` of them and 20
+/// samples a cycle; a sweep simulates long_enough_for_forcing(setup). The loss is the work of the forcing,
+/// int (M a v_box + N m a v_com) dt or int k b v_box dt, less what the energy grew by (nothing where the
+/// trajectory does not say): by parts it needs positions only.
 SteadyState steady_state(const Setup& setup, const Trajectory& trajectory);
 
-/// The same where the setup is forced and the trajectory is long and dense enough for it.
+/// Returns the same where the setup is forced and the trajectory is long and dense enough for it; else
+/// nothing.
 std::optional<SteadyState> steady_state_if_any(const Setup& setup, const Trajectory& trajectory);
 
 }  // namespace shakedown

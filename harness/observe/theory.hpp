@@ -31,11 +31,12 @@ struct Theory {
   double optimal_length = 0;  ///< m, pi Delta0 sqrt(M / (M + N m)) + layer
 };
 
-/// Throws InputError for domains without a spring, or without a release displacement.
+/// Returns the estimates for a setup. Throws InputError for domains without a spring, or without a release
+/// displacement.
 Theory theory_of(const Setup& setup);
 
-/// Thickness of the packed layer: whole layers, each of the grains that a fcc layer holds; 20 mm for the
-/// paper's damper.
+/// Returns the thickness of the packed layer, m: whole layers, each of the grains that a fcc layer holds; 20
+/// mm for the paper's damper.
 double layer_thickness(const Setup& setup);
 
 }  // namespace shakedown

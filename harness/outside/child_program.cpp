@@ -36,7 +36,7 @@ class SpawnPlan {
     posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, program.output.c_str(), flags, 0644);
     posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, program.error.c_str(), flags, 0644);
     posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
-    // Our own handlers and masks are no business of the program.
+    // The program begins without our own handlers and masks.
     sigset_t all, none;
     sigfillset(&all);
     sigemptyset(&none);
@@ -61,7 +61,7 @@ class SpawnPlan {
   posix_spawnattr_t attributes_;
 };
 
-/// As execve wants them, with a null at the end.
+/// Returns the words as execve wants them, with a null at the end.
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -96,7 +96,7 @@ pid_t started(const ChildProgram& program) {
   return child;
 }
 
-/// Ends what is left of the group, however this function's caller ends.
+/// A child that runs; what is left of its group is ended when this goes out of scope.
 class RunningChild {
  public:
   explicit RunningChild(pid_t id) : id_(id) {}
@@ -106,7 +106,7 @@ class RunningChild {
   RunningChild(const RunningChild&) = delete;
   RunningChild& operator=(const RunningChild&) = delete;
 
-  /// True when it has ended by itself.
+  /// Tells whether it has ended by itself.
   bool has_ended() {
     pid_t answer = 0;
     do answer = ::waitpid(id_, &status_, WNOHANG);

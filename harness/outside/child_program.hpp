@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Programs of other people, run without a shell between.
+// Runs programs of other people without a shell between.
 #pragma once
 #include <atomic>
 #include <filesystem>
@@ -30,10 +30,11 @@ struct ChildEnd {
 /// when it cannot be started. Thread-safe.
 ChildEnd run_child(const ChildProgram& program);
 
-/// The file that this name stands for on the PATH (or the path itself); empty when there is no program.
+/// Returns the file that this name stands for on the PATH (or the path itself); nothing when there is no
+/// program.
 std::optional<std::filesystem::path> program_named(const std::string& name);
 
-/// "ended with exit code 1", "was ended by signal 11 (Segmentation fault)".
+/// Returns "ended with exit code 1", "was ended by signal 11 (Segmentation fault)".
 std::string in_words(const ChildEnd& end);
 
 }  // namespace shakedown

@@ -32,7 +32,7 @@ constexpr std::array<std::string_view, columns> names{"t_s",
                                                       "lost_side_wall_J"};
 constexpr std::size_t nowhere = columns;
 
-/// As near as the first row must be to the state that was given, m.
+/// The first row must be as near as this to the state that was given, m.
 constexpr double same_place = 1e-6;
 
 class Answer {

@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <string>
 
-#include "initial_state.hpp"
+#include "damper_state.hpp"
 #include "trajectory.hpp"
 
 namespace shakedown {
 
-/// The table that an outside code wrote, checked against what was asked. Throws PhysicsError that begins with
-/// `who` and names line, column, what is wrong and what is expected.
+/// Reads the table that an outside code wrote, checked against what was asked. Throws PhysicsError that
+/// begins with `who` and names line, column, what is wrong and what is expected.
 Trajectory command_answer(const std::filesystem::path& table, const std::string& who, const Setup& setup,
                           const Physics& physics, const State& initial);
 

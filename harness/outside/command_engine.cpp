@@ -9,6 +9,7 @@
 #include "child_program.hpp"
 #include "command_answer.hpp"
 #include "command_question.hpp"
+#include "initial_state.hpp"
 #include "text.hpp"
 #include "work_folder.hpp"
 
@@ -16,7 +17,7 @@ namespace shakedown {
 
 namespace {
 
-/// What the command says by its exit code.
+/// By this exit code the command refuses a setup that it does not model.
 constexpr int code_not_modelled = 2;
 
 class CommandEngine final : public Engine {
@@ -25,7 +26,7 @@ class CommandEngine final : public Engine {
       : name_(std::move(name)), words_(std::move(words)) {}
 
   std::string_view name() const override { return name_; }
-  /// Only the command itself knows; it is asked by running it.
+  /// Answers for every effect alike: only the command itself knows, and is asked by running it.
   Capability can_model(const EffectRecord&) const override {
     return {Fidelity::to_stated_error, "as the command models it, which it says when it is run"};
   }

@@ -14,7 +14,7 @@ namespace shakedown {
 /// What it does not tell is NaN, its collisions are -1.
 constexpr std::string_view command_prefix = "command:";
 
-/// `name` begins with the prefix. Throws InputError when no program is named.
+/// Makes the engine of this name, which begins with the prefix. Throws InputError when no program is named.
 std::unique_ptr<Engine> make_command_engine(std::string_view name);
 
 }  // namespace shakedown

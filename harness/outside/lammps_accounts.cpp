@@ -9,19 +9,19 @@ namespace {
 
 using Of = LammpsAccount::Of;
 
-/// Component of what the fixes between two stores have added: "(f_ends[1]-f_pairs[1])".
+/// Returns a component of what the fixes between two stores have added: "(f_ends[1]-f_pairs[1])".
 std::string added(const char* after, const char* before, int axis) {
   return fmt::format("(f_{}[{}]-f_{}[{}])", after, axis, before, axis);
 }
 
-/// Power of the forces between two stores on grains that slip past walls which move with the box.
+/// Returns the power of the forces between two stores on grains that slip past walls which move with the box.
 std::string past_walls(const char* after, const char* before) {
   return added(after, before, 1) + "*(vx-v_box_v)+" + added(after, before, 2) + "*vy+" +
          added(after, before, 3) + "*vz";
 }
 
-/// Power of their torque. The wall across `axis` is touched at radius times the direction away from the
-/// middle, `side`, which LAMMPS tells by no name.
+/// Returns the power of their torque. The wall across `axis` is touched at radius times the direction away
+/// from the middle, `side`, which LAMMPS tells by no name.
 std::string turning(const char* after, const char* before, int axis, const std::string& side, double radius) {
   const int next = axis % 3 + 1, last = next % 3 + 1;
   return fmt::format("-{}*{}*({}*c_spin[{}]-{}*c_spin[{}])", radius, side, added(after, before, last), next,

@@ -26,8 +26,8 @@ constexpr std::size_t columns_before_accounts = 5;
                   (folder / file).filename().string(), problem));
 }
 
-/// The work of an account up to each sample, J. The velocity at a sample is half a kick ahead of the last
-/// whole one, so that the ends of the sum count by half.
+/// Returns the work of an account up to each sample, J. The velocity at a sample is half a kick ahead of the
+/// last whole one, so that the ends of the sum count by half.
 std::vector<double> work_of(const NumberTable& rows, std::size_t account, const LammpsSteps& steps) {
   const std::size_t mean = columns_before_accounts + 2 * account, now = mean + 1;
   const double interval = steps.step * static_cast<double>(steps.in_a_sample);
@@ -67,7 +67,7 @@ void put_accounts(const NumberTable& rows, const LammpsScript& script, const Lam
   if (!(most > 0)) trajectory.health.ledger_error = 0;
 }
 
-/// Places and velocities at the end, of grains and then the box.
+/// Reads places and velocities of grains and box at the end.
 State end_state(const WorkFolder& folder, const State& initial) {
   std::string text = contents_of(folder / lammps_end_file);
   const std::string_view heading = "ITEM: ATOMS";
@@ -95,7 +95,7 @@ State end_state(const WorkFolder& folder, const State& initial) {
   return state;
 }
 
-/// A grain whose centre has passed a wall is touched by it no more.
+/// Throws PhysicsError for a grain whose centre has passed a wall, which touches it no more.
 void expect_inside(const WorkFolder& folder, const Setup& setup, const State& state) {
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Vec3& place = state.position[i];
@@ -105,7 +105,7 @@ void expect_inside(const WorkFolder& folder, const Setup& setup, const State& st
   }
 }
 
-/// The first line that LAMMPS writes: "LAMMPS (29 Sep 2021 - Update 2)".
+/// Returns the first line that LAMMPS writes: "LAMMPS (29 Sep 2021 - Update 2)".
 std::string version(const WorkFolder& folder) {
   const std::string text = contents_of(folder / "output.txt");
   const std::string line = text.substr(0, text.find('\n'));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What LAMMPS has written, as a trajectory.
+// Reads what LAMMPS has written as a trajectory.
 #pragma once
 #include "lammps_script.hpp"
 #include "trajectory.hpp"
@@ -7,10 +7,11 @@
 
 namespace shakedown {
 
-/// Time of the last row written so far, s; 0 without one.
+/// Returns the time of the last row written so far, s; 0 without one.
 double lammps_time_so_far(const WorkFolder& folder, const LammpsSteps& steps);
 
-/// Throws PhysicsError when rows are missing or hold what are no finite numbers.
+/// Returns the trajectory of a run that has ended. Throws PhysicsError when rows are missing or hold numbers
+/// that are not finite.
 Trajectory lammps_answer(const WorkFolder& folder, const Setup& setup, const Physics& physics,
                          const State& initial, const LammpsScript& script);
 

@@ -4,25 +4,26 @@
 #include <string>
 #include <vector>
 
-#include "initial_state.hpp"
+#include "damper_state.hpp"
 #include "physics.hpp"
 
 namespace shakedown {
 
 class LammpsContacts {
  public:
-  /// `held`: the box does not move. There are grains.
+  /// There must be grains. `held`: the box does not move. Setup and physics must outlive it.
   LammpsContacts(const Setup& setup, const Physics& physics, const State& initial, bool held);
 
-  /// "hooke k gamma damping velocity tangential ...", of pair_coeff and fix wall/gran/region.
+  /// Returns "hooke k gamma damping velocity tangential ...", as pair_coeff and fix wall/gran/region take it.
   std::string law(ContactClass kind) const;
-  /// What the laws are, for people: lines of the script.
+  /// Returns lines of the script that say what the laws are, for people.
   std::vector<std::string> remarks() const;
-  /// pair_style and pair_coeff.
+  /// Returns the lines pair_style and pair_coeff.
   std::vector<std::string> pairs() const;
-  /// The file of pair_style table that `pairs` names; empty without attraction.
+  /// Returns the contents of the file of pair_style table that `pairs` names; empty without attraction.
   std::string table() const;
-  /// Lines that pull grains to the two walls across `axis`, 0 to 2; none where walls do not attract.
+  /// Returns the lines that pull grains to the two walls across `axis`, 0 to 2; none where walls do not
+  /// attract.
   std::vector<std::string> walls_pull(int axis) const;
 
  private:

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "child_program.hpp"
+#include "initial_state.hpp"
 #include "lammps_answer.hpp"
 #include "lammps_contacts.hpp"
 #include "lammps_script.hpp"
@@ -49,8 +50,8 @@ void check(const Setup& setup) {
   if (!found.empty()) throw InputError(std::move(found));
 }
 
-/// LAMMPS writes what is wrong to its standard output, in a line that begins with ERROR, and then the line of
-/// the script; libraries that it needs complain to standard error.
+/// Returns what LAMMPS complains about: it writes what is wrong to its standard output, in a line that begins
+/// with ERROR, and then the line of the script; libraries that it needs complain to standard error.
 std::string complaint(const WorkFolder& folder) {
   const std::string output = contents_of(folder / "output.txt");
   const std::size_t at = output.find("ERROR");

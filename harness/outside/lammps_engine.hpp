@@ -14,7 +14,7 @@ namespace shakedown {
 /// not tell, are -1.
 std::unique_ptr<Engine> make_lammps_engine();
 
-/// Whether there is a program to run.
+/// Tells whether there is a program to run.
 bool has_lammps();
 
 }  // namespace shakedown

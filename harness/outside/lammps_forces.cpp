@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numbers>
 
@@ -17,9 +18,65 @@ namespace {
 /// should stick, m/s. Ten micrometres a second move it by 0.1 mm in 10 s.
 constexpr double slowest_slip = 1e-5;
 
-/// The same for an explicit step: the friction's own rate must stay well below it.
+/// Returns that speed for an explicit step, m/s: the friction's own rate must stay well below 1 / step.
 double smooth_below(double friction, double box_mass, double step) {
   return std::max(slowest_slip, 10 * friction * step / box_mass);
+}
+
+std::string sine(double frequency, double phase) {
+  return fmt::format("sin({}*step*dt+({}))", 2 * std::numbers::pi * frequency, phase);
+}
+
+std::string formula_of(const EffectChoice& choice, const LammpsNames& names) {
+  try {
+    return lammps_formula(choice.text("force"), choice.constants("constants"), names);
+  } catch (const LammpsFormulaProblem& problem) {
+    throw InputError({{choice.place, std::string(choice.record->name) + ".force",
+                       "cannot be told to engine 'lammps': " + problem.text,
+                       "write it with + - * / ^, comparisons, sin, cos, exp, sqrt, abs, tanh, min, max, "
+                       "or use --engine hard or soft"}});
+  }
+}
+
+/// A force on the box that the physics holds only as a function, N, of v_box_x, v_box_v and the time.
+struct BoxForceInWords {
+  std::string_view effect;
+  std::string (*words)(const EffectChoice&, const Physics&);
+};
+
+constexpr std::array<BoxForceInWords, 5> box_forces{{
+    {"blade_quadratic_drag",
+     [](const EffectChoice& choice, const Physics&) {
+       return fmt::format("-{}*v_box_v*abs(v_box_v)", choice.number("drag"));
+     }},
+    {"user_force",
+     [](const EffectChoice& choice, const Physics&) {
+       return formula_of(choice, {"v_box_x", "v_box_v", "(step*dt)"});
+     }},
+    {"pendulum",
+     [](const EffectChoice& choice, const Physics& physics) {
+       return fmt::format("{0}*(v_box_x-{1}*sin(v_box_x/{1}))", physics.stiffness, choice.number("length"));
+     }},
+    {"second_mode",
+     [](const EffectChoice& choice, const Physics& physics) {
+       return fmt::format("({})*exp(-{}*step*dt)*{}", physics.box_mass * choice.number("amplitude"),
+                          choice.number("rate"), sine(choice.number("frequency"), choice.number("phase")));
+     }},
+    {"spring_quadratic",
+     [](const EffectChoice& choice, const Physics& physics) {
+       return fmt::format("({})*v_box_x^2",
+                          -physics.stiffness * choice.number("coefficient") / choice.number("reference"));
+     }},
+}};
+
+std::string in_words(const EffectChoice& choice, const Physics& physics) {
+  const auto found = std::find_if(box_forces.begin(), box_forces.end(), [&](const BoxForceInWords& force) {
+    return force.effect == choice.record->name;
+  });
+  if (found == box_forces.end())
+    throw InputError({{choice.place, std::string(choice.record->name), "has no words for engine 'lammps'",
+                       "leave it out, or use --engine hard or soft"}});
+  return found->words(choice, physics);
 }
 
 class Forces {
@@ -42,10 +99,6 @@ class Forces {
   }
 
  private:
-  static std::string sine(double frequency, double phase) {
-    return fmt::format("sin({}*step*dt+({}))", 2 * std::numbers::pi * frequency, phase);
-  }
-
   void does_work(const std::string& formula, int effect) {
     std::string& sum = powers_[effect];
     sum += (sum.empty() ? "" : "+") + formula;
@@ -68,37 +121,11 @@ class Forces {
       push_box(fmt::format("-{0}*v_box_v/sqrt(v_box_v^2+{1}^2)", share.strength,
                            smooth_below(share.strength, physics_.box_mass, step_)),
                share.effect);
-    for (const FreeForce& force : physics_.box.free) push_box(in_words(force.effect), force.effect);
+    for (const FreeForce& force : physics_.box.free)
+      push_box(in_words(setup_.effects[static_cast<std::size_t>(force.effect)], physics_), force.effect);
   }
 
-  /// Forces that the physics holds only as a function.
-  std::string in_words(int effect) const {
-    const EffectChoice& choice = setup_.effects[static_cast<std::size_t>(effect)];
-    if (choice.record->name == "blade_quadratic_drag")
-      return fmt::format("-{}*v_box_v*abs(v_box_v)", choice.number("drag"));
-    if (choice.record->name == "user_force") return formula_of(choice, {"v_box_x", "v_box_v", "(step*dt)"});
-    if (choice.record->name == "pendulum")
-      return fmt::format("{0}*(v_box_x-{1}*sin(v_box_x/{1}))", physics_.stiffness, choice.number("length"));
-    if (choice.record->name == "second_mode")
-      return fmt::format("({})*exp(-{}*step*dt)*{}", physics_.box_mass * choice.number("amplitude"),
-                         choice.number("rate"), sine(choice.number("frequency"), choice.number("phase")));
-    EXPECT(choice.record->name == "spring_quadratic");
-    return fmt::format("({})*v_box_x^2",
-                       -physics_.stiffness * choice.number("coefficient") / choice.number("reference"));
-  }
-
-  static std::string formula_of(const EffectChoice& choice, const LammpsNames& names) {
-    try {
-      return lammps_formula(choice.text("force"), choice.constants("constants"), names);
-    } catch (const LammpsFormulaProblem& problem) {
-      throw InputError(
-          {{choice.place, "user_force.force", "cannot be told to engine 'lammps': " + problem.text,
-            "write it with + - * / ^, comparisons, sin, cos, exp, sqrt, abs, tanh, min, max, "
-            "or use --engine hard or soft"}});
-    }
-  }
-
-  /// Formulas on the grains: each at its own place and speed, along x.
+  /// Adds formulas on the grains, along x, each at its own place and speed.
   void push_grains() {
     for (const FreeForce& force : physics_.grains.free) {
       const EffectChoice& choice = setup_.effects[static_cast<std::size_t>(force.effect)];

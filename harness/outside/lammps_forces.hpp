@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What acts on box and grains besides spring and contacts, as variables and fixes of LAMMPS.
+// Writes what acts on box and grains besides spring and contacts as variables and fixes of LAMMPS.
 #pragma once
 #include <string>
 #include <vector>
@@ -23,7 +23,8 @@ struct LammpsForces {
   std::vector<Power> powers;                         ///< one for each line of Setup::effects that does work
 };
 
-/// `step`: s, of the integrator; `grain_mass`: kg, 0 without grains; `held`: the box does not move.
+/// Returns the forces of a setup. `step`: s, of the integrator; `grain_mass`: kg, 0 without grains; `held`:
+/// the box does not move.
 LammpsForces lammps_forces(const Setup& setup, const Physics& physics, double step, double grain_mass,
                            bool held);
 

@@ -61,7 +61,7 @@ class Translator {
     return "((" + asked + "!=0)*" + yes + "+(" + asked + "==0)*" + no + ")";
   }
 
-  /// A chain of one precedence, from the left.
+  /// Reads a chain of operators of one precedence, from the left.
   std::string binary(std::size_t level) {
     if (level == levels.size()) return sign();
     std::string left = binary(level + 1);
@@ -74,7 +74,7 @@ class Translator {
     }
   }
 
-  /// A sign binds less than a power.
+  /// Reads a sign, which binds less than a power.
   std::string sign() {
     if (take("-")) return "(-" + sign() + ")";
     if (take("+")) return sign();
@@ -82,7 +82,7 @@ class Translator {
     return power();
   }
 
-  /// From the right: 2^3^2 is 2^(3^2).
+  /// Reads powers from the right: 2^3^2 is 2^(3^2).
   std::string power() {
     const std::string base = atom();
     return take("^") ? "(" + base + "^" + sign() + ")" : base;

@@ -14,7 +14,7 @@ namespace shakedown {
 
 namespace {
 
-/// Written in front of walls that are as wide as the world, m.
+/// A region extends this far along axes on which it shall have no walls, m.
 constexpr double far_away = 100;
 
 class Writer {

@@ -10,7 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "initial_state.hpp"
+#include "damper_state.hpp"
+#include "lammps_accounts.hpp"
 
 namespace shakedown {
 
@@ -21,16 +22,8 @@ struct LammpsSteps {
   std::int64_t samples = 0;      ///< after the one at release
 };
 
-/// The time step and how often it is written, so that frames fall where the setup has them.
+/// Returns the time step and how often it is written, so that frames fall where the setup has them.
 LammpsSteps lammps_steps(const Setup& setup);
-
-/// A power that LAMMPS adds up at every step, W: the columns "mean" and "now" of it in each row.
-struct LammpsAccount {
-  enum class Of { grain_grain, end_wall, side_wall, effect };
-  Of of = Of::effect;
-  int effect = -1;       ///< line in Setup::effects
-  std::string variable;  ///< "v_name" or "c_name[1]"
-};
 
 struct LammpsScript {
   std::string text;    ///< in.lammps
@@ -45,7 +38,7 @@ struct LammpsScript {
 constexpr const char *lammps_script_file = "in.lammps", *lammps_bodies_file = "bodies.data",
                      *lammps_motion_file = "motion.csv", *lammps_end_file = "end.csv";
 
-/// Throws InputError for what the words cannot say.
+/// Returns the files of a run. Throws InputError for what the words of LAMMPS cannot say.
 LammpsScript lammps_script(const Setup& setup, const Physics& physics, const State& initial);
 
 }  // namespace shakedown

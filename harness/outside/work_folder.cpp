@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "errors.hpp"
+#include "output_file.hpp"
 
 namespace shakedown {
 
@@ -37,6 +38,7 @@ WorkFolder::~WorkFolder() {
 }
 
 void WorkFolder::write(const std::string& name, std::string_view contents) const {
+  if (!temporary_) return write_file(path_ / name, contents);
   std::ofstream file(path_ / name, std::ios::binary);
   file << contents << std::flush;
   if (!file)

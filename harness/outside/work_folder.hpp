@@ -17,7 +17,7 @@ class WorkFolder {
   WorkFolder(const WorkFolder&) = delete;
   WorkFolder& operator=(const WorkFolder&) = delete;
 
-  /// Throws FileError.
+  /// Writes a file in the folder. Throws FileError.
   void write(const std::string& name, std::string_view contents) const;
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }  ///< absolute
@@ -27,19 +27,19 @@ class WorkFolder {
   bool temporary_ = false;
 };
 
-/// From now on the files of outside programs stay in this folder, made when it is missing; empty: as the
-/// environment variable SHAKEDOWN_KEEP says, which names one too. Called before any run begins.
+/// Lets the files of outside programs stay in this folder, made when it is missing; empty: as the environment
+/// variable SHAKEDOWN_KEEP says, which names one too. To be called before any run begins.
 void keep_outside_files(const std::filesystem::path& folder);
 
-/// Where the files of this run are to stay: "DIR/lammps/run_0", `program` without a path. A second run of
-/// that name in this process (of another setup) gets "run_0_2", so that none is written over. Empty: nowhere.
-/// Thread-safe.
+/// Returns where the files of this run are to stay: "DIR/lammps/run_0", `program` without a path. A second
+/// run of that name in this process (of another setup) gets "run_0_2", so that none is written over. Empty:
+/// nowhere. Thread-safe.
 std::filesystem::path kept_folder(const std::string& program, int run);
 
-/// The whole file; empty when there is none.
+/// Returns the whole file; empty when there is none.
 std::string contents_of(const std::filesystem::path& file);
 
-/// The last `most` bytes of a file, from the beginning of a line on; empty when there is none.
+/// Returns the last `most` bytes of a file, from the beginning of a line on; empty when there is none.
 std::string end_of(const std::filesystem::path& file, std::size_t most);
 
 }  // namespace shakedown

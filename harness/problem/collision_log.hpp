@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "initial_state.hpp"
+#include "damper_state.hpp"
 
 namespace shakedown {
 

@@ -37,17 +37,18 @@ class DahlState {
   void each(double x, Use&& use) const {
     for (std::size_t j = 0; j < joints_.size(); ++j) use(-resistance(j, x), joints_[j].effect);
   }
-  /// Force of all on the box at x, N.
+  /// Returns the force of all joints on the box at x (m), N.
   double newton(double x) const {
     double sum = 0;
     for (std::size_t j = 0; j < joints_.size(); ++j) sum -= resistance(j, x);
     return sum;
   }
-  /// The shortest travel, m.
+  /// Returns the shortest travel, m.
   double shortest_travel() const;
 
  private:
-  /// Continued analytically behind the start of the stretch, for an integrator that looks a little too far.
+  /// Returns the resistance of joint j with the box at x, N. Behind the start of the stretch the law is
+  /// continued analytically, for an integrator that looks a little too far.
   double resistance(std::size_t j, double x) const {
     if (direction_ == 0) return loaded_[j];
     const double moved = direction_ * (x - start_) / joints_[j].travel;

@@ -57,7 +57,8 @@ struct Capability {
   std::string_view note{};  ///< the stated error, or what to use instead
 };
 
-/// Engines that a record does not name: as every_engine says, else not modelled.
+/// What one engine makes of an effect. Engines that a record does not name do as its entry for every_engine
+/// says; without such an entry they do not model the effect.
 struct EngineCapability {
   std::string_view engine{};
   Capability capability{};
@@ -191,11 +192,11 @@ struct EffectRecord {
   Capability (*capability_of)(const EffectChoice& choice, std::string_view engine,
                               Capability general) = nullptr;
 
-  /// The parameter of this name, or nullptr.
+  /// Returns the parameter of this name, or nullptr.
   const Parameter* find(std::string_view parameter) const;
-  /// What this engine makes of it, whatever the choice of parameters.
+  /// Returns what this engine makes of the effect, whatever the choice of parameters.
   Capability capability(std::string_view engine) const;
-  /// Its law is written in the setup.
+  /// Tells whether its law is written in the setup as a formula.
   bool takes_formula() const;
 };
 
@@ -205,14 +206,14 @@ struct EffectChoice {
   std::map<std::string, ParameterValue, std::less<>> values;
   SourcePlace place;  ///< where the setup names it
 
-  /// The value of the parameter of this name, which must be of this kind.
+  /// Return the value of the parameter of this name, SI; it must be of this kind.
   double number(std::string_view parameter) const;
   const Vec3& vector(std::string_view parameter) const;
   const std::string& text(std::string_view parameter) const;
   const std::map<std::string, double>& constants(std::string_view parameter) const;
 };
 
-/// The effect with every parameter at its default.
+/// Returns the effect with every parameter at its default.
 EffectChoice with_defaults(const EffectRecord& record);
 
 /// True when the effect does nothing: it has parameters with a neutral value, all of them are at it, and

@@ -21,7 +21,7 @@ double neutral_of(const Parameter& parameter) {
   return std::isnan(parameter.neutral) ? 0.0 : parameter.neutral;
 }
 
-/// The strengths that the parameters suggest, without levels and bounds.
+/// Returns the strengths that the parameters suggest, without levels and bounds.
 std::vector<SearchedStrength> suggested(const EffectRecord& record) {
   for (const Parameter& parameter : record.parameters) {
     const double change = parameter.typical - neutral_of(parameter);
@@ -36,7 +36,8 @@ std::vector<SearchedStrength> suggested(const EffectRecord& record) {
   return {};
 }
 
-/// Half, once and twice the typical strength; of a length that must be infinite, twice, once and half.
+/// Returns half, once and twice the typical strength; of a length that must be infinite, twice, once and
+/// half.
 std::vector<double> usual_levels(const SearchedStrength& strength, double absent) {
   std::vector<double> levels;
   for (const double factor : {0.5, 1.0, 2.0}) {

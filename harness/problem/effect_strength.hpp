@@ -10,28 +10,29 @@
 
 namespace shakedown {
 
-/// How a diagnosis looks for the effect, every field filled in. A record without strengths of its own is
-/// searched by its first number with a typical value and a neutral one (of a vector each component), at half,
-/// once and twice the typical strength within its bounds, from its low to its high bound.
+/// Returns how a diagnosis looks for the effect, every field filled in. A record without strengths of its own
+/// is searched by its first number with a typical value and a neutral one (of a vector each component), at
+/// half, once and twice the typical strength within its bounds, from its low to its high bound.
 Search search_of(const EffectRecord& record);
 
-/// The strength's keys in a setup: "grain_friction.grain_grain&grain_friction.grain_wall".
+/// Returns the strength's keys in a setup: "grain_friction.grain_grain&grain_friction.grain_wall".
 std::string keys_of(const EffectRecord& record, const SearchedStrength& strength);
 
-/// The parameter that holds the strength (of several the first).
+/// Returns the parameter that holds the strength (of several the first).
 const Parameter& parameter_of(const EffectRecord& record, const SearchedStrength& strength);
 
-/// The value at which the effect is absent from this setup; infinite where it is `inverse`.
+/// Returns the value at which the effect is absent from this setup, SI; infinite where it is `inverse`.
 double absent_value(const EffectRecord& record, const SearchedStrength& strength, const Setup& setup);
 
-/// The value of the parameters at a level, given the one when absent. A change that leaves the bounds by more
-/// than a fifth of it is made the other way.
+/// Returns the value of the parameters at a level, SI, given the one when absent. A change that leaves the
+/// bounds by more than a fifth of it is made the other way.
 double value_at_level(const SearchedStrength& strength, double level, double absent);
 
-/// The strength as people read it: "linear damping of the box, 0.05 N s/m".
+/// Returns the strength as people read it: "linear damping of the box, 0.05 N s/m".
 std::string strength_in_words(const EffectRecord& record, const SearchedStrength& strength, double value);
 
-/// Looks as the other one does in most experiments: the record's family, or else its name.
+/// Returns the name that effects have in common which look alike in most experiments: the record's family, or
+/// else its own name.
 std::string_view family_of(const EffectRecord& record);
 
 }  // namespace shakedown

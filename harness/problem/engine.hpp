@@ -5,7 +5,7 @@
 #include <memory>
 #include <string_view>
 
-#include "initial_state.hpp"
+#include "damper_state.hpp"
 #include "trajectory.hpp"
 
 namespace shakedown {
@@ -23,7 +23,9 @@ struct RunOptions {
 class Engine {
  public:
   virtual ~Engine() = default;
+  /// Returns the name by which setups, options and results call it: "hard".
   virtual std::string_view name() const = 0;
+  /// Returns how faithfully it models an effect, whatever the choice of parameters.
   virtual Capability can_model(const EffectRecord& effect) const = 0;
   /// Runs the setup from its initial state. Throws InputError for what the engine cannot model, PhysicsError
   /// (with time, grains and state) when it cannot keep its promise. Thread-safe: runs share nothing.

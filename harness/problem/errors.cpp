@@ -9,7 +9,8 @@ namespace shakedown {
 
 namespace {
 
-/// Words of the user's own, such as a key, may be of any length: their beginning and their end tell which.
+/// Returns beginning and end of a text that is too long to read: words of the user's own, such as a key, may
+/// be of any length.
 std::string shortened(const std::string& text) {
   constexpr std::size_t most = 2000, end = 200;
   if (text.size() <= most) return text;
@@ -34,7 +35,7 @@ std::string to_string(const Violation& violation) {
 
 namespace {
 
-/// As much as somebody reads; what is left is counted.
+/// A message shows as many violations, and as much text, as somebody reads; what is left is counted.
 constexpr std::size_t most_shown = 100, longest_text = 50000;
 
 std::string joined(const std::vector<Violation>& violations) {

@@ -24,6 +24,7 @@ struct Violation {
   std::string problem;  ///< what is wrong, and why in parentheses
   std::string remedy;   ///< what to do
 };
+/// Returns the violation as one line.
 std::string to_string(const Violation& violation);
 
 /// The user's input: every violation at once. Exit code 2.

@@ -14,7 +14,7 @@ namespace shakedown {
 
 namespace {
 
-/// The numbers of one line, or nothing when one of them is not a finite number.
+/// Returns the numbers of one line, or nothing when one of them is not a finite number.
 std::vector<double> numbers_of(const std::string& line) {
   std::vector<double> numbers;
   std::stringstream cells(line);
@@ -28,7 +28,8 @@ std::vector<double> numbers_of(const std::string& line) {
   return numbers;
 }
 
-/// The bounds of the setup's keys: beyond, an engine does not keep its promises.
+/// Tells whether a line leaves the bounds of the setup's keys (m, m/s), beyond which an engine does not keep
+/// its promises.
 bool is_absurd(const std::vector<double>& cells) {
   constexpr double longest = 1e3, fastest = 1e6;
   const auto beyond = [&](std::size_t first, double bound) {
@@ -70,7 +71,7 @@ struct Contact {
   std::size_t a, b;
 };
 
-/// Pairs that overlap or could come to it while others are pushed apart.
+/// Returns the pairs that overlap or could come to it while others are pushed apart.
 std::vector<Contact> near_pairs(const State& state, double reach) {
   std::vector<Contact> pairs;
   for (std::size_t i = 0; i < state.size(); ++i)
@@ -80,8 +81,8 @@ std::vector<Contact> near_pairs(const State& state, double reach) {
   return pairs;
 }
 
-/// One relaxation sweep: every overlapping pair moves apart by equal shares, and into the box. Whether
-/// anything moved.
+/// Makes one relaxation sweep: every overlapping pair moves apart by equal shares, and into the box. Returns
+/// whether anything moved.
 bool push_once(const Setup& setup, const std::vector<Contact>& pairs, State& state) {
   constexpr double spare = 1e-9;  // m, so that sweeps end
   bool moved = false;
@@ -107,7 +108,7 @@ bool push_once(const Setup& setup, const std::vector<Contact>& pairs, State& sta
   return moved;
 }
 
-/// Deepest overlap with a neighbour or a wall, m.
+/// Returns the deepest overlap with a neighbour or a wall, m.
 double deepest_overlap(const Setup& setup, const State& state) {
   double deepest = 0;
   for (const auto& [a, b] : near_pairs(state, 0))
@@ -122,14 +123,15 @@ double deepest_overlap(const Setup& setup, const State& state) {
   return deepest;
 }
 
-/// By how much the largest pair of grains is wider than the diameter with which positions were measured, m.
+/// Returns by how much the largest grain is wider than the diameter with which positions were measured, m.
 double growth(const Setup& setup, const State& state) {
   const double largest = *std::max_element(state.radius.begin(), state.radius.end());
   return std::max(0.0, 2 * largest - setup.grains.diameter);
 }
 
-/// Measured positions err, and grains that touch then overlap: they are moved apart as far as that error
-/// goes; grains of unequal sizes, which were measured as equal ones, by as much more as they are larger.
+/// Moves overlapping grains apart: measured positions err, and grains that touch then overlap. They are moved
+/// as far as that error goes; grains of unequal sizes, which were measured as equal ones, by as much more as
+/// they are larger.
 void push_apart(const Setup& setup, State& state) {
   constexpr double rounding = 1e-12;  // m
   constexpr int most_sweeps = 2000;
@@ -150,23 +152,13 @@ void push_apart(const Setup& setup, State& state) {
 
 }  // namespace
 
-std::string note_on_measured_grains(const Setup& setup) {
-  if (setup.release.initial_grains.empty()) return "";
-  const double moved = initial_state(setup).pushed_apart;
-  return moved > 0 ? setup.release.initial_grains + ": grains overlap by less than " +
-                         millimetres(most_measured_overlap) + " and are pushed apart, none by more than " +
-                         millimetres(moved)
-                   : "";
-}
-
 void read_grains(const Setup& setup, State& state) {
   const std::string& file = setup.release.initial_grains;
   const double moved =
       setup.release.displacement - setup.release.grains_measured_at.value_or(setup.release.displacement);
   keep_unchanged(file);
   std::ifstream input(file);
-  if (!input)
-    throw FileError(file + ": cannot be read (release.initial_grains); check the path and its permissions");
+  if (!input) cannot_be_read(file, "release.initial_grains");
   std::vector<Violation> found;
   std::string line;
   int number = 0;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <string>
-
-#include "initial_state.hpp"
+#include "damper_state.hpp"
 
 namespace shakedown {
 
@@ -15,8 +13,5 @@ constexpr double most_measured_overlap = 5e-5;  // m
 /// that overlap or stick out of the box; FileError when the file cannot be read. Overlaps up to
 /// most_measured_overlap are pushed apart, and State::pushed_apart says how far.
 void read_grains(const Setup& setup, State& state);
-
-/// A sentence for people when the setup's measured grains had to be pushed apart; empty: they had not.
-std::string note_on_measured_grains(const Setup& setup);
 
 }  // namespace shakedown

@@ -8,12 +8,13 @@
 #include "grain_file.hpp"
 #include "packing.hpp"
 #include "random.hpp"
+#include "text.hpp"
 
 namespace shakedown {
 
 namespace {
 
-/// Relative diameters: Gaussian cut at 2.5 standard deviations.
+/// Draws relative diameters from a Gaussian cut at 2.5 standard deviations.
 std::vector<double> relative_diameters(const Setup& setup, double deviation, int run) {
   std::vector<double> relative(static_cast<std::size_t>(setup.grains.count), 1.0);
   if (deviation == 0) return relative;
@@ -39,8 +40,8 @@ void set_sizes(const Setup& setup, double deviation, int run, State& state) {
   }
 }
 
-/// Gaussian velocities scaled to a given total kinetic energy; in domains without a spring the total momentum
-/// is removed first.
+/// Draws Gaussian velocities and scales them to a total kinetic energy, J; in a periodic cell the total
+/// momentum is removed first.
 void set_velocities(const Setup& setup, double energy, int run, State& state) {
   Random random(setup.run.seed, static_cast<std::uint64_t>(run), Stream::velocities);
   state.velocity.resize(state.size());
@@ -61,7 +62,7 @@ void set_velocities(const Setup& setup, double energy, int run, State& state) {
   for (Vec3& velocity : state.velocity) velocity *= factor;
 }
 
-/// Measured velocities err, by a thousandth at least: enough for chaos to grow from.
+/// Changes measured velocities by a thousandth, by which they err at least: enough for chaos to grow from.
 void set_apart(const Setup& setup, int run, State& state) {
   constexpr double error = 1e-3;
   Random random(setup.run.seed, static_cast<std::uint64_t>(run), Stream::velocities);
@@ -102,24 +103,13 @@ State initial_state(const Setup& setup, int run) {
   return state;
 }
 
-double kinetic_energy(const State& state, double box_mass) {
-  double energy = box_mass * state.v_box * state.v_box / 2;
-  for (std::size_t i = 0; i < state.velocity.size(); ++i) {
-    energy += state.mass[i] * state.velocity[i].squaredNorm() / 2;
-    if (!state.spin.empty())
-      energy += 0.2 * state.mass[i] * state.radius[i] * state.radius[i] * state.spin[i].squaredNorm();
-  }
-  return energy;
-}
-
-double centre_of_mass_x(const State& state) {
-  if (state.size() == 0) return std::numeric_limits<double>::quiet_NaN();
-  double moment = 0, mass = 0;
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    moment += state.mass[i] * state.position[i].x();
-    mass += state.mass[i];
-  }
-  return moment / mass;
+std::string note_on_measured_grains(const Setup& setup) {
+  if (setup.release.initial_grains.empty()) return "";
+  const double moved = initial_state(setup).pushed_apart;
+  return moved > 0 ? setup.release.initial_grains + ": grains overlap by less than " +
+                         millimetres(most_measured_overlap) + " and are pushed apart, none by more than " +
+                         millimetres(moved)
+                   : "";
 }
 
 }  // namespace shakedown

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "kept_files.hpp"
 
+#include <unistd.h>
+
 #include <atomic>
+#include <cerrno>
+#include <cstring>
 #include <mutex>
 #include <set>
 #include <string>
+
+#include "errors.hpp"
 
 namespace shakedown {
 
@@ -21,7 +27,7 @@ Kept& kept() {
   return files;
 }
 
-/// One name for each file, whatever path leads to it.
+/// Returns one name for each file, whatever path leads to it.
 std::string one_name_of(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::path absolute = std::filesystem::absolute(file, error);
@@ -33,7 +39,18 @@ std::string one_name_of(const std::filesystem::path& file) {
 
 void begin_keeping_files() { kept().counting = true; }
 
+void expect_no_pipe(const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::file_status there = fs::status(file, ignored);
+  if (fs::is_fifo(there) || fs::is_character_file(there) || fs::is_block_file(there) || fs::is_socket(there))
+    throw FileError(file.string() +
+                    ": is a pipe or a device, and files are read more than once; write what it gives into a "
+                    "file and name that");
+}
+
 void keep_unchanged(const std::filesystem::path& file) {
+  expect_no_pipe(file);
   if (!kept().counting) return;
   const std::string name = one_name_of(file);
   const std::lock_guard lock(kept().mutex);
@@ -45,6 +62,17 @@ bool is_kept_unchanged(const std::filesystem::path& file) {
   const std::string name = one_name_of(file);
   const std::lock_guard lock(kept().mutex);
   return kept().files.contains(name);
+}
+
+void cannot_be_read(const std::filesystem::path& file, const std::string& part) {
+  if (file.empty()) throw FileError("the name of a file to read is empty; name a file");
+  std::error_code ignored;
+  std::string why = part;
+  const bool folder = std::filesystem::is_directory(file, ignored);
+  if (folder || ::access(file.c_str(), R_OK) != 0)
+    why += (why.empty() ? "" : ", ") + std::string(folder ? "it is a folder" : std::strerror(errno));
+  throw FileError(file.string() + ": cannot be read" + (why.empty() ? "" : " (" + why + ")") +
+                  "; check the path and its permissions");
 }
 
 }  // namespace shakedown

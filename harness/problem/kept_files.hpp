@@ -2,18 +2,27 @@
 // Files that a command reads and must leave as they are.
 #pragma once
 #include <filesystem>
+#include <string>
 
 namespace shakedown {
 
-/// From now on keep_unchanged() counts. Programs with commands call it first; a library's other callers may
-/// replace what they have read.
+/// Makes keep_unchanged() count from now on. Programs with commands call it first; a library's other callers
+/// may replace what they have read.
 void begin_keeping_files();
 
-/// This file is the user's (read as an input, or where the results of this command go): whatever else the
-/// command writes may not replace it. Any thread may call it; the file need not exist.
+/// Declares a file the user's (read as an input, or where the results of this command go): whatever else the
+/// command writes may not replace it. Any thread may call it; the file need not exist. Throws FileError where
+/// a pipe or a device stands there, which gives what it has once at most, or never ends.
 void keep_unchanged(const std::filesystem::path& file);
 
-/// Whether writing to `file`, by whatever path, would replace a file that is kept.
+/// Throws FileError where a pipe or a device stands in the file's place.
+void expect_no_pipe(const std::filesystem::path& file);
+
+/// Tells whether writing to `file`, by whatever path, would replace a file that is kept.
 bool is_kept_unchanged(const std::filesystem::path& file);
+
+/// Says that a file cannot be read, with the reason where there is one (`file` is missing, a folder, not ours
+/// to read), and what to do. `part`: what the file is for, "release.initial_grains"; may be empty.
+[[noreturn]] void cannot_be_read(const std::filesystem::path& file, const std::string& part = {});
 
 }  // namespace shakedown

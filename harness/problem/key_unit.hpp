@@ -10,16 +10,16 @@
 
 namespace shakedown {
 
-/// In which people read the values of a key of the setup or of an effect ("box.length",
+/// Returns the unit in which people read the values of a key of the setup or of an effect ("box.length",
 /// "constant_acceleration.acceleration.x"; of keys joined by & the first); empty: a pure number, or no such
 /// key.
 std::string unit_of_key(std::string_view key, KnownEffects known);
 
-/// The SI unit of such a key: of its values as a setup or a fit holds them.
+/// Returns the SI unit of such a key, in which a setup or a fit holds its values.
 std::string si_unit_of_key(std::string_view key, KnownEffects known);
 
-/// The keys that "grain_friction.grain_grain&grain_friction.grain_wall" joins to move together; of one key
-/// itself.
+/// Returns the keys that "grain_friction.grain_grain&grain_friction.grain_wall" joins to move together; of
+/// one key itself.
 std::vector<std::string> joined_keys(std::string_view keys);
 
 }  // namespace shakedown

@@ -27,6 +27,13 @@ const Parameter* KnownEffects::find_parameter(std::string_view key) const {
   return record->find(rest.substr(0, rest.find('.')));
 }
 
+std::string KnownEffects::key_of(double Camera::*number) const {
+  const auto found =
+      std::find_if(begin(), end(), [&](const EffectRecord* r) { return r->camera.field == number; });
+  if (found == end()) return "";
+  return std::string((*found)->name) + "." + std::string((*found)->parameters.front().name);
+}
+
 std::vector<const EffectRecord*> KnownEffects::oscillating() const {
   std::vector<const EffectRecord*> list;
   std::copy_if(begin(), end(), std::back_inserter(list),

@@ -2,6 +2,7 @@
 // The effects that a caller knows. Libraries below the catalogue of effects are handed them.
 #pragma once
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,19 +16,21 @@ class KnownEffects : public std::span<const EffectRecord* const> {
  public:
   using std::span<const EffectRecord* const>::span;
 
-  /// The record of this name; null: nobody knows it.
+  /// Returns the record of this name; null where there is none.
   const EffectRecord* find(std::string_view name) const;
-  /// The parameter at "effect.parameter" or "effect.parameter.component"; null: there is none.
+  /// Returns the parameter at "effect.parameter" or "effect.parameter.component"; null where there is none.
   const Parameter* find_parameter(std::string_view key) const;
-  /// Effects whose strength oscillates at a frequency that a diagnosis searches. They make the same motion:
-  /// the first is named.
+  /// "effect.parameter" of the effect that sets this number of the camera; empty: nobody knows one.
+  std::string key_of(double Camera::*number) const;
+  /// Returns the effects whose strength oscillates at a frequency that a diagnosis searches. They make the
+  /// same motion, so the first of them is named.
   std::vector<const EffectRecord*> oscillating() const;
-  /// How many of them a diagnosis of a box with grains looks for: among so many the prior of one is shared
-  /// out.
+  /// Returns how many of them a diagnosis of a box with grains looks for: the prior is shared out among so
+  /// many.
   std::size_t searched() const;
 };
 
-/// The effect whose parameter a key names: what stands before its first dot.
+/// Returns the effect whose parameter a key names: what stands before its first dot.
 inline std::string_view effect_of(std::string_view key) { return key.substr(0, key.find('.')); }
 
 }  // namespace shakedown

@@ -8,16 +8,20 @@
 
 namespace shakedown {
 
-/// How far a book of energy or momentum stands open, the same in every engine: the worst that was seen over a
-/// scale that the release gives, or over the most that the book ever held where forces put in more than that.
-/// What went through a line of the ledger since one last looked has been held: a ball that falls from rest
-/// and bounces may rest again whenever one looks.
+/// Measures how far energy or momentum is off balance, the same in every engine: the worst that was seen over
+/// a scale that the release gives, or over the most that was ever held where forces put in more than that.
+/// What went through a line of the ledger since the last look counts as held: a ball that falls from rest and
+/// bounces may rest again at every look.
 class OpenBook {
  public:
+  /// Looks at the balance of one moment. `open`: what is there less what should be there; `held`: what is
+  /// there, in the same unit, J or N s.
   void see(double open, double held) {
     worst_ = std::isfinite(open) ? std::max(worst_, std::abs(open)) : std::numeric_limits<double>::infinity();
     most_ = std::max(most_, std::abs(held));
   }
+  /// Does the same for energy, J; the change of each line of the ledger since the last look counts as held
+  /// too.
   void see(double open, double held, const Ledger& lines) {
     for (std::size_t c = 0; c < contact_classes; ++c)
       held = std::max(std::abs(held), std::abs(lines.contact_loss[c] - last_.contact_loss[c]));
@@ -27,8 +31,8 @@ class OpenBook {
     last_ = lines;
     see(open, held);
   }
-  /// The error as a fraction of `scale`, or of the most that was held; infinity where something is open and
-  /// nothing was ever held. Rounding alone is no more than the release gave.
+  /// Returns the worst `open` as a fraction of `scale`, or of the most that was held where that is more than
+  /// `scale` by more than rounding; infinity where something is open and both are 0.
   double error(double scale) const {
     constexpr double rounding = 1e-6;
     return worst_ > 0 ? worst_ / (most_ > scale * (1 + rounding) ? most_ : scale) : 0;

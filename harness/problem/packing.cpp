@@ -17,7 +17,7 @@ namespace shakedown {
 
 namespace {
 
-/// `placed`: how many the packing holds, 0 when it cannot tell.
+/// Throws InputError. `placed`: how many grains the packing holds, 0 when it cannot tell.
 [[noreturn]] void does_not_fit(const Setup& setup, std::size_t placed, const std::string& packing) {
   const std::string why =
       placed > 0 ? "holds " + std::to_string(placed) + " in this box" : "leaves overlaps in this box";
@@ -27,7 +27,15 @@ namespace {
         "take fewer or smaller grains, a larger box, or another release.packing"}});
 }
 
-/// The mean diameter may fit where the largest one drawn does not.
+std::atomic<const std::atomic<bool>*> asked_to_stop{nullptr};
+
+void expect_not_stopped() {
+  const std::atomic<bool>* asked = asked_to_stop.load(std::memory_order_relaxed);
+  if (asked != nullptr && asked->load(std::memory_order_relaxed))
+    throw Interrupted("the grains were not packed yet");
+}
+
+/// Throws InputError when the largest grain drawn does not fit into the box, as the mean one may.
 void check_room_of_the_largest(const Setup& setup, const std::vector<double>& radius) {
   const double largest = 2 * *std::max_element(radius.begin(), radius.end());
   const double room = std::min({setup.box.length, setup.box.width[0], setup.box.width[1]});
@@ -39,11 +47,11 @@ void check_room_of_the_largest(const Setup& setup, const std::vector<double>& ra
                      "make the box larger, or the grains smaller or less unequal"}});
 }
 
-/// Of sites in a row; more than that no packing fills.
+/// Rounds a number of sites in a row down, to 1e9 at most: no packing fills more.
 int whole(double number) { return static_cast<int>(std::min(std::floor(number), 1e9)); }
 
-/// Cubic-close layers from the outer (+x) wall inwards: alternate sites of a square grid of spacing a/2, a
-/// = 1.42 diameters.
+/// Returns cubic-close layers from the outer (+x) wall inwards: alternate sites of a square grid of spacing
+/// a/2, a = 1.42 diameters.
 std::vector<Vec3> fcc_layers(const Setup& setup) {
   const double diameter = setup.grains.diameter, half_constant = 0.71 * diameter;
   const double front = (setup.box.length - diameter) / 2;
@@ -57,16 +65,19 @@ std::vector<Vec3> fcc_layers(const Setup& setup) {
   for (int layer = 0; centres.size() < count; ++layer) {
     const double x = front - 10e-6 - layer * half_constant;
     if (x < -front) does_not_fit(setup, centres.size(), "fcc");
-    for (int i = 0; i < rows && centres.size() < count; ++i)
+    for (int i = 0; i < rows && centres.size() < count; ++i) {
+      expect_not_stopped();
       for (int j = 0; j < columns && centres.size() < count; ++j)
         if ((i + j + layer) % 2 == 0)
           centres.emplace_back(x, first_y + i * half_constant, first_z + j * half_constant);
+    }
   }
   return centres;
 }
 
-/// Square layers in turn, n x n and (n-1) x (n-1), 1.1 diameters apart within a layer, layers 0.65 diameters
-/// apart. Where only one grain fits across, every other layer is empty: it has no place between the others.
+/// Returns square layers, n x n and (n-1) x (n-1) in turn, with 1.1 diameters from grain to grain and 0.65
+/// diameters from layer to layer. Where only one grain fits across, every other layer is empty, as there is
+/// no place between the others.
 std::vector<Vec3> square_layers(const Setup& setup) {
   const double diameter = setup.grains.diameter, spacing = 1.1 * diameter;
   const double front = (setup.box.length - diameter) / 2;
@@ -79,9 +90,11 @@ std::vector<Vec3> square_layers(const Setup& setup) {
     if (x < -front) does_not_fit(setup, centres.size(), "square");
     const int shrink = layer % 2;
     const int r = rows - shrink, c = columns - shrink;
-    for (int i = 0; i < r && centres.size() < count; ++i)
+    for (int i = 0; i < r && centres.size() < count; ++i) {
+      expect_not_stopped();
       for (int j = 0; j < c && centres.size() < count; ++j)
         centres.emplace_back(x, spacing * (i - (r - 1) / 2.0), spacing * (j - (c - 1) / 2.0));
+    }
   }
   return centres;
 }
@@ -91,6 +104,7 @@ std::vector<Vec3> random_centres(const Setup& setup, double thickness, int run) 
   const double diameter = setup.grains.diameter, front = (setup.box.length - diameter) / 2;
   std::vector<Vec3> centres(static_cast<std::size_t>(setup.grains.count));
   for (Vec3& centre : centres) {
+    expect_not_stopped();
     centre.x() = front - 10e-6 - random.uniform() * thickness;
     centre.y() = (random.uniform() - 0.5) * (setup.box.width[0] - diameter);
     centre.z() = (random.uniform() - 0.5) * (setup.box.width[1] - diameter);
@@ -105,7 +119,7 @@ struct Lattice {
   Vec3 room;
 
   std::int64_t size() const { return 4LL * cells.x() * cells.y() * cells.z(); }
-  /// Those of a cell one after the other, cells along z first.
+  /// Returns the place of a site, m: those of a cell follow each other, cells along z first.
   Vec3 site(std::int64_t index) const {
     constexpr std::array<std::array<double, 3>, 4> basis{
         {{.25, .25, .25}, {.75, .75, .25}, {.75, .25, .75}, {.25, .75, .75}}};
@@ -118,13 +132,13 @@ struct Lattice {
   }
 };
 
-/// Room of the centres in a closed or periodic cell.
+/// Returns the room of the centres in a closed or periodic cell, m along each axis.
 Vec3 room_of_cell(const Setup& setup) {
   const double margin = setup.domain == Domain::closed ? setup.grains.diameter : 0.0;
   return Vec3(setup.box.length, setup.box.width[0], setup.box.width[1]).array() - margin;
 }
 
-/// Face-centred cubic lattice that fills a whole cell (closed and periodic domains).
+/// Returns the sites of a face-centred cubic lattice that fills a whole cell (closed and periodic domains).
 std::vector<Vec3> filled_cell(const Setup& setup) {
   const std::size_t count = static_cast<std::size_t>(setup.grains.count);
   const Vec3 room = room_of_cell(setup);
@@ -136,7 +150,10 @@ std::vector<Vec3> filled_cell(const Setup& setup) {
   while (Lattice{cells, room}.size() < static_cast<std::int64_t>(count)) ++cells.x();
   const Lattice lattice{cells, room};
   std::vector<Vec3> centres(count);
-  for (std::size_t i = 0; i < count; ++i) centres[i] = lattice.site(static_cast<std::int64_t>(i));
+  for (std::size_t i = 0; i < count; ++i) {
+    expect_not_stopped();
+    centres[i] = lattice.site(static_cast<std::int64_t>(i));
+  }
   // every site of a lattice sees what the first one sees
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < centres.size(); ++i)
@@ -146,12 +163,12 @@ std::vector<Vec3> filled_cell(const Setup& setup) {
   return centres;
 }
 
-/// Of so many places `count` different ones, in order.
+/// Draws `count` different ones of so many places and returns them in order.
 std::vector<std::int64_t> drawn_places(std::int64_t places, std::int64_t count, Random& random) {
   constexpr std::int64_t most_walked = 10'000'000;  // a tenth of a second
   std::vector<std::int64_t> drawn;
   if (places <= std::max(most_walked, 100 * count)) {
-    // Each is kept with the odds of those wanted to those left.
+    // Each is kept with the probability of places still wanted over places left.
     for (std::int64_t place = 0, left = count; left > 0; ++place)
       if (random.uniform() * static_cast<double>(places - place) < static_cast<double>(left))
         drawn.push_back(place), --left;
@@ -164,7 +181,7 @@ std::vector<std::int64_t> drawn_places(std::int64_t places, std::int64_t count, 
   return drawn;
 }
 
-/// Grains on sites drawn at random from a lattice of packing fraction 0.70 (or a little less): full of
+/// Returns sites drawn at random from a lattice of packing fraction 0.70 (or a little less): full of
 /// vacancies, it melts within a few impacts a grain even where the full lattice is stable.
 std::vector<Vec3> sparsely_filled_cell(const Setup& setup, int run) {
   const std::int64_t count = setup.grains.count;
@@ -182,16 +199,8 @@ std::vector<Vec3> sparsely_filled_cell(const Setup& setup, int run) {
   return centres;
 }
 
-std::atomic<const std::atomic<bool>*> asked_to_stop{nullptr};
-
-void expect_not_stopped() {
-  const std::atomic<bool>* asked = asked_to_stop.load(std::memory_order_relaxed);
-  if (asked != nullptr && asked->load(std::memory_order_relaxed))
-    throw Interrupted("the grains were not packed yet");
-}
-
-/// Pushes overlapping grains apart and back into the box until none overlap; false when that does not come
-/// about.
+/// Pushes overlapping grains apart and back into the box until none overlap; false when 20 000 sweeps do not
+/// reach that.
 bool relax(const Setup& setup, const std::vector<double>& radius, std::vector<Vec3>& centres) {
   const Vec3 half(setup.box.length / 2, setup.box.width[0] / 2, setup.box.width[1] / 2);
   const double clearance = 1e-3 * setup.grains.diameter;
@@ -235,7 +244,7 @@ bool free_of_overlap(const Setup& setup, const std::vector<double>& radius,
   return true;
 }
 
-/// Centres as each packing places grains of the mean diameter, before anything is relaxed.
+/// Returns the centres as each packing places grains of the mean diameter, before anything is relaxed.
 std::vector<Vec3> placed_centres(const Setup& setup, Packing packing, int run) {
   if (setup.domain != Domain::damper)
     return packing == Packing::random ? sparsely_filled_cell(setup, run) : filled_cell(setup);

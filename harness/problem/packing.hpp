@@ -7,12 +7,13 @@
 
 namespace shakedown {
 
-/// Centres of grains of the given radii at release, in the frame of the box (x = 0 its centre). Deterministic
-/// in (seed, run). Throws InputError when they do not fit, Interrupted when it is asked to stop.
+/// Returns the centres of grains of the given radii (m) at release, m, in the frame of the box (x = 0 its
+/// centre). Deterministic in (seed, run). Throws InputError when they do not fit, Interrupted when it is
+/// asked to stop.
 std::vector<Vec3> packed_centres(const Setup& setup, Packing packing, const std::vector<double>& radius,
                                  int run);
 
-/// From now on a packing that takes long stops once this is true. It must outlive every packing.
+/// Lets packings that take long stop once this is true. It must outlive every packing.
 void stop_packing_when(const std::atomic<bool>* asked);
 
 }  // namespace shakedown

@@ -56,7 +56,7 @@ struct ContactLaw {
   /// The side walls' own restitution at closing speed v (m/s), whatever the law of the other contacts, also
   /// of `push`; empty: theirs.
   std::function<double(double closing_speed)> side_wall_restitution_at;
-  /// What the above give at this closing speed (m/s).
+  /// Returns the restitution that the above give at this closing speed (m/s).
   double restitution_of(ContactClass kind, double closing_speed) const {
     if (kind == ContactClass::side_wall && side_wall_restitution_at)
       return side_wall_restitution_at(closing_speed);
@@ -71,7 +71,7 @@ struct ContactLaw {
   /// Elastic energy stored by `push` at this overlap, J.
   std::function<double(ContactClass, double overlap, double closing_speed, double reduced_mass)>
       stored_energy;
-  /// Whether `push` is the normal force of this kind of contact.
+  /// Tells whether `push` is the normal force of this kind of contact.
   bool pushes(ContactClass kind) const {
     return push && !(kind == ContactClass::side_wall && side_wall_restitution_at);
   }
@@ -80,6 +80,7 @@ struct ContactLaw {
   /// Coefficient at a slip speed (m/s) of the touching points at first touch, and the constant above; empty:
   /// the constant.
   std::function<double(ContactClass, double slip_speed, double constant)> friction_at;
+  /// Returns the Coulomb coefficient of this kind of contact at this slip (m/s).
   double friction_of(ContactClass kind, const Vec3& slip) const {
     const double constant = friction[static_cast<std::size_t>(kind)];
     return friction_at ? friction_at(kind, slip.norm(), constant) : constant;
@@ -100,13 +101,13 @@ struct ContactLaw {
            (rolling_resistance[0] > 0 || rolling_resistance[1] > 0 || rolling_resistance[2] > 0);
   }
 
-  double attraction_force = 0;     ///< N, constant attraction up to a gap of
+  double attraction_force = 0;     ///< N, constant up to a gap of attraction_range
   double attraction_range = 0;     ///< m
   double attraction_of_walls = 1;  ///< force between a grain and a wall, of that between two grains
   int attraction_effect = -1;      ///< line in Setup::effects
   bool has_attraction() const { return attraction_force > 0 && attraction_range > 0; }
   bool walls_attract() const { return has_attraction() && attraction_of_walls > 0; }
-  /// N, and the gap up to which it acts, m.
+  /// Returns the attraction in this kind of contact, N; reach() returns the gap up to which it acts, m.
   double attraction(ContactClass contact) const {
     return contact == ContactClass::grain_grain ? attraction_force : attraction_force * attraction_of_walls;
   }
@@ -139,8 +140,8 @@ struct BoxForces {
   std::vector<DahlFriction> dahl;   ///< depends on the path: DahlState
 
   bool none() const;  ///< nothing acts
-  /// All but the frictions, of a box at x (m) with velocity v (m/s) at time t (s), added to the force of its
-  /// spring, N.
+  /// Returns the sum of all forces but the frictions, N, on a box at x (m) with velocity v (m/s) at time t
+  /// (s), added to `spring`, the force of its spring.
   double newton(double x, double v, double t, double spring = 0) const;
   /// Calls use(newton, effect) for every contribution to newton(), the spring left out.
   template <class Use>
@@ -220,7 +221,7 @@ struct Physics {
   Camera camera;
 };
 
-/// The setup's numbers with each of its effects applied in turn. Not for sharing between threads when it
+/// Returns the setup's numbers with each of its effects applied in turn. Threads must not share it when it
 /// holds a user's formula: each run makes its own, or takes a copy.
 Physics physics_of(const Setup& setup);
 

@@ -6,7 +6,7 @@
 
 namespace shakedown {
 
-/// Numbers in words, as printf writes them.
+/// Returns the text that printf writes, up to 399 bytes.
 std::string text_of(const char* format, auto... values) {
   std::array<char, 400> text;
   std::snprintf(text.data(), text.size(), format, values...);

@@ -158,7 +158,7 @@ struct UnitReader {
   }
 };
 
-/// No unit that people write is as long; brackets within brackets are read by recursion.
+/// Longer texts are refused as units: people write none, and brackets within brackets are read by recursion.
 constexpr std::size_t longest_unit = 200;
 
 ValueOrReason<Scale> parse_scale(std::string_view text) {
@@ -174,7 +174,7 @@ ValueOrReason<Scale> parse_scale(std::string_view text) {
   return total;
 }
 
-/// `digits` (no exponent) times 10^exponent, correctly rounded.
+/// Returns `digits` (no exponent) times 10^exponent, correctly rounded.
 double decimal(std::string_view digits, int exponent) {
   const std::string text = std::string(digits) + "e" + std::to_string(exponent);
   double value = 0;
@@ -202,7 +202,7 @@ double scaled(std::string_view number, const Scale& scale) {
   return decimal(digits, exponent + scale.power_of_ten) * scale.factor;
 }
 
-/// Number text "d.ddd", exponent e -> plain digits when that is not longer than people like to read.
+/// Writes "d.ddd" with an exponent as plain digits when that is not longer than people like to read.
 std::string plain(std::string digits, int exponent) {
   const bool negative = digits.starts_with("-");
   if (negative) digits.erase(0, 1);
@@ -222,7 +222,7 @@ std::string plain(std::string digits, int exponent) {
   return (negative ? "-" : "") + text;
 }
 
-/// value * 10^shift with the shortest digits of value: moving the point loses nothing.
+/// Returns value * 10^shift with the shortest digits of value: moving the point loses nothing.
 std::string shifted(double value, int shift) {
   if (value == 0) return std::signbit(value) ? "-0" : "0";
   std::array<char, 40> buffer{};
@@ -233,7 +233,8 @@ std::string shifted(double value, int shift) {
   return plain(std::string(digits), exponent + shift);
 }
 
-/// For units that are no power of ten: the fewest digits that read back exactly, or nothing when none do.
+/// Returns, for units that are no power of ten, the fewest digits that read back exactly; nothing when none
+/// do.
 std::optional<std::string> searched(double si, const Scale& scale) {
   const double value = si / scale.factor;
   for (const double candidate : {value, std::nextafter(value, 1e308), std::nextafter(value, -1e308)})

@@ -28,22 +28,22 @@ struct Quantity {
 template <class T>
 using ValueOrReason = std::variant<T, std::string>;
 
-/// "mm", "g", "Hz", "N s/m", "N s^2/m^2", "m/s^2", "mN", "deg", "%", "" ... products by space, dot or *, each
-/// "/" divides by the factor after it, powers by ^, brackets allowed.
+/// Reads a unit: "mm", "g", "Hz", "N s/m", "N s^2/m^2", "m/s^2", "mN", "deg", "%", "" ... with products by
+/// space, dot or *, each "/" dividing by the factor after it, powers by ^, and brackets.
 ValueOrReason<Unit> parse_unit(std::string_view text);
 
-/// "107.5 mm", "1.23 Hz", "65mm". A bare number gives the dimension of a pure number. Decimal units are
-/// exact: "107.5 mm" is the double nearest to 0.1075 m.
+/// Reads a quantity: "107.5 mm", "1.23 Hz", "65mm". A bare number gives the dimension of a pure number.
+/// Decimal units are exact: "107.5 mm" is the double nearest to 0.1075 m.
 ValueOrReason<Quantity> parse_quantity(std::string_view text);
 
-/// "a length (m)", "a pure number", "kg m^2/s" when it has no name.
+/// Returns a dimension in words: "a length (m)", "a pure number", "kg m^2/s" when it has no name.
 std::string describe(const Dimension& dimension);
 
-/// The shortest text that reads back to exactly this value in this unit, e.g. (0.04, "mm") -> "40 mm". `si`
-/// must be finite.
+/// Returns the shortest text that reads back to exactly this value in this unit: "40 mm" of (0.04, "mm").
+/// `si` must be finite.
 std::string write_quantity(double si, std::string_view unit);
 
-/// The shortest decimal text of a number that reads back to it, e.g. "0.75"; "nan", "inf".
+/// Returns the shortest decimal text of a number that reads back to it, e.g. "0.75"; "nan", "inf".
 std::string write_number(double value);
 
 }  // namespace shakedown

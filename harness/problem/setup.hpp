@@ -104,14 +104,15 @@ struct Setup {
   std::map<std::string, SourcePlace> places;
 };
 
-/// The setup's choice of this effect; null: it has none. It lives as long as the setup's list is not changed.
+/// Returns the setup's choice of this effect, null where it has none; valid until the setup's list is
+/// changed.
 inline const EffectChoice* find_choice(const Setup& setup, std::string_view name) {
   for (const EffectChoice& choice : setup.effects)
     if (choice.record->name == name) return &choice;
   return nullptr;
 }
 
-/// Where a key was given; no place when it was not.
+/// Returns where a key was given; no place when it was not.
 inline SourcePlace place_of(const Setup& setup, const std::string& key) {
   const auto found = setup.places.find(key);
   return found == setup.places.end() ? SourcePlace{} : found->second;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one table of the setup's keys: reading, writing, overrides, bounds, JSON schema and documentation come
+// One table holds the setup's keys: reading, writing, overrides, bounds, JSON schema and documentation come
 // from it.
 #pragma once
 #include <array>
@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 4> packing_names{"fcc", "square", "random
                                                         "spread"};  ///< by value of Packing
 inline std::string_view name_of(Domain domain) { return domain_names[static_cast<std::size_t>(domain)]; }
 inline std::string_view name_of(Packing packing) { return packing_names[static_cast<std::size_t>(packing)]; }
-/// Throws nothing: `name` must be one of packing_names (EXPECT).
+/// Returns the packing of this name, which must be one of packing_names (EXPECT).
 Packing packing_of(std::string_view name);
 
 template <class T>
@@ -42,25 +42,25 @@ struct SetupKey {
   std::string_view name() const { return path.substr(path.find('.') + 1); }
 };
 
-/// Every key except the list of effects, in the order in which a setup file is written.
+/// Returns every key except the list of effects, in the order in which a setup file is written.
 std::span<const SetupKey> setup_keys();
 
-/// The key of this path, or nullptr.
+/// Returns the key of this path, or nullptr.
 const SetupKey* find_setup_key(std::string_view path);
 
-/// The words that a choice may be (domain.kind, release.packing); empty for other keys.
+/// Returns the words that a choice may be (domain.kind, release.packing); empty for other keys.
 std::span<const std::string_view> choices_of(const SetupKey& key);
 
 /// True for keys that set_number can set: quantities, pure numbers and counts.
 bool is_numeric(const SetupKey& key);
 
-/// The numbers behind a numeric key (two for box.width, else one), SI; empty for other keys.
+/// Returns the numbers behind a numeric key (two for box.width, else one), SI; empty for other keys.
 std::vector<double> numbers_of(const SetupKey& key, const Setup& setup);
 
-/// The value as it stands in a TOML file: `"40 mm"`, `37`, `["50 mm", "50 mm"]`, `"fcc"`, `false`.
+/// Returns the value as it stands in a TOML file: `"40 mm"`, `37`, `["50 mm", "50 mm"]`, `"fcc"`, `false`.
 std::string toml_of(const SetupKey& key, const Setup& setup);
 
-/// A quantity as it stands in a TOML file: `"40 mm"`, or `0.75` without a unit.
+/// Returns a quantity as it stands in a TOML file: `"40 mm"`, or `0.75` without a unit.
 std::string toml_of(double si, std::string_view unit);
 
 }  // namespace shakedown

@@ -19,12 +19,14 @@ struct SteadyPull {
   /// pull.
   double ratio() const;
 };
+/// Returns the steady pull of a setup and the shaking beside it.
 SteadyPull steady_pull(const Setup& setup);
 
-/// "2.2 (6.42 m/s^2 against 2.94 m/s^2)"; empty without a steady pull or without a spring.
+/// Returns the ratio in words, "2.2 (6.42 m/s^2 against 2.94 m/s^2)"; empty without a steady pull or a
+/// spring.
 std::string words_of_pull(const SteadyPull& pull);
 
-/// What is to be known before a model of hard spheres is judged under this pull; empty without one.
+/// Returns what is to be known before a model of hard spheres is judged under this pull; empty without one.
 std::string note_on_pull(const SteadyPull& pull);
 
 }  // namespace shakedown

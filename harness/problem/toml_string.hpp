@@ -5,7 +5,7 @@
 
 namespace shakedown {
 
-/// A TOML string: quoted and escaped.
+/// Returns the text as a TOML string, quoted and escaped.
 std::string toml_string(std::string_view text);
 
 }  // namespace shakedown

@@ -16,17 +16,17 @@ namespace shakedown {
 struct Ledger {
   std::array<double, contact_classes> contact_loss{};  ///< dissipated in contacts of each class
   std::vector<double> effect_loss;  ///< taken out by each line of Setup::effects (negative: put in)
-  double total_loss() const;
+  double total_loss() const;        ///< J, the sum of all entries
 };
 
 /// How well an engine kept its promises; every result carries it and every report shows it.
 struct Health {
   double deepest_overlap = 0;  ///< m, positive when surfaces interpenetrate (soft engines: by design)
-  /// max |energy + losses - E0| / E0; where more was held, or lost or put in between two samples: over the
-  /// most
+  /// max |energy + losses - E0| over E0, or over the most energy that was held, or that was lost or put in
+  /// between two samples, where that is more
   double ledger_error = 0;
-  /// max |momentum - outer impulse| / (M Omega Delta0); Delta0 = 0: over the sum of m |v| at release; where
-  /// more was held: over the most
+  /// max |momentum - outer impulse| over M Omega Delta0 (where Delta0 = 0: over the sum of m |v| at release),
+  /// or over the most momentum that was held where that is more
   double momentum_error = 0;
   std::int64_t elastic_rescues = 0;  ///< impacts made elastic by the regularisation of inelastic collapse
   std::int64_t elastic_pair_rescues = 0;  ///< those of them between grains

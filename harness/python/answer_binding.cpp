@@ -10,7 +10,7 @@ namespace shakedown {
 
 namespace {
 
-/// The page may need simulations of its own.
+/// Makes the page, which may need simulations of its own.
 std::string page_of(const Answer& answer) {
   return released(py::none(), [&](ToldProgress&, const std::atomic<bool>* stop) {
     return report_html(answer.report(stop));

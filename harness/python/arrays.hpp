@@ -6,7 +6,7 @@
 
 namespace shakedown {
 
-/// A numpy array of its own, shape (n).
+/// Copies values into a numpy array of its own, shape (n).
 inline pybind11::array_t<double> array_of(const std::vector<double>& values) {
   return pybind11::array_t<double>(static_cast<pybind11::ssize_t>(values.size()), values.data());
 }

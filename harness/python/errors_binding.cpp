@@ -10,7 +10,7 @@ namespace shakedown {
 
 namespace {
 
-/// Exceptions live as long as the interpreter.
+/// The types of the exceptions, which live as long as the interpreter.
 struct ErrorTypes {
   py::object input, file, physics;
 };
@@ -27,7 +27,7 @@ py::object new_type(py::module_& module, const char* name, PyObject* base, const
   return type;
 }
 
-/// Every mistake with its place, as the command line prints it.
+/// Raises InputError with every mistake and its place, as the command line prints it.
 void raise_input_error(const InputError& error) {
   py::list violations;
   for (const Violation& one : error.violations)

@@ -39,9 +39,9 @@ class ToldProgress {
   bool fresh_ = false;
 };
 
-/// The result of `work(ToldProgress&, const std::atomic<bool>* stop)`, done in a thread of its own while this
-/// one looks after Python: ten times a second it tells the progress and takes signals. An exception of the
-/// listener or of a signal (KeyboardInterrupt) stops the work and goes on from here.
+/// Returns the result of `work(ToldProgress&, const std::atomic<bool>* stop)`, done in a thread of its own
+/// while this one looks after Python: ten times a second it tells the progress and takes signals. An
+/// exception of the listener or of a signal (KeyboardInterrupt) stops the work and goes on from here.
 template <class Work>
 auto released(const pybind11::object& listener, Work work) {
   std::atomic<bool> stop = false;

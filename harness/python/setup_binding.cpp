@@ -28,15 +28,15 @@ std::vector<std::string> effect_names(const Setup& setup) {
   return names;
 }
 
-/// A measurement says how long its boxes are.
+/// Returns the values that a setup took from the paper; a measurement says how long its boxes are.
 std::vector<std::string> from_paper(const Setup& setup, bool measured) {
   constexpr std::string_view length[] = {"box.length"};
   return taken_from_paper(
       setup, measured ? std::span<const std::string_view>(length) : std::span<const std::string_view>());
 }
 
-/// `function`, which lives as long as the process, as name(x, v, t) of formulas: engines call it from threads
-/// of their own, each with Python's lock.
+/// Lends `function`, which lives as long as the process, to formulas as name(x, v, t): engines call it from
+/// threads of their own, each with Python's lock.
 void lend(const std::string& name, const py::function& function) {
   const py::handle kept = py::function(function).release();
   lend_function(name, [kept, name](double x, double v, double t) {

@@ -56,7 +56,7 @@ Simulated simulated(const Setup& setup, const std::string& name, const std::stri
       ensemble};
 }
 
-/// Sampled motion of one run; shapes (T), the losses (3, T).
+/// Returns the sampled motion of one run; shapes (T), the losses (3, T).
 py::dict motion_of(const Simulated& simulated, std::size_t number) {
   const Trajectory& run = simulated.ensemble->runs.at(number).trajectory;
   py::dict motion;
@@ -73,7 +73,7 @@ py::dict motion_of(const Simulated& simulated, std::size_t number) {
   return motion;
 }
 
-/// Numbers read off one run; times and values of the peaks have shape (P), crossings (C).
+/// Returns numbers read off one run; times and values of the peaks have shape (P), crossings (C).
 py::dict observed(const Simulated& simulated, std::size_t number) {
   const Observables& run = simulated.ensemble->runs.at(number).observables;
   std::vector<double> times, values;

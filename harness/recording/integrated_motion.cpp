@@ -11,7 +11,7 @@ namespace shakedown {
 
 namespace {
 
-/// Of a piecewise linear series: its integral from the first time on, at any time.
+/// The integral of a piecewise linear series from the first time on, at any time.
 class RunningIntegral {
  public:
   explicit RunningIntegral(const TimeSeries& series) : series_(series), sum_(series.time.size(), 0) {
@@ -27,7 +27,7 @@ class RunningIntegral {
     const double part = t - time[i - 1], slope = (value[i] - value[i - 1]) / (time[i] - time[i - 1]);
     return sum_[i - 1] + part * (value[i - 1] + slope * part / 2);
   }
-  /// At each time of the series.
+  /// Returns the integral at each time of the series.
   const std::vector<double>& at_rows() const { return sum_; }
 
  private:
@@ -35,7 +35,7 @@ class RunningIntegral {
   std::vector<double> sum_;
 };
 
-/// Mean over `width` (s) about each time that has as much on either side.
+/// Returns the mean over `width` (s) about each time that has half as much on either side.
 TimeSeries moving_mean(const TimeSeries& series, double width) {
   const RunningIntegral integral(series);
   TimeSeries mean;

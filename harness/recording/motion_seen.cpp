@@ -16,7 +16,7 @@ constexpr double least_swing = 0.1;      // of the whole range
 constexpr double without_period = 0.2;   // s
 constexpr std::size_t first_turns = 24;  // later ones are small, and noise decides when they are
 
-/// Medians of three neighbouring frames: a single wrong frame is no turn.
+/// Returns medians of three neighbouring frames, so that a single wrong frame is no turn.
 std::vector<Turn> without_single_frames(const std::vector<double>& time, const std::vector<double>& x) {
   std::vector<Turn> kept;
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -37,7 +37,8 @@ double range_of_turn(const std::vector<Turn>& frames) {
   return sorted.empty() ? 0 : sorted[sorted.size() - 1 - wrong] - sorted[wrong];
 }
 
-/// Ends of the swings that exceed `least`: the farthest frame before the motion has come back by that much.
+/// Returns the ends of the swings that exceed `least` (m): the farthest frame before the motion has come back
+/// by that much.
 std::vector<Turn> turns_of(const std::vector<Turn>& frames, double least) {
   std::vector<Turn> turns;
   if (frames.empty() || !(least > 0)) return turns;
@@ -61,7 +62,7 @@ std::vector<Turn> turns_of(const std::vector<Turn>& frames, double least) {
   return turns;
 }
 
-/// Twice the mean time between turns, of those that are near the usual one.
+/// Returns twice the mean time between turns, s, of those that are near the usual one.
 double period_of(const std::vector<Turn>& turns) {
   constexpr double near = 0.25;
   std::vector<double> halves;
@@ -75,7 +76,7 @@ double period_of(const std::vector<Turn>& turns) {
   return 2 * (count > 0 ? sum / count : usual);
 }
 
-/// Span of the values in a window that moves along (monotonic queues).
+/// Returns the span of the values within `half` (s) to either side of each frame (by monotonic queues).
 std::vector<double> excursions(const std::vector<double>& time, const std::vector<double>& x, double half) {
   std::vector<double> span(x.size(), std::numeric_limits<double>::quiet_NaN());
   std::deque<std::size_t> high, low;

@@ -16,7 +16,7 @@ namespace {
 constexpr double usual_noise = 1e-3;       // m, of a camera of which nothing is known
 constexpr double without_a_camera = 1e-9;  // m, in positions that a simulation gave as they are
 constexpr int lowest_order = 4, highest_order = 14;
-/// Motion that a difference keeps over noise that it keeps, at most: it adds 2 % to the deviation.
+/// A difference may keep so much motion over the noise that it keeps, which adds 2 % to the deviation.
 constexpr double leak_allowed = 0.2;
 /// The noise is told where the box's excursion exceeds this share of the whole range; at rest rounding hides
 /// it.
@@ -31,8 +31,9 @@ constexpr double orders_agree = 0.25, most_beyond = 0.1;
 /// less than this share of it.
 constexpr double resolved = 0.5;
 
-/// Standard deviation about zero of what is normal among the values: beyond 2.5 of it they are landings or
-/// wrong frames, and the 0.91126 of the variance that a normal distribution has within corrects for the cut.
+/// Returns the standard deviation about zero of what is normal among the values: beyond 2.5 of it they are
+/// landings or wrong frames, and the 0.91126 of the variance that a normal distribution has within corrects
+/// for the cut.
 double clipped_deviation(const std::vector<double>& values) {
   constexpr double cut = 2.5, within = 0.91126;
   std::vector<double> sizes;
@@ -51,7 +52,7 @@ double clipped_deviation(const std::vector<double>& values) {
   return deviation;
 }
 
-/// Whether these differences are those of noise: not too many far ones, and no others in the next order.
+/// Tells whether these differences are those of noise: not too many far ones, and the next order alike.
 bool are_noise(const std::vector<double>& found, const std::vector<double>& next, double deviation) {
   double beyond = 0, count = 0;
   for (const double value : found)
@@ -62,7 +63,7 @@ bool are_noise(const std::vector<double>& found, const std::vector<double>& next
   return beyond < most_beyond * count && !(std::abs(of_next / deviation - 1) > allowed);
 }
 
-/// Standard deviation of what is recorded, motion and noise.
+/// Returns the standard deviation of what is recorded, motion and noise, m.
 double whole_deviation(const NoiseSeries& series) {
   std::vector<double> moving;
   for (std::size_t i = 0; i < series.x->size(); ++i)
@@ -72,8 +73,8 @@ double whole_deviation(const NoiseSeries& series) {
   return std::sqrt((x - x.mean()).square().mean());
 }
 
-/// Weights of length 1 on frames at these places under which polynomials of lower order vanish: those of
-/// divided differences.
+/// Returns weights of length 1 on frames at these places under which polynomials of lower order vanish: those
+/// of divided differences.
 Eigen::VectorXd difference_weights(const Eigen::VectorXd& place) {
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(place.size());
   for (Eigen::Index i = 0; i < place.size(); ++i)
@@ -82,7 +83,8 @@ Eigen::VectorXd difference_weights(const Eigen::VectorXd& place) {
   return weights.normalized();
 }
 
-/// For each frame the difference of neighbouring frames about it: white noise keeps its standard deviation.
+/// Returns for each frame the difference of neighbouring frames about it, m, in which white noise keeps its
+/// standard deviation.
 std::vector<double> differences(const NoiseSeries& series, int order) {
   const std::vector<double>& x = *series.x;
   std::vector<double> found(x.size(), nothing);
@@ -108,14 +110,14 @@ std::vector<double> differences(const NoiseSeries& series, int order) {
   return found;
 }
 
-/// What differences of this order keep of a swing over half the range, with so many frames a period.
+/// Returns what differences of this order keep of a swing over half the range, with so many frames a period.
 double leak(double range, double frames_per_period, int order) {
   const double each = 2 * std::sin(std::numbers::pi / std::max(frames_per_period, 2.0));
   const double log_binomial = std::lgamma(2.0 * order + 1) - 2 * std::lgamma(order + 1.0);
   return range / std::sqrt(8.0) * std::exp(order * std::log(each) - log_binomial / 2);
 }
 
-/// The lowest order in which the motion cancels beside the noise; 0: none does.
+/// Returns the lowest order in which the motion cancels beside the noise; 0: none does.
 int order_for(const NoiseSeries& series, const MotionSeen& motion) {
   const double frames = motion.frames_per_period(series.interval);
   if (std::isinf(frames)) return lowest_order;
@@ -129,8 +131,8 @@ int order_for(const NoiseSeries& series, const MotionSeen& motion) {
   return 0;
 }
 
-/// The order whose differences are smallest, and their deviation: a bound of the noise where the motion does
-/// not cancel.
+/// Returns the order whose differences are smallest, and their deviation (m): a bound of the noise where the
+/// motion does not cancel.
 std::pair<int, double> smallest_differences(const NoiseSeries& series) {
   std::pair<int, double> best{lowest_order, nothing};
   for (int order = lowest_order; order <= highest_order; order += 2) {
@@ -145,8 +147,8 @@ double deviation_of(const NoiseSeries& series) {
                           : smallest_differences(series).second;
 }
 
-/// Frames whose neighbours lie more than two steps of rounding apart: their errors of rounding are new each
-/// time. All moving frames where these are too few.
+/// Marks frames whose neighbours lie more than two steps of rounding apart: their errors of rounding are new
+/// each time. Marks all moving frames where these are too few.
 std::vector<char> faster_than_rounding(const NoiseSeries& series, double step) {
   constexpr std::ptrdiff_t enough = 50;
   const std::vector<double>& x = *series.x;
@@ -156,8 +158,8 @@ std::vector<char> faster_than_rounding(const NoiseSeries& series, double step) {
   return std::count(fast.begin(), fast.end(), 1) > enough ? fast : series.moving;
 }
 
-/// Frames at rest tell the noise too, and more frames tell it better; but not where rounding hides it there,
-/// or where it is another while the box moves.
+/// Lets frames at rest tell the noise too, as more frames tell it better; but not where rounding hides it
+/// there, or where it is another while the box moves.
 void take_rest_in(NoiseSeries& series) {
   constexpr double differs = 0.05, error_of_one = 1.1;  // the error of n differences is 1.1 / sqrt(n), seen
   NoiseSeries whole = series;
@@ -169,7 +171,7 @@ void take_rest_in(NoiseSeries& series) {
   if (same && !(step_of(*series.x) > matters * all)) series.moving = std::move(whole.moving);
 }
 
-/// Whether the recorded times lie off an even grid, and positions fit to them rather than to the grid.
+/// Tells whether the recorded times lie off an even grid, and positions fit to them rather than to the grid.
 bool fits_the_clock(NoiseSeries series) {
   constexpr double uneven = 1e-3, better = 0.97;
   std::vector<double> off;
@@ -181,7 +183,7 @@ bool fits_the_clock(NoiseSeries series) {
   return deviation_of(series) < better * on_grid;
 }
 
-/// What differences keep of first-order noise of correlation r, in parts of its variance.
+/// Returns what differences keep of first-order noise of correlation r, in parts of its variance.
 double kept_variance(int order, double r) {
   const Eigen::VectorXd weights =
       difference_weights(Eigen::VectorXd::LinSpaced(order + 1, 0, static_cast<double>(order)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The noise of recorded positions, from the frames alone: its size from differences of neighbouring frames of
-// an order that cancels the motion, its colour from what a local polynomial leaves.
+// Finds the noise of recorded positions from the frames alone: its size from differences of neighbouring
+// frames of an order that cancels the motion, its colour from what a local polynomial leaves.
 #pragma once
 #include <array>
 #include <vector>
@@ -55,22 +55,23 @@ struct NoiseSeries {
   int order = 4;                 ///< of differences in which the motion cancels; 0: there is no such order
 };
 
-/// `time` and `x` must outlive it.
+/// Returns a series with what decides how its noise is told. `time` (s) and `x` (m) must outlive it;
+/// `interval`: s.
 NoiseSeries noise_series(const std::vector<double>& time, const std::vector<double>& x, double interval);
 
-/// Autocorrelations at lags 1 ... 5 of the noise that these series have in common.
+/// Returns the autocorrelations at lags 1 ... 5 of the noise that these series have in common.
 std::array<double, colour_lags> colour_of(const std::vector<NoiseSeries>& series);
 
 /// Sets the standard deviation of one frame's noise of this colour, its source, quantum and course over time.
 /// Where frames do not tell it, the declared one is taken, and without that the best bound.
 void set_deviation(const NoiseSeries& series, NoiseFound& noise);
 
-/// Standard deviation, m, if the noise were white; other estimates start from it. NaN: too few frames in a
-/// row.
+/// Returns the standard deviation, m, if the noise were white; other estimates start from it. NaN: too few
+/// frames in a row.
 double white_deviation(const NoiseSeries& series);
 
-/// The step in which numbers were recorded, m: the smallest gap between levels that repeats and of which
-/// nearly all others are multiples; 0 where there is none.
+/// Returns the step in which numbers were recorded, m: the smallest gap between levels that repeats and of
+/// which nearly all others are multiples; 0 where there is none.
 double step_of(const std::vector<double>& x);
 
 }  // namespace shakedown

@@ -17,8 +17,9 @@ constexpr double frames_for_colour = 40;
 constexpr std::size_t lags = 1 + colour_lags;
 using Autocovariance = std::array<double, lags>;
 
-/// What is left of a series when a local polynomial is taken out. Frames next to a landing, where it fails
-/// and the energy over one length of the filter exceeds `cut` times the usual one, are left out (NaN).
+/// Returns what is left of a series when a local polynomial is taken out, m. Frames next to a landing, where
+/// it fails and the energy over one length of the filter exceeds `cut` times the usual one, are left out
+/// (NaN).
 std::vector<double> rough_part(const NoiseSeries& series, const Eigen::VectorXd& filter, double cut) {
   const std::vector<double>& x = *series.x;
   const std::size_t half = static_cast<std::size_t>(filter.size() / 2);
@@ -45,8 +46,8 @@ std::vector<double> rough_part(const NoiseSeries& series, const Eigen::VectorXd&
   return rough;
 }
 
-/// The filter that takes a local polynomial out (of 40 ms, and of nine frames or what the order needs): 1 at
-/// the frame itself less the weights of the fit.
+/// Builds the filter that takes out a local polynomial (over 40 ms, and over nine frames or what the order
+/// needs): one at the frame itself, less the weights of the fit.
 Eigen::VectorXd roughness_filter(double interval, int order) {
   const int half = std::max({4, order / 2 + 2, static_cast<int>(std::lround(0.02 / interval))}),
             n = 2 * half + 1;
@@ -67,7 +68,8 @@ void add_autocovariance(const std::vector<double>& rough, Autocovariance& sum, A
         sum[lag] += rough[i] * rough[i + lag], ++count[lag];
 }
 
-/// Autocovariance, at a lag, of the rough part of first-order noise of correlation r and unit variance.
+/// Computes the autocovariance, at a lag, of the rough part of first-order noise of correlation r and unit
+/// variance.
 class RoughNoise {
  public:
   explicit RoughNoise(const Eigen::VectorXd& filter)
@@ -75,7 +77,7 @@ class RoughNoise {
     for (Eigen::Index i = 0; i < length_; ++i)
       for (Eigen::Index j = 0; j < length_; ++j) own_[i - j + length_ - 1] += filter[i] * filter[j];
   }
-  /// r to the power of each number of frames that a lag and the filter span.
+  /// Returns r to the power of each number of frames that a lag and the filter span.
   Eigen::VectorXd powers(double r) const {
     Eigen::VectorXd all(length_ + std::max(length_, static_cast<Eigen::Index>(lags)));
     for (Eigen::Index k = 0; k < all.size(); ++k) all[k] = std::pow(r, static_cast<double>(k));
@@ -87,8 +89,8 @@ class RoughNoise {
       value += own_[d] * powers_of_r[std::abs(lag + d - (length_ - 1))];
     return value;
   }
-  /// Energy over one length of the filter, four standard deviations above the mean, relative to the mean.
-  /// Cutting lower would take the colour away with the landings.
+  /// Returns the energy over one length of the filter that lies four standard deviations above the mean,
+  /// relative to the mean. Cutting lower would take the colour away with the landings.
   double energy_cut(double r) const {
     const Eigen::VectorXd powers_of_r = powers(r);
     const double variance = autocovariance(powers_of_r, 0), n = static_cast<double>(length_);
@@ -105,8 +107,8 @@ class RoughNoise {
   Eigen::VectorXd own_;  // the filter's autocorrelation at offsets 1 - length ... length - 1
 };
 
-/// The r of first-order noise, r_k = r^k, whose rough part has the autocovariance that was measured; 0 where
-/// it is within the error.
+/// Returns the r of first-order noise, r_k = r^k, whose rough part has the autocovariance that was measured;
+/// 0 where it is within the error.
 double correlation_of(const Autocovariance& sum, const Autocovariance& count, const RoughNoise& rough) {
   if (!(count[0] > 200) || !(sum[0] > 0)) return 0;
   const auto misfit = [&](double r) {

@@ -6,10 +6,10 @@
 
 namespace shakedown {
 
-/// What stands where there is no number.
+/// Stands where there is no number.
 inline constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// The values that are numbers, in order.
+/// Returns the values that are finite, in order.
 inline std::vector<double> finite_of(const std::vector<double>& values) {
   std::vector<double> kept;
   for (const double value : values)

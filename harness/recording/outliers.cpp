@@ -21,7 +21,7 @@ class OutlierJudge {
   OutlierJudge(const std::vector<double>& time, const std::vector<double>& x, double deviation)
       : time_(&time), deviation_(deviation), acceleration_(typical_acceleration(time, x)) {}
 
-  /// Smallest misfit in units of its own standard deviation; `kept` are the frames to judge by.
+  /// Returns the smallest misfit in units of its own standard deviation; `kept` are the frames to judge by.
   double misfit(const std::vector<double>& kept, std::size_t i, double value) const {
     std::array<std::size_t, 2> left{}, right{};
     const int lefts = neighbours_to(kept, i, -1, left), rights = neighbours_to(kept, i, +1, right);
@@ -60,7 +60,8 @@ class OutlierJudge {
     return count;
   }
 
-  /// Three times the usual acceleration while the box moves, from 2nd differences over 20 ms.
+  /// Returns three times the usual acceleration while the box moves, m/s^2, from second differences over 20
+  /// ms.
   static double typical_acceleration(const std::vector<double>& time, const std::vector<double>& x) {
     const double interval = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
     const std::size_t step = std::max<std::size_t>(1, static_cast<std::size_t>(0.02 / interval));
@@ -77,10 +78,10 @@ class OutlierJudge {
   }
 };
 
-/// Robust line through up to six kept frames on one side (step -1 or +1) or three on each (0): the median of
-/// all slopes (Theil, Sen), which two wrong frames of six do not move. Returns by how much `value` at frame i
-/// misses it less what an acceleration bends, m, divided by how many times more than a frame that scatters;
-/// 0 where there are too few frames.
+/// Draws a robust line through up to six kept frames on one side (step -1 or +1) or three on each (0): the
+/// median of all slopes (Theil, Sen), which two wrong frames of six do not move. Returns by how much `value`
+/// at frame i misses it less what an acceleration bends, m, divided by how many times more than a frame that
+/// scatters; 0 where there are too few frames.
 double misfit_to_robust_line(const std::vector<double>& time, const std::vector<double>& kept, std::size_t i,
                              int step, double value, double acceleration) {
   constexpr int wanted = 6;
@@ -115,8 +116,8 @@ double misfit_to_robust_line(const std::vector<double>& time, const std::vector<
   return std::max(0.0, std::abs(median(offsets)) - acceleration * reach * reach / 2) / std::sqrt(variance);
 }
 
-/// Distance from the local cubic through the frames kept within 20 ms (at least 5 frames) on either side, the
-/// frame itself left out, in units of its standard deviation; 0 where there are too few.
+/// Returns the distance from the local cubic through the frames kept within 20 ms (at least 5 frames) on
+/// either side, the frame itself left out, in units of its standard deviation; 0 where there are too few.
 double misfit_to_cubic(const std::vector<double>& time, const std::vector<double>& kept, std::size_t i,
                        double value, double deviation, double interval) {
   const auto half = static_cast<std::ptrdiff_t>(std::max(5.0, std::round(0.02 / interval)));
@@ -141,8 +142,9 @@ double misfit_to_cubic(const std::vector<double>& time, const std::vector<double
   return std::abs(at_centre.dot(right)) / (deviation * std::sqrt(1 + at_centre[0]));
 }
 
-/// How many times as far as normal noise frames of this series usually lie off, by the nine tenths that lie
-/// nearest; at least 1. Noise of another kind has wide wings everywhere: a wrong frame stands out from them.
+/// Returns how many times as far as normal noise frames of this series usually lie off, by the nine tenths
+/// that lie nearest; at least 1. Noise of another kind has wide wings everywhere: a wrong frame stands out
+/// from them.
 double wings_of(std::vector<double> misfits) {
   constexpr double share = 0.9, of_a_normal = 1.645;
   if (misfits.empty()) return 1;

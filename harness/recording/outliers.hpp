@@ -4,8 +4,8 @@
 
 namespace shakedown {
 
-/// Frames of x (m, NaN where missing) that no neighbour supports become missing; returns the series without
-/// them. `interval` s between frames, `deviation` m of one frame's noise.
+/// Returns x (m, NaN where missing) without the frames that no neighbour supports: they become missing.
+/// `interval`: s between frames; `deviation`: m, of one frame's noise.
 std::vector<double> without_outliers(const std::vector<double>& time, const std::vector<double>& x,
                                      double interval, double deviation);
 

@@ -29,12 +29,12 @@ Level level_of(const std::vector<double>& x, std::size_t first, std::size_t end,
   for (std::size_t i = first; i < end; ++i)
     if (std::isfinite(x[i])) kept.push_back(x[i]);
   if (kept.empty()) return {};
-  // Medians scatter by sqrt(pi / 2) more than means.
+  // Medians scatter sqrt(pi / 2) times as much as means.
   const auto frames = static_cast<double>(kept.size());
   return {median(kept), deviation * std::sqrt(std::numbers::pi / 2 / frames), frames};
 }
 
-/// The first of three frames in a row that are surely off the level.
+/// Returns the first of three frames in a row that are surely off the level; x.size() where there are none.
 std::size_t leaves(const std::vector<double>& x, const Level& level, double sure) {
   int row = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -45,7 +45,8 @@ std::size_t leaves(const std::vector<double>& x, const Level& level, double sure
   return x.size();
 }
 
-/// Where sqrt|x - level| = 0 on a line through the first tenth of the range: x - level = a (t - start)^2 / 2.
+/// Sets the start to where sqrt|x - level| = 0 on a line through the first tenth of the range, as x - level =
+/// a (t - start)^2 / 2.
 void extrapolate_start(const std::vector<double>& time, const std::vector<double>& x, std::size_t first,
                        const Level& level, double range, ReleaseFound& found) {
   std::vector<double> t, root;
@@ -67,7 +68,7 @@ void extrapolate_start(const std::vector<double>& time, const std::vector<double
   found.start_error = (values - columns * line).norm() / std::sqrt(static_cast<double>(rows)) / line[1];
 }
 
-/// Whether the box rests before it moves; sets what that tells.
+/// Tells whether the box rests before it moves, and sets what that tells.
 bool find_lead_in(const std::vector<double>& time, const std::vector<double>& x, const MotionSeen& motion,
                   double interval, double deviation, ReleaseFound& found) {
   constexpr double least_periods = 0.05;  // a box near a turning point seems to rest so long
@@ -96,8 +97,8 @@ bool find_lead_in(const std::vector<double>& time, const std::vector<double>& x,
   return true;
 }
 
-/// x = d + v t - a t^2 / 2 over the first moments; with few frames d + v sin(w t) / w + a (cos(w t) - 1) /
-/// w^2 over a third of a period.
+/// Fits x = d + v t - a t^2 / 2 to the first moments; with few frames d + v sin(w t) / w + a (cos(w t) - 1) /
+/// w^2 to a third of a period.
 void fit_start(const std::vector<double>& time, const std::vector<double>& x, const MotionSeen& motion,
                double deviation, ReleaseFound& found) {
   const auto frames_until = [&](double end) {
@@ -137,8 +138,8 @@ void fit_start(const std::vector<double>& time, const std::vector<double>& x, co
   found.time_error = found.velocity_error / std::abs(fit[2]);
 }
 
-/// Of three turns in a row the middle of their swings is (first + 2 second + third) / 4, whatever is lost
-/// between them evenly.
+/// Finds the middle of the swings: of three turns in a row it is (first + 2 second + third) / 4, whatever is
+/// lost between them evenly.
 void find_centre(const MotionSeen& motion, ReleaseFound& found) {
   std::vector<double> middles;
   for (std::size_t i = 0; i + 2 < motion.turns.size(); ++i)

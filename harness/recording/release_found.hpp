@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a recorded run begins and about which place it swings, from its frames alone.
+// Finds from its frames alone how a recorded run begins and about which place it swings.
 #pragma once
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace shakedown {
 
-/// NaN: the frames do not tell.
+/// How a run begins. NaN: the frames do not tell.
 struct ReleaseFound {
   double start = 0, start_error = 0;  ///< s, from when on the box moves; the first frame if it moves there
   double lead_in = 0;                 ///< s, that it rests before; 0: the record begins in the motion
@@ -18,7 +18,8 @@ struct ReleaseFound {
   double rest = 0, rest_error = 0;                  ///< m, where the box rests in the end
 };
 
-/// `x`: m, NaN where missing, without wrong frames; `deviation`: m, of one frame's noise.
+/// Finds the release. `x`: m, NaN where missing, without wrong frames; `interval`: s; `deviation`: m, of one
+/// frame's noise.
 ReleaseFound release_found(const std::vector<double>& time, const std::vector<double>& x,
                            const MotionSeen& motion, double interval, double deviation);
 

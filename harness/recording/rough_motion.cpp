@@ -25,13 +25,13 @@ std::vector<Point> points_of(const std::vector<double>& time, const std::vector<
   return points;
 }
 
-double typical_interval(const std::vector<Point>& points) {
-  std::vector<double> intervals;
-  for (std::size_t i = 1; i < points.size(); ++i) intervals.push_back(points[i].time - points[i - 1].time);
-  return median(intervals);
+double interval_of(const std::vector<Point>& points) {
+  std::vector<double> time;
+  for (const Point& point : points) time.push_back(point.time);
+  return typical_interval(time);
 }
 
-/// Between the 1 % and 99 % quantiles, which a few wrong frames do not move.
+/// Returns the distance between the 1 % and 99 % quantiles, which a few wrong frames do not move, m.
 double range_of_points(const std::vector<Point>& points) {
   std::vector<double> values;
   for (const Point& point : points) values.push_back(point.x);
@@ -39,7 +39,7 @@ double range_of_points(const std::vector<Point>& points) {
   return values[values.size() * 99 / 100] - values[values.size() / 100];
 }
 
-/// Where the motion turns back by more than `least`.
+/// Returns the points at which the motion turns back by more than `least`, m.
 std::vector<Point> turning_points(const std::vector<Point>& points, double least) {
   std::vector<Point> turns;
   Point high = points.front(), low = points.front();
@@ -81,14 +81,15 @@ double noise_of_points(const std::vector<Point>& points) {
   return differences.empty() ? nothing : robust_deviation(differences) / std::sqrt(6.0);
 }
 
-/// That of the whole is better known, where both are of one swing.
+/// Prefers the frequency of the whole run, which is better known, unless the first swing has another.
 double frequency_at_start(const RoughMotion& motion) {
   constexpr double another = 1.5;  // times: grains that come along change it by less
   const double ratio = motion.first_frequency / motion.frequency;
   return ratio > another || ratio < 1 / another ? motion.first_frequency : motion.frequency;
 }
 
-/// Least squares x = a + b t + c t^2 over the first twelfth of a swing: what speed the first frame has.
+/// Finds the speed of the first frame from a least-squares x = a + b t + c t^2 over the first twelfth of a
+/// swing.
 void set_delay(const std::vector<Point>& points, RoughMotion& motion) {
   const double omega = 2 * std::numbers::pi * frequency_at_start(motion);
   const double begin = points.front().time;
@@ -111,8 +112,8 @@ void set_delay(const std::vector<Point>& points, RoughMotion& motion) {
   motion.delay_error = motion.noise * std::sqrt(inverse(1, 1)) / (std::abs(fit[0]) * omega);
 }
 
-/// Until the position has left the mean of the frames before by five standard deviations, less the time that
-/// a swing from rest takes for that.
+/// Returns the time until the position has left the mean of the frames before by five standard deviations,
+/// less the time that a swing from rest takes for that, s.
 double lead_in_of(const std::vector<Point>& points, double interval, const RoughMotion& motion) {
   constexpr double frames_needed = 50;  // a period: with fewer the first ones differ by motion, not by noise
   const double frequency = frequency_at_start(motion);
@@ -157,7 +158,7 @@ RoughMotion rough_motion(const std::vector<double>& time, const std::vector<doub
   RoughMotion motion{nothing, nothing, nothing, nothing, nothing, nothing, 0, nothing, nothing, 0, nothing};
   const std::vector<Point> points = points_of(time, x);
   if (points.size() < 5) return motion;
-  const double interval = typical_interval(points);
+  const double interval = interval_of(points);
   motion.unbroken = unbroken_share(points, interval);
   motion.noise = noise_of_points(points);
   motion.first = (points[0].x + points[1].x + points[2].x) / 3;
@@ -176,7 +177,7 @@ double distance_from_sine(const std::vector<double>& time, const std::vector<dou
   const std::vector<Point> points = points_of(time, x);
   if (points.size() < 5 || !std::isfinite(frequency)) return nothing;
   const double sixth = 1 / (6 * frequency);
-  const auto shift = static_cast<std::size_t>(std::lround(sixth / typical_interval(points)));
+  const auto shift = static_cast<std::size_t>(std::lround(sixth / interval_of(points)));
   if (shift < 2) return nothing;
   double residual = 0, square = 0;
   for (std::size_t i = shift; i + shift < points.size(); ++i) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The motion of one recording in rough numbers, from positions alone: no model, no unit is trusted.
+// Describes the motion of one recording in rough numbers, from positions alone: no model and no unit is
+// trusted.
 #pragma once
 #include <vector>
 
 namespace shakedown {
 
-/// NaN where the recording is too short or too poor to tell.
+/// Rough numbers of a motion; NaN where the recording is too short or too poor to tell.
 struct RoughMotion {
   double frequency;     ///< Hz, from the turning points
   double amplitude;     ///< m, of the first half swing
@@ -22,11 +23,11 @@ struct RoughMotion {
   double first_frequency;
 };
 
-/// Time s (increasing), position m (NaN where missing).
+/// Finds them. `time`: s, increasing; `x`: m, NaN where missing.
 RoughMotion rough_motion(const std::vector<double>& time, const std::vector<double>& x);
 
-/// How far a position is from swinging like a spring's: rms of x(t - T/6) + x(t + T/6) - x(t) by the rms of
-/// x, both about `centre`; 0 for a sine of that frequency (Hz), NaN when it cannot be told.
+/// Returns how far a position is from swinging like a spring's: rms of x(t - T/6) + x(t + T/6) - x(t) by the
+/// rms of x, both about `centre`; 0 for a sine of that frequency (Hz), NaN when it cannot be told.
 double distance_from_sine(const std::vector<double>& time, const std::vector<double>& x, double frequency,
                           double centre);
 

@@ -16,13 +16,13 @@ constexpr double block_time = 0.04;  // s, whose means hold what is below 25 Hz
 constexpr std::size_t fewest_blocks = 20;
 constexpr double seen_at = 4;  // standard errors
 
-/// Means of blocks of one stretch, less their mean and what still swings.
+/// The means of the blocks of one stretch, m, less their mean and what still swings.
 struct Blocks {
   Eigen::ArrayXd mean;
   double length = 0;  ///< s
 };
 
-/// The values without their mean and a slowly changing swing of this angular frequency.
+/// Returns the values without their mean and a slowly changing swing of this angular frequency.
 Eigen::VectorXd without_swing(const Eigen::ArrayXd& time, const Eigen::VectorXd& values, double frequency) {
   Eigen::MatrixXd columns(time.size(), 5);
   const Eigen::ArrayXd late = (time - time[0]) / (time[time.size() - 1] - time[0]);
@@ -71,7 +71,7 @@ Blocks blocks_of(const std::vector<double>& time, const std::vector<double>& x, 
   return blocks;
 }
 
-/// Autocovariances of the blocks up to a third of the shortest stretch, all stretches together.
+/// The autocovariances of the blocks up to a third of the shortest stretch, all stretches together.
 struct Autocovariances {
   std::vector<double> at;  ///< m^2
   std::vector<double> pairs;
@@ -91,7 +91,7 @@ Autocovariances autocovariances(const std::vector<Blocks>& stretches) {
   return found;
 }
 
-/// Autocovariance of unit wander at each lag, less what taking the mean of a stretch out of it takes.
+/// Returns the autocovariance of unit wander at each lag, less what is lost with the mean of a stretch.
 std::vector<double> unit_wander(const Autocovariances& found, const std::vector<Blocks>& stretches,
                                 double time) {
   const auto at = [&](double blocks) { return std::exp(-blocks * stretches.front().length / time); };
@@ -134,7 +134,7 @@ Wander wander_at_rest(const std::vector<double>& time, const std::vector<double>
   }
   if (stretches.empty()) return {unknown, unknown};
   const Autocovariances found = autocovariances(stretches);
-  // How likely white blocks make the first lags so large.
+  // White blocks rarely make the first lags so large.
   const double error = found.at[0] / std::sqrt(found.pairs[0]);
   const double first_three = (found.at[1] + found.at[2] + found.at[3]) / std::sqrt(3.0);
   if (!(found.at[0] > 0) || first_three < seen_at * error) return {0, 0};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Slow error of a tracker, below what differences of neighbouring frames can see, from stretches at rest.
+// Finds the slow error of a tracker, below what differences of neighbouring frames can see, from stretches at
+// rest.
 #pragma once
 #include <vector>
 
@@ -18,11 +19,12 @@ struct RestStretch {
   std::size_t first = 0, end = 0;
 };
 
-/// Where the box rests before it starts and after it has stopped: its excursion stays within `still`, m.
+/// Returns the stretches in which the box rests before it starts and after it has stopped: its excursion
+/// stays within `still`, m. None where it never moves.
 std::vector<RestStretch> rests_of(const MotionSeen& motion, double still);
 
-/// From these stretches of the series (m, NaN where missing). What still swings there with about this period,
-/// s (NaN: none), is no wander.
+/// Finds the wander in these stretches of the series (m, NaN where missing; time in s). What still swings
+/// there with about this period, s (NaN: none), is no wander.
 Wander wander_at_rest(const std::vector<double>& time, const std::vector<double>& x,
                       const std::vector<RestStretch>& rests, double period);
 

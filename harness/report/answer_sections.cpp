@@ -74,7 +74,7 @@ ReportSection probabilities(const Diagnosis& d) {
   return section;
 }
 
-/// NaN where the setup has no such value.
+/// Returns the value of a key, SI; NaN where the setup has no such value.
 double value_in(const Setup& setup, const std::string& key) {
   if (find_setup_key(key) == nullptr && find_choice(setup, effect_of(key)) == nullptr) return std::nan("");
   try {

@@ -6,7 +6,7 @@ namespace shakedown {
 
 struct BounceReading;
 
-/// The page about drops: restitution against speed with its band, laws, outliers, sounds.
+/// Makes the page about drops: restitution against speed with its band, laws, outliers, sounds.
 Report report_of(const BounceReading& reading);
 
 }  // namespace shakedown

@@ -5,55 +5,15 @@
 
 #include <cmath>
 
-#include "diagnose_report.hpp"
+#include "measured_sections.hpp"
 #include "page_figures.hpp"
 #include "report_parts.hpp"
 
 namespace shakedown {
 
-ReportSection errors_section(const std::string& title, const std::vector<RunComparison>& runs) {
-  ReportSection section;
-  section.title = title;
-  ReportBars bars{"",   "rms of measured less mean of the model.",
-                  "mm", {"box", "what noise and run-to-run spread make"},
-                  {},   std::nan(""),
-                  ""};
-  MoreColumn centre{"centre of the grains, mm", {}}, spread{"its noise and spread, mm", {}};
-  for (const RunComparison& run : runs) {
-    bars.lines.push_back({run.run,
-                          fmt::format("{} times the floor", for_people(run.error_box / run.floor_box)),
-                          {run.error_box * 1e3, run.floor_box * 1e3}});
-    centre.cells.push_back(run.floor_centre > 0 ? for_people(run.error_centre * 1e3) : "–");
-    spread.cells.push_back(run.floor_centre > 0 ? for_people(run.floor_centre * 1e3) : "–");
-  }
-  section.bars = {bars};
-  section.tables = {numbers_of(bars, "run", {centre, spread})};
-  return section;
-}
-
-ReportTable validation_table(const std::vector<Validation>& rows) {
-  ReportTable table{"Comparison error and its uncertainty (ASME V&V 20), mm",
-                    "E: simulation less data; u_num: run-to-run scatter and codes of one physics; u_input: "
-                    "parameters, release and clock; u_D: camera; u_val: all three. The model's error lies "
-                    "within E +- u_val.",
-                    {"run", "observable", "E", "u_num", "u_input", "u_D", "u_val", "error of the model"},
-                    {},
-                    false};
-  for (const Validation& row : rows) {
-    const double left = row.model_error() * 1e3;
-    table.rows.push_back({row.run, row.observable, for_people(row.error * 1e3),
-                          for_people(row.numerical * 1e3), for_people(row.input * 1e3),
-                          for_people(row.data * 1e3), for_people(row.uncertainty() * 1e3),
-                          !std::isfinite(left) ? "could not be computed"
-                          : left == 0          ? "within u_val"
-                                               : "about " + for_people(left)});
-  }
-  return table;
-}
-
 namespace {
 
-/// What the layer does at each landing, a run at a time.
+/// Shows what the layer does at each landing, a run at a time.
 ReportSection landings_section(const std::vector<DecayComparison>& decays) {
   ReportSection section;
   section.title = "Landings of the layer";

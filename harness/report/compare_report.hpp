@@ -4,7 +4,7 @@
 #include "judgement.hpp"
 #include "measured_against_model.hpp"
 #include "momentum.hpp"
-#include "refit.hpp"
+#include "refit_result.hpp"
 #include "report.hpp"
 #include "validation.hpp"
 
@@ -22,11 +22,5 @@ struct ComparedModel {
 /// `knobs`: what the reader may turn.
 Report report_of(const ComparedModel& found, const Measurement& measurement, const Setup& setup,
                  const std::vector<MeasuredAgainstModel>& curves, ReportKnobs knobs = {});
-
-/// E, u_num, u_input, u_D and u_val of each observable of each run.
-ReportTable validation_table(const std::vector<Validation>& rows);
-
-/// Error of each run as bars beside what noise and spread make, mm.
-ReportSection errors_section(const std::string& title, const std::vector<RunComparison>& runs);
 
 }  // namespace shakedown

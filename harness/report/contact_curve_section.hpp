@@ -5,8 +5,8 @@
 
 namespace shakedown {
 
-/// A coefficient of the contacts against its speed, of no assumed form, a plot of grains and one of walls
-/// with their bands.
+/// Shows a coefficient of the contacts against its speed, of no assumed form: a plot of grains and one of
+/// walls with their bands.
 ReportSection contact_curve_section(const ContactCurve& curve);
 
 }  // namespace shakedown

@@ -5,7 +5,7 @@
 
 namespace shakedown {
 
-/// Engines side by side, a section a setup.
+/// Makes the report of engines side by side, a section a setup.
 Report report_of(const std::vector<Crosscheck>& crosschecks, const Setup& last_setup);
 
 }  // namespace shakedown

@@ -80,7 +80,7 @@ ReportPlot residual_plot(const MeasuredAgainstModel& run) {
   return plot;
 }
 
-/// Measured less model: what the eye cannot see beside a swing of 100 mm.
+/// Plots measured less model, which the eye cannot see beside a swing of 100 mm.
 ReportPlot error_plot(const MeasuredAgainstModel& run, const ShownMotion& of) {
   ReportPlot plot = time_plot(fmt::format("Error of the {}", of.name), "error, mm", run.run, run.time);
   plot.caption = "Measured less mean of the model.";
@@ -105,7 +105,8 @@ double rms(const std::vector<double>& values) {
   return n > 0 ? std::sqrt(sum / n) : std::nan("");
 }
 
-/// Where in its swing the box is, rad from its outer turning point; from the model's mean, that has no noise.
+/// Returns where in its swing the box is, rad from its outer turning point, by the model's mean, which has no
+/// noise.
 double phase_at(const MeasuredAgainstModel& run, std::size_t i) {
   const std::vector<double>& x = run.final_model.box.mean;
   if (i == 0 || i + 1 >= x.size()) return std::nan("");
@@ -113,7 +114,7 @@ double phase_at(const MeasuredAgainstModel& run, std::size_t i) {
   return std::atan2(-speed / (2 * std::numbers::pi * run.amended.spring.frequency), x[i]);
 }
 
-/// Largest |x| of the model's mean within half a period.
+/// Returns the largest |x| of the model's mean within half a period to either side, m.
 double amplitude_at(const MeasuredAgainstModel& run, std::size_t i) {
   const double reach = 0.5 / run.amended.spring.frequency;
   double top = 0;
@@ -124,7 +125,7 @@ double amplitude_at(const MeasuredAgainstModel& run, std::size_t i) {
   return top;
 }
 
-/// rms residual of the box in bins of some number of each moment.
+/// Makes bars of the rms residual of the box in bins of some number of each moment.
 template <class Number>
 ReportBars residual_by(const std::vector<MeasuredAgainstModel>& runs,
                        const std::vector<std::pair<double, std::string>>& upper, Number&& number) {

@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "answer_sections.hpp"
-#include "compare_report.hpp"
 #include "contact_curve_section.hpp"
 #include "effects.hpp"
 #include "known_effects.hpp"
+#include "measured_sections.hpp"
 #include "noise_section.hpp"
 #include "page_figures.hpp"
 #include "report_parts.hpp"
@@ -107,7 +107,7 @@ ReportSection ladder_section(const Diagnosis& diagnosis) {
   return section;
 }
 
-/// The first sentence that says what an effect is.
+/// Returns the sentence that says what an effect is; empty for a name of none.
 std::string sentence_of(const std::string& effect) {
   const EffectRecord* record = find_effect(effect);
   return record == nullptr ? "" : std::string(record->sentence);
@@ -202,54 +202,6 @@ ReportSection failing_cells(const Diagnosis& diagnosis, ReportSection section) {
 }
 
 }  // namespace
-
-ReportSection momentum_section(const MomentumAudit& momentum) {
-  ReportSection section;
-  section.title = "Forces from outside";
-  if (!momentum.possible) {
-    section.paragraphs = {"The momentum balance needs a run with both positions measured. " +
-                          momentum.why_not};
-    return section;
-  }
-  if (!std::isfinite(momentum.as_given.p_value) && !std::isfinite(momentum.final_fit.p_value))
-    section.paragraphs = {"The balance of momentum gave no p-value."};
-  else
-    section.paragraphs = {fmt::format(
-        "Whatever happens in the contacts, box and grains together obey one balance of momentum; "
-        "no simulation is needed. As given it closes with "
-        "chi squared {} a degree of freedom (p = {}), with the terms below {} (p = {}).",
-        for_people(momentum.as_given.chi2_per_degree()), for_people(momentum.as_given.p_value),
-        for_people(momentum.final_fit.chi2_per_degree()), for_people(momentum.final_fit.p_value))};
-  for (const FoundTerm& term : momentum.terms)
-    section.intervals.push_back(
-        {term.effect + "." + term.parameter, term.unit, "", term.value, term.low, term.high, std::nan("")});
-  for (std::size_t i = 0; i < momentum.curves.size() && i < 2; ++i) {
-    const ForceCurve& curve = momentum.curves[i];
-    ReportPlot plot;
-    plot.title = "The force that is left";
-    plot.caption = "No form assumed. Band: two standard errors.";
-    plot.x_label = argument_of(curve.of);
-    plot.y_label = value_of(curve.of);
-    plot.x = curve.argument;
-    std::vector<double> low, high;
-    for (std::size_t k = 0; k < curve.value.size(); ++k)
-      low.push_back(curve.value[k] - 2 * curve.error[k]), high.push_back(curve.value[k] + 2 * curve.error[k]);
-    plot.curves = band("two standard errors", low, high);
-    plot.curves.push_back({"force", CurveRole::model, curve.value});
-    section.plots.push_back(plot);
-  }
-  ReportTable runs{"By run",
-                   "",
-                   {"run", "chi squared a degree of freedom", "force that the model lacks, mN rms",
-                    "noise of one window, mN"},
-                   {},
-                   false};
-  for (const RunBalance& run : momentum.runs)
-    runs.rows.push_back({run.run, for_people(run.as_given.chi2_per_degree()),
-                         for_people(run.missing_force * 1e3), for_people(run.missing_force_noise * 1e3)});
-  section.tables = {runs};
-  return section;
-}
 
 Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, const Setup& given,
                  const std::vector<MeasuredAgainstModel>& curves, ReportKnobs knobs) {

@@ -6,13 +6,10 @@
 
 namespace shakedown {
 
-/// The report of a diagnosis. `given`: the setup as the user had it. The curves must come from
+/// Makes the report of a diagnosis. `given`: the setup as the user had it. The curves must come from
 /// measured_against_model() with the setup as given and Diagnosis::amended; `knobs`: what the reader may
 /// turn.
 Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, const Setup& given,
                  const std::vector<MeasuredAgainstModel>& curves, ReportKnobs knobs = {});
-
-/// Sections of the momentum balance: forces that the model lacks, and their curves.
-ReportSection momentum_section(const MomentumAudit& momentum);
 
 }  // namespace shakedown

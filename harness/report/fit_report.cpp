@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "compare_report.hpp"
 #include "contact_curve_section.hpp"
+#include "measured_sections.hpp"
 #include "page_figures.hpp"
 #include "quantity.hpp"
 #include "report_parts.hpp"

@@ -28,7 +28,7 @@ ReportKnobs::Number number_of(const TurnedNumber& turned) {
   return number;
 }
 
-/// Each effect that a number is of, with all its numbers, as `setup` or the defaults have them.
+/// Returns each effect that a number is of, with all its numbers, as `setup` or the defaults have them.
 std::vector<EffectChoice> choices_of(const std::vector<TurnedNumber>& numbers, Setup setup) {
   std::vector<EffectChoice> choices;
   for (const TurnedNumber& number : numbers) {
@@ -52,7 +52,7 @@ std::vector<double> values_in_mm(const std::vector<double>& metres) {
   return mm;
 }
 
-/// Curves of one run in the order of curves_of().
+/// Returns the runs with their curves in the order of curves_of().
 std::vector<ReportKnobs::Run> runs_of(const LastFit& fit) {
   std::vector<ReportKnobs::Run> runs;
   for (const FittedCurve& curve : curves_of(fit)) {
@@ -86,7 +86,7 @@ std::vector<std::vector<double>> rows_of(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
-/// The rows of the columns that a curve of the run has, mm.
+/// Adds to each curve of the run its rows of the columns, mm.
 void add_columns(const MeasuredFeatures& measured, const Eigen::MatrixXd& columns, ReportKnobs::Run& run) {
   for (ReportKnobs::Curve& curve : run.curves) {
     curve.columns.resize(static_cast<std::size_t>(columns.cols()));

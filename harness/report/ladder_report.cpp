@@ -44,7 +44,7 @@ ReportSection errors_section(const std::vector<Rung>& rungs, bool refitted) {
   return section;
 }
 
-/// Rows: rungs; columns: runs.
+/// Makes the table of errors: a row a rung, a column a run.
 ReportTable by_run(const std::vector<Rung>& rungs) {
   ReportTable table{"Error of the box by run, mm",
                     "In brackets: what noise and run-to-run spread make.",

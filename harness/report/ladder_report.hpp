@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "momentum.hpp"
-#include "refit.hpp"
+#include "refit_result.hpp"
 #include "report.hpp"
 
 namespace shakedown {
@@ -15,6 +15,7 @@ struct Rung {
   Refit fit;
   MomentumAudit momentum;
   std::optional<ModelJudgement> by_waveform{};  ///< of boxes without grains
+  /// Returns the judgement by the waveform where there is one, else by ensembles and momentum balance.
   ModelJudgement judgement() const {
     return by_waveform ? *by_waveform
                        : judgement_of(fit.test(), momentum.test_of(momentum.as_given), fit.left());
@@ -22,7 +23,7 @@ struct Rung {
   bool holds() const { return judgement().holds(); }
 };
 
-/// The report of a ladder; `last`: the last rung's setup.
+/// Makes the report of a ladder; `last`: the last rung's setup.
 Report report_of(const std::vector<Rung>& rungs, bool refitted, const Measurement& measurement,
                  const Setup& last);
 

@@ -17,7 +17,7 @@ namespace shakedown {
 
 namespace {
 
-/// One number of an ensemble at each moment.
+/// Mean and spread of one number of an ensemble at each moment.
 struct CurveStatistics {
   std::vector<RunningStatistic> at;
   explicit CurveStatistics(std::size_t size) : at(size) {}
@@ -32,7 +32,7 @@ struct CurveStatistics {
   }
 };
 
-/// `begin`: s, time at which the model is let go.
+/// Simulates one ensemble at these times, s. `begin`: s, time at which the model is let go.
 ModelMotion motion_of(Setup setup, const std::vector<double>& time, double begin, const Engine& engine,
                       const CurveOptions& options) {
   setup.run.duration = std::max(0.1, time.back() - begin + 0.1);
@@ -78,9 +78,9 @@ std::vector<double> residual(const std::vector<double>& measured, const Ensemble
   return result;
 }
 
-/// What is drawn of a run: the frames next to moments of equal distance, at their own times, for a box that
-/// is fast goes far in half a frame. Where a frame is missing the moment stays, so that the model is drawn
-/// there.
+/// The frames of a run that are drawn: those next to moments of equal distance, at their own times, for a box
+/// that is fast goes far in half a frame. Where a frame is missing the moment stays, so that the model is
+/// drawn there.
 struct Moments {
   std::vector<double> time;                       ///< s
   std::vector<std::optional<std::size_t>> frame;  ///< of the run

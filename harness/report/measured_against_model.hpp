@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Curves for the eye: each measured run beside ensembles of the model, at the same moments.
+// Makes curves for the eye: each measured run beside ensembles of the model, at the same moments.
 #pragma once
 #include <atomic>
 #include <functional>
@@ -55,18 +55,24 @@ struct CurveOptions {
   bool from_first_frame = false;  ///< models begin at the first frame and not at time 0
 };
 
-/// `given` may be null: only the final model is simulated. Throws what engines throw, and Interrupted.
+/// Simulates the ensembles and puts each measured run beside them. `given` may be null: only the final model
+/// is simulated. Throws what engines throw, and Interrupted.
 std::vector<MeasuredAgainstModel> measured_against_model(const Measurement& measurement, const Setup* given,
                                                          const Setup& final_setup, const Engine& engine,
                                                          const CurveOptions& options);
 
-/// The parts of a report that come from these curves.
+/// Makes the section of the curves themselves: of each run positions, errors (mm) and residuals (in expected
+/// spreads), of the box and, where measured, of the grains' centre.
 ReportSection curves_section(const std::vector<MeasuredAgainstModel>& runs, const std::string& title);
+/// Makes the section "Where it fails": rms residuals by time and run, by phase and by amplitude of the swing.
 ReportSection failure_section(const std::vector<MeasuredAgainstModel>& runs);
+/// Makes the section "Where the energy goes": means of the final model's runs, mJ over time.
 ReportSection energy_section(const std::vector<MeasuredAgainstModel>& runs);
+/// Returns lines on how well the engines kept their promises in the simulations drawn here, the worst of all.
 std::vector<std::string> health_lines(const std::vector<MeasuredAgainstModel>& runs);
 
-/// A replay of each measured run (the first `most`), simulated by the hard engine with the final setup.
+/// Makes a replay of each measured run with grains (among the first `most`), simulated by the hard engine
+/// with the final setup. `bytes`: of all replays together.
 std::vector<ReportReplay> replays_of(const std::vector<MeasuredAgainstModel>& runs, std::size_t most = 5,
                                      std::size_t bytes = 760'000);
 

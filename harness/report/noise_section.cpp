@@ -14,7 +14,7 @@ namespace shakedown {
 
 namespace {
 
-/// Without gaps; the ends that were not seen are cut off.
+/// Returns the positions with gaps filled; the ends that were not seen are cut off.
 std::vector<double> filled(const std::vector<double>& x) {
   const auto seen = [](double value) { return std::isfinite(value); };
   const auto first = std::find_if(x.begin(), x.end(), seen);
@@ -89,7 +89,7 @@ std::vector<double> density_in_mm(std::vector<double> values) {
   return values;
 }
 
-/// A line that steps where one part of the record ends; nothing where frames are too few for parts.
+/// Draws a line that steps where one part of the record ends; nothing where frames are too few for parts.
 ReportPlot over_time(const std::string& run, const NoiseFound& box, const NoiseFound& centre) {
   std::vector<double> time;
   for (const NoiseFound* noise : {&box, &centre})

@@ -7,7 +7,7 @@
 
 namespace shakedown {
 
-/// {"q": quantum, "d": [steps]}, null for a gap (packed_numbers.hpp).
+/// Returns {"q": quantum, "d": [steps]}, null for a gap (packed_numbers.hpp).
 nlohmann::ordered_json packed_json(const std::vector<double>& values, double parts = parts_of_a_screen);
 
 }  // namespace shakedown

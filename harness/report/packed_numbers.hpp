@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Numbers and motion as few bytes as a page needs.
+// Packs numbers into as few bytes as a page needs.
 #pragma once
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "report.hpp"
 
 namespace shakedown {
 
@@ -19,18 +17,14 @@ struct PackedNumbers {
       steps;  ///< nothing for a gap (NaN), over which the next one goes on
 };
 constexpr double parts_of_a_screen = 40000;
+/// Packs values; NaN becomes a gap.
 PackedNumbers packed(const std::vector<double>& values, double parts = parts_of_a_screen);
 
-/// Points of a replay in whole time and length units, columns of zigzag 7-bit numbers (page/replay.js reads
-/// them).
-struct PackedReplay {
-  std::string bytes;
-  double time_unit = 2e-6;    ///< s
-  double length_unit = 2e-6;  ///< m
-};
-PackedReplay packed(const ReportReplay& replay);
+/// Returns the value in whole units, 0 for NaN; held to +-2^61, so that the difference of any two fits 64
+/// bits.
+std::int64_t whole_steps(double value, double unit);
 
-/// A gzip stream of the bytes, and bytes as base64 text (RFC 4648).
+/// Return a gzip stream of the bytes, and bytes as base64 text (RFC 4648).
 std::string gzip(std::string_view bytes);
 std::string base64(std::string_view bytes);
 

@@ -33,7 +33,7 @@ std::string bare_table(const std::vector<std::string>& columns,
 
 std::string percent(double fraction) { return fmt::format("{:.2f}%", 100 * std::clamp(fraction, 0.0, 1.0)); }
 
-/// Length of the longest bar with its error, in the values' unit.
+/// Returns the length of the longest bar with its error, in the values' unit.
 double longest(const ReportBars& bars) {
   double top = std::isfinite(bars.floor) ? bars.floor : 0;
   for (const ReportBars::Line& line : bars.lines)

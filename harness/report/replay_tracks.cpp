@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "packed_numbers.hpp"
+#include "packed_replay.hpp"
 #include "replay.hpp"
 
 namespace shakedown {
@@ -38,7 +39,8 @@ struct Whole {
   double end = 0;
 };
 
-/// Colour goes with the last collision, so points in flight repeat it.
+/// Adds a point of every grain and the box. Colour goes with the last collision, so points in flight repeat
+/// it.
 void add_all(Whole& whole, const State& state, double time) {
   for (std::size_t i = 0; i < state.size(); ++i)
     add(whole.grains[i], time, state.position[i],
@@ -78,7 +80,7 @@ Whole whole_run(const StoredRun& run, double until) {
   return whole;
 }
 
-/// Points are left out while one straight flight stays within the tolerance of all of them: the interval of
+/// Leaves points out while one straight flight stays within the tolerance of all of them: the interval of
 /// slopes that do so narrows with each point (along each axis) until the next point is outside of it.
 Track thinned(const Track& track, double tolerance, double exact_from, double exact_to) {
   struct Slopes {

@@ -13,9 +13,9 @@ struct ReplayPlan {
   double tolerance = 2e-5;              ///< m, to begin with
 };
 
-/// The motion of a logged run as points between which everything flies straight: every impact, and a point
-/// each 10 ms of a bent flight; outside the exact interval points are left out as long as no drawn grain is
-/// further than the tolerance from the simulated one.
+/// Returns the motion of a logged run as points between which everything flies straight: every impact, and a
+/// point each 10 ms of a bent flight; outside the exact interval points are left out as long as no drawn
+/// grain is further than the tolerance from the simulated one.
 ReportReplay replay_of(const StoredRun& run, const ReplayPlan& plan);
 
 }  // namespace shakedown

@@ -146,13 +146,14 @@ struct Report {
   std::vector<std::string> citations;  ///< of the effects used
 };
 
-/// The page. Everything in it comes from the report; texts are escaped.
+/// Returns the page. Everything in it comes from the report; texts are escaped.
 std::string report_html(const Report& report);
 
 /// Writes the page. Throws FileError.
 void write_report(const std::filesystem::path& file, const Report& report);
 
-/// The report as JSON text, kept in folders of results as report_file_name, and back. Throws FileError.
+/// Commands keep the report as JSON text in folders of results, in a file of this name. report_json() writes
+/// the text and read_report() reads the file; it throws FileError.
 constexpr const char* report_file_name = "report.json";
 std::string report_json(const Report& report);
 Report read_report(std::filesystem::path file);

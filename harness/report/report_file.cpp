@@ -212,7 +212,7 @@ bool is_whole(const ReportSection& section) {
   return whole;
 }
 
-/// The page takes for granted that what belongs together is equally long.
+/// Tells whether what belongs together is equally long, as the page takes for granted.
 bool is_whole(const Report& report) {
   return is_known(report.tone) &&
          std::all_of(report.facts.begin(), report.facts.end(),

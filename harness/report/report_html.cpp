@@ -8,6 +8,7 @@
 #include "output_file.hpp"
 #include "packed_json.hpp"
 #include "packed_numbers.hpp"
+#include "packed_replay.hpp"
 #include "page_figures.hpp"
 #include "page_files.hpp"
 #include "report.hpp"
@@ -21,7 +22,8 @@ constexpr std::array<const char*, 7> role_names{"measured",  "model", "as_given"
 
 using Json = nlohmann::ordered_json;
 
-/// The policy of the page names its scripts by their digests: nothing that a report holds can run.
+/// Returns the sources that the page's policy allows: its scripts by their digests, so that nothing that a
+/// report holds can run.
 std::string script_sources() {
   std::string sources;
   for (const std::string_view digest : {plot_script_sha256, replay_script_sha256, model_script_sha256,
@@ -52,7 +54,7 @@ Json plot_json(const ReportPlot& plot) {
           {"marks", marks}};
 }
 
-/// The headline, and what follows it.
+/// Splits a text into its first sentence and what follows it.
 std::pair<std::string, std::string> first_sentence(const std::string& text) {
   for (std::size_t i = text.find(". "); i != std::string::npos; i = text.find(". ", i + 1))
     if (i + 2 < text.size() && std::isupper(static_cast<unsigned char>(text[i + 2])))
@@ -69,7 +71,7 @@ double top_speed(const ReportReplay& replay) {
   return top > 0 ? top : 1;
 }
 
-/// How far from the middle anything gets, m.
+/// Returns how far from the middle anything gets, m.
 double reach(const ReportReplay& replay) {
   double far = 0;
   for (const double x : replay.box.x) far = std::max(far, std::abs(x));
@@ -98,7 +100,7 @@ Json replay_json(const ReportReplay& replay, const PackedReplay& units) {
       {"measured", {{"t", packed_json(replay.measured_time)}, {"x", packed_json(replay.measured_x_box)}}}};
 }
 
-/// Numbers its plots as they come, so that page and data agree.
+/// Writes the page and numbers its plots as they come, so that page and data agree.
 class Page {
  public:
   explicit Page(const Report& report) : report_(report) {}
@@ -173,7 +175,7 @@ class Page {
            "</p><div data-knobs></div></section>";
   }
 
-  /// The first section stands beside the replay.
+  /// Returns the replay and, beside it, the first section.
   std::string stage() {
     if (report_.sections.empty() && report_.replays.empty()) return "";
     const std::string plots = report_.sections.empty() ? "" : section(report_.sections[0], "stage-text");

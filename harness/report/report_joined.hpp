@@ -9,8 +9,8 @@ struct NamedReport {
   Report report;
 };
 
-/// One report of several: their verdicts as a table, then each one's sections, titles and groups told apart
-/// by name. One alone stays as it is.
+/// Joins several reports to one: their verdicts as a table, then each one's sections, titles and groups told
+/// apart by name. One alone stays as it is.
 Report joined(std::vector<NamedReport> reports);
 
 }  // namespace shakedown

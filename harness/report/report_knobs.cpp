@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// What a quadratic form of some dozens of terms needs of its numbers.
+/// Rounds a number to nine digits, which a quadratic form of some dozens of terms needs.
 Json nine_digits(double value) {
   return std::isfinite(value) ? Json(std::stod(fmt::format("{:.9g}", value))) : Json(0);
 }
@@ -38,7 +38,7 @@ Json json_of(const ReportKnobs::Term& term) {
   return {{"weights", weights}, {"power", term.power}};
 }
 
-/// A box passes a micrometre in a microsecond or two.
+/// Times are packed to 1e-8 of the longest, as a box passes a micrometre in a microsecond or two.
 constexpr double parts_of_time = 1e8;
 
 Json json_of(const ReportKnobs::Curve& curve) {

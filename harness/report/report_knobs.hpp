@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a reader of a page may turn, as plain data: numbers of the model, and how every curve of every run
-// follows.
+// Holds as plain data what a reader of a page may turn: numbers of the model, and how every curve of every
+// run follows.
 #pragma once
 #include <limits>
 #include <string>
@@ -54,7 +54,7 @@ struct ReportKnobs {
   std::vector<Effect> effects;  ///< that the numbers are of
 };
 
-/// As the page reads it: JSON text, curves packed (packed_numbers.hpp).
+/// Returns the knobs as the page reads them: JSON text, curves packed (packed_numbers.hpp).
 std::string knobs_json(const ReportKnobs& knobs);
 
 }  // namespace shakedown

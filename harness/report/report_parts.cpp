@@ -50,8 +50,8 @@ bool is_nothing(const std::vector<double>& values) {
   return std::none_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && v != 0; });
 }
 
-/// What the other curves leave of the energy at the beginning: effects took it, or put it in where it is less
-/// than nothing.
+/// Returns what the other curves leave of the energy at the beginning: effects took it, or put it in where it
+/// is less than nothing.
 std::vector<double> taken_by_effects(const std::vector<double>& left,
                                      const std::array<std::vector<double>, contact_classes>& lost) {
   double whole = std::nan("");

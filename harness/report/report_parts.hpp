@@ -9,21 +9,21 @@
 
 namespace shakedown {
 
-/// The effects of a setup with their sources.
+/// Returns the effects of a setup with their sources.
 std::vector<std::string> citations_of(const Setup& setup);
 
-/// The command that is running, as one would type it.
+/// Returns the command that is running, as one would type it.
 std::string this_command();
 
-/// An empty plot over the time of a run.
+/// Makes an empty plot over the time of a run.
 ReportPlot time_plot(std::string title, std::string y_label, std::string group, std::vector<double> time);
 
-/// The curves of a band; the second carries the name.
+/// Makes the curves of a band; the second carries the name.
 std::vector<ReportCurve> band(std::string name, std::vector<double> low, std::vector<double> high);
 
-/// Box and grains' energy over time, mJ: what is left, what each class of contact took, and what effects
-/// took, so that all of it adds up to what there was at the beginning. Classes that took nothing are left
-/// out.
+/// Plots the energy of box and grains over time, mJ: what is left, what each class of contact took, and what
+/// effects took, so that all of it adds up to what there was at the beginning. Classes that took nothing are
+/// left out.
 ReportPlot energy_plot(std::string group, std::vector<double> time, std::vector<double> left,
                        const std::array<std::vector<double>, contact_classes>& lost);
 
@@ -34,10 +34,10 @@ struct MoreColumn {
 };
 ReportTable numbers_of(const ReportBars& bars, std::string first_column, const std::vector<MoreColumn>& more);
 
-/// The worse of both in each number; every note once.
+/// Returns the worse of both in each number; every note once.
 Health worse_of(Health a, const Health& b);
 
-/// How well the engines kept their promises, in words; `of` says of what.
+/// Says how well the engines kept their promises; `of` says of what.
 std::vector<std::string> health_in_words(const Health& worst, const std::string& of);
 
 /// Fills in command, setup, program and citations.

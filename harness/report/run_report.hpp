@@ -10,8 +10,9 @@ namespace shakedown {
 /// come in order).
 class RunCurves {
  public:
+  /// Adds the next run.
   void add(const Trajectory& trajectory);
-  /// The report. Of logged runs the first is replayed.
+  /// Makes the report. Of logged runs the first is replayed.
   Report report(const Ensemble& ensemble, const Setup& setup, const std::string& name) const;
 
  private:

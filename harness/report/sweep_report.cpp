@@ -66,7 +66,7 @@ std::string axis_label(const SweepAxis& axis) {
   return axis.key + (axis.unit.empty() ? "" : ", " + axis.unit);
 }
 
-/// The sweep along its longer axis; the other's values are curves.
+/// Draws the sweep along its longer axis; the other's values are curves.
 class Sheet {
  public:
   Sheet(const SweepIdentity& identity, const std::vector<PointSummary>& points)
@@ -79,7 +79,7 @@ class Sheet {
     if (values.size() == 2) across_.assign(values[1 - along_].begin(), values[1 - along_].end());
   }
 
-  /// Nothing when no point has such a number.
+  /// Returns the plots of these numbers; nothing when no point has such a number.
   std::vector<ReportPlot> plots(const Drawn& drawn) const {
     std::vector<ReportPlot> found;
     if (across_.empty()) return one_axis(drawn);
@@ -97,7 +97,7 @@ class Sheet {
     return found;
   }
 
-  /// The whole plane, for two axes.
+  /// Returns the whole plane as strips, for two axes with four values each or more.
   std::vector<ReportStrip> strips(const Drawn& drawn) const {
     if (across_.size() < 4 || x_.size() < 4) return {};
     const SweepAxis &x = identity_.axes[along_], &y = identity_.axes[1 - along_];
@@ -153,7 +153,7 @@ class Sheet {
     return {plot};
   }
 
-  /// Values across, at most four: more curves cannot be told apart by colour.
+  /// Returns at most four of the values across: more curves cannot be told apart by colour.
   std::vector<double> some_across() const {
     constexpr std::size_t most = 4;
     if (across_.size() <= most) return across_;

@@ -16,7 +16,7 @@ namespace shakedown {
 
 namespace {
 
-/// A curve through more takes longer than the run that it acts in.
+/// A curve through more points than this takes longer than the run that it acts in.
 constexpr std::size_t most_points = 1000;
 
 class TableReader {
@@ -58,7 +58,7 @@ class TableReader {
     formula_ = std::string(value == value_ ? "" : factor_of(value)) + "curve(" + std::string(variable);
   }
 
-  /// What the curve is multiplied by to be a force.
+  /// Returns what the curve is multiplied by to be a force.
   static std::string_view factor_of(std::string_view value) {
     return value == "damping"     ? "-v*"
            : value == "stiffness" ? "-x*"

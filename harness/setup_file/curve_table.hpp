@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A law that was measured point by point, as a formula.
+// Turns a law that was measured point by point into a formula.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace shakedown {
 
-/// "curve(x, 0.01, -0.2, 0.02, -0.1)": the formula of a curve through the points of a CSV table, SI. Its
-/// first line names the columns, the variable, `value` and what else there is, which is not read:
+/// Returns the formula of a curve through the points of a CSV table, SI: "curve(x, 0.01, -0.2, 0.02, -0.1)".
+/// Its first line names the columns, the variable, `value` and what else there is, which is not read:
 /// "x,force,error"; the variable ascends. Of a force the second column may be a damping, a stiffness or a
 /// friction: "x,damping" is -v*curve(x, ...), "t,stiffness" -x*curve(t, ...), "x,friction"
 /// -tanh(v/0.001)*curve(x, ...), which turns round within 1 mm/s and is 0 at rest. Lines that begin with #

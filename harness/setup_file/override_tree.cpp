@@ -36,7 +36,7 @@ TomlEntry& entry_of(TomlValue& table, std::string_view key, const SourcePlace& p
   return table.entries.emplace_back(TomlEntry{std::string(key), place, std::move(empty)});
 }
 
-/// A key below something that is no table makes it one, so that the reader sees and reports it.
+/// Makes a table of something that is none, so that the reader sees and reports the key below it.
 TomlValue& as_table(TomlValue& value, const SourcePlace& place) {
   if (value.kind == TomlValue::Kind::table) return value;
   value = TomlValue{};
@@ -44,7 +44,7 @@ TomlValue& as_table(TomlValue& value, const SourcePlace& place) {
   return value;
 }
 
-/// The table of an effect in the list `effect`, made when it is not there.
+/// Returns the table of an effect in the list `effect`, made when it is not there.
 TomlValue& effect_table(TomlValue& root, std::string_view name, const SourcePlace& place) {
   TomlValue& list = entry_of(root, "effect", place).value;
   // [effect] in the file: the reader reports it
@@ -60,7 +60,7 @@ TomlValue& effect_table(TomlValue& root, std::string_view name, const SourcePlac
   return list.items.emplace_back(std::move(item));
 }
 
-/// The component of an array that .x, .y or .z names, or nullptr.
+/// Returns the component of an array that .x, .y or .z names, or nullptr.
 TomlValue* component_named(TomlValue& array, std::string_view axis) {
   if (array.kind != TomlValue::Kind::array || axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z')
     return nullptr;
@@ -73,7 +73,8 @@ void set(TomlEntry& entry, TomlValue value) {
   entry.value = std::move(value);
 }
 
-/// The table of an effect that the setup has, to be changed in part; what is not changed keeps its place.
+/// Returns the table of an effect that the setup has, to be changed in part; what is not changed keeps its
+/// place.
 TomlValue table_of(const EffectChoice& choice, const Setup& setup) {
   TomlValue table = parse_toml(write_effect(choice), "").find("effect")->items.front();
   table.place = choice.place;

@@ -14,7 +14,8 @@ namespace shakedown {
 /// Writes a value into the tree, its place the override's; tables that it needs are made.
 void write_override(TomlValue& root, const Override& override, KnownEffects known);
 
-/// What the setup has of keys of which an override changes only a part: effects, and one component of a list.
+/// Returns, as a tree, what the setup has of keys of which an override changes only a part: effects, and one
+/// component of a list.
 TomlValue changed_in_part(const Setup& setup, std::span<const Override> overrides);
 
 }  // namespace shakedown

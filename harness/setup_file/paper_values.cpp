@@ -41,7 +41,7 @@ std::vector<const SetupKey*> keys_left_out(const Setup& setup, std::span<const s
   return keys;
 }
 
-/// As people read it: without the quotation marks of TOML.
+/// Returns the value as people read it: without the quotation marks of TOML.
 std::string value_of(const SetupKey& key, const Setup& setup) {
   std::string text = toml_of(key, setup);
   std::erase(text, '"');

@@ -11,7 +11,7 @@
 
 namespace shakedown {
 
-/// "grains.mass = 4.04 g" for each key that says what the damper is (masses, lengths, frequency,
+/// Returns "grains.mass = 4.04 g" for each key that says what the damper is (masses, lengths, frequency,
 /// restitutions, release), matters in this setup, and is given neither in it nor `elsewhere` (box.length,
 /// where each measured run has its own).
 std::vector<std::string> taken_from_paper(const Setup& setup,
@@ -22,7 +22,7 @@ std::vector<std::string> taken_from_paper(const Setup& setup,
 void refuse_paper_values(const Setup& setup, const std::string& file,
                          std::span<const std::string_view> elsewhere = {});
 
-/// "taken from the paper: grains.mass = 4.04 g, ...\n"; empty when there is none.
+/// Returns "taken from the paper: grains.mass = 4.04 g, ...\n"; empty when there is none.
 std::string line_of_paper_values(const std::vector<std::string>& taken);
 
 }  // namespace shakedown

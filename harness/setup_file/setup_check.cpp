@@ -79,7 +79,8 @@ void check_effect(const EffectChoice& choice, Findings& findings) {
                  std::move(wrong.problem), std::move(wrong.remedy));
 }
 
-/// A force of the user's says itself what it acts on.
+/// Tells whether an effect acts on the box alone, by its record or, for a force of the user's, by its
+/// parameter `on`.
 bool acts_on_the_box_alone(const EffectChoice& choice) {
   const auto on = choice.values.find("on");
   const auto* what = on == choice.values.end() ? nullptr : std::get_if<std::string>(&on->second);
@@ -111,8 +112,8 @@ void check_domain(Findings& findings) {
   check("box.width", std::min(setup.box.width[0], setup.box.width[1]));
 }
 
-/// Two effects that replace the same part of the model, the same effect twice, an effect and the key that it
-/// stands for.
+/// Reports two effects that replace the same part of the model, the same effect twice, and an effect beside
+/// the key that it stands for.
 void check_claims(Findings& findings) {
   const std::vector<EffectChoice>& effects = findings.setup.effects;
   for (std::size_t i = 0; i < effects.size(); ++i) {
@@ -153,7 +154,7 @@ void check_room_of_one_grain(Findings& findings) {
   check("box.width", std::min(setup.box.width[0], setup.box.width[1]));
 }
 
-/// What effects on the grains make of sizes and packing.
+/// Returns what effects on the grains make of sizes and packing.
 Physics of_the_grains(const Setup& setup) {
   Physics physics;
   physics.packing = setup.release.packing;
@@ -162,8 +163,8 @@ Physics of_the_grains(const Setup& setup) {
   return physics;
 }
 
-/// The lattice packings answer at once; those that relax random places, or unequal grains, answer when a run
-/// makes its initial state.
+/// Tells whether a packing can be tried here: lattices answer at once; packings that relax random places, or
+/// unequal grains, answer when a run makes its initial state.
 bool packing_answers_at_once(const Setup& setup, const Physics& grains) {
   if (setup.grains.count > 100000 || !setup.release.initial_grains.empty()) return false;
   if (grains.relative_diameter_deviation != 0) return false;
@@ -192,7 +193,7 @@ void check_room_of_all_grains(Findings& findings) {
   }
 }
 
-/// A slip of a unit (kg for g) shows as a grain much heavier than its box.
+/// Reports a grain much heavier than its box: a slip of a unit (kg for g).
 void check_masses(Findings& findings) {
   const Setup& setup = findings.setup;
   if (setup.domain != Domain::damper || setup.grains.count == 0 ||
@@ -205,7 +206,7 @@ void check_masses(Findings& findings) {
                  "check the units of both masses");
 }
 
-/// Series are kept in memory: 5e7 samples of seven numbers are 3 GB.
+/// Reports more than 5e7 samples: series are kept in memory, and so many of seven numbers are 3 GB.
 void check_samples(Findings& findings) {
   const Setup::Run& run = findings.setup.run;
   if (findings.sound({"run.duration", "run.sample_rate"}) && run.duration * run.sample_rate > 5e7)

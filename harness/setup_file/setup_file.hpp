@@ -22,10 +22,10 @@ struct Override {
   std::string origin = "--set";  ///< stands for the file in messages
 };
 
-/// "key=value" split at the first equals sign; throws InputError without one.
+/// Splits "key=value" at the first equals sign; throws InputError without one.
 Override parse_override(std::string_view text, const std::string& origin = "--set");
 
-/// The value as a TOML file must have it: what the command line takes bare (65mm, random) in quotes.
+/// Returns the value as a TOML file must have it: what the command line takes bare (65mm, random) in quotes.
 std::string toml_value(const Override& override);
 
 /// Reads a setup file. `known` are the effects it may name. Throws InputError with every violation at once,
@@ -34,18 +34,18 @@ std::string toml_value(const Override& override);
 Setup read_setup(const std::filesystem::path& file, KnownEffects known,
                  std::span<const Override> overrides = {});
 
-/// The same from text; `name` stands for the file in messages.
+/// Reads a setup from text in the same way; `name` stands for the file in messages.
 Setup parse_setup(std::string_view text, const std::string& name, KnownEffects known,
                   std::span<const Override> overrides = {}, const std::filesystem::path& folder = {});
 
-/// The setup with these keys set, read and checked as those of a file are; effects at their neutral value are
-/// dropped. Throws InputError with every violation at once.
+/// Returns the setup with these keys set, read and checked as those of a file are; effects at their neutral
+/// value are dropped. Throws InputError with every violation at once.
 Setup with_overrides(Setup setup, std::span<const Override> overrides, KnownEffects known);
 
-/// One effect of a setup as TOML: [[effect]], its name and all of its parameters.
+/// Returns one effect of a setup as TOML: [[effect]], its name and all of its parameters.
 std::string write_effect(const EffectChoice& choice);
 
-/// The setup as TOML that read_setup reads back to the same setup, bit for bit.
+/// Returns the setup as TOML that read_setup reads back to the same setup, bit for bit.
 std::string write_setup(const Setup& setup);
 
 /// Sets one numeric key in SI, e.g. ("restitution.grain_grain", 0.8), ("grain_friction.grain_wall", 0.2) or
@@ -54,18 +54,18 @@ std::string write_setup(const Setup& setup);
 /// bounds.
 void set_number(Setup& setup, std::string_view key, double value, KnownEffects known);
 
-/// The value of a numeric key in SI; of an effect that the setup does not have: its neutral value, else its
-/// default.
+/// Returns the value of a numeric key in SI; of an effect that the setup does not have its neutral value, or
+/// else its default.
 double get_number(const Setup& setup, std::string_view key, KnownEffects known = {});
 
-/// Everything wrong with the values of a setup built in code (a mass below zero, more grains than fit ...).
-/// Nothing is concluded from the keys in `known_bad`.
+/// Returns everything wrong with the values of a setup built in code (a mass below zero, more grains than fit
+/// ...). Nothing is concluded from the keys in `known_bad`.
 std::vector<Violation> violations_of(const Setup& setup,
                                      const std::set<std::string, std::less<>>& known_bad = {});
 
-/// A short stable digest of everything that determines the results of a setup, for caches: 16 hexadecimal
-/// digits. Effects at their neutral value, places and names of files do not count; the contents of a grain
-/// file do.
+/// Returns a short stable digest of everything that determines the results of a setup, for caches: 16
+/// hexadecimal digits. Effects at their neutral value, places and names of files do not count; the contents
+/// of a grain file do.
 std::string digest(const Setup& setup);
 
 }  // namespace shakedown

@@ -51,7 +51,7 @@ const EffectRecord* record_named(const Setup& setup, std::string_view name, Know
                       : "did you mean " + std::string(near) + "?");
 }
 
-/// The constant of a formula, which the setup's own effect has and no record can know.
+/// Returns the path with the constant of a formula, which the setup's own effect has and no record can know.
 EffectPath constant_path(const Setup& setup, std::string_view key, EffectPath path) {
   const EffectChoice* choice = find_choice(setup, path.record->name);
   path.constant = key.substr(path.record->name.size() + path.parameter->name.size() + 2);

@@ -39,7 +39,7 @@ std::vector<std::string_view> keys_of_section(std::string_view section) {
   return names;
 }
 
-/// "did you mean ...?" and what is known.
+/// Returns "did you mean ...?" and what is known.
 std::string remedy_for(std::string_view word, std::span<const std::string_view> candidates,
                        const std::string& what) {
   return did_you_mean(word, candidates) + what + ": " + listed(candidates);
@@ -71,7 +71,7 @@ struct Reader {
   void read_field(const SetupKey& key, Field<double> field, const TomlValue& value) {
     take(number_in(value, key.unit), value, key.path, [&](double number) { field(setup) = number; });
   }
-  /// ["50 mm", "60 mm"], or one width for both.
+  /// Reads two widths, ["50 mm", "60 mm"], or one for both.
   void read_field(const SetupKey& key, Field<std::array<double, 2>> field, const TomlValue& value) {
     if (value.kind != TomlValue::Kind::array)
       return take(number_in(value, key.unit), value, key.path, [&](double number) {
@@ -150,7 +150,7 @@ struct Reader {
     }
   }
 
-  /// The curve through a table's points becomes the formula of another parameter.
+  /// Gives the curve through a table's points to another parameter as its formula.
   void read_points(const std::string& file, const Parameter& parameter, const SourcePlace& place,
                    const TomlValue& table, EffectChoice& choice) {
     const std::string formula(parameter.becomes);
@@ -220,7 +220,7 @@ struct Reader {
     setup.effects.push_back(std::move(choice));
   }
 
-  /// The choice of the setup that overrides began with, if it has this effect.
+  /// Returns the effect as the setup had it before overrides, or nullptr.
   EffectChoice* changed_choice(const EffectRecord& record) {
     for (std::size_t i = 0; i < already; ++i)
       if (setup.effects[i].record == &record) return &setup.effects[i];
@@ -260,7 +260,7 @@ struct Reader {
   }
 };
 
-/// A first line of words or numbers with separators between them, which no setup has.
+/// Tells whether the first line has words or numbers with separators between them, as no setup has.
 bool begins_as_table(std::string_view text) {
   const std::string_view line = text.substr(0, text.find('\n'));
   return line.find_first_of(",;\t") != line.npos && line.find_first_of("=[#") == line.npos;

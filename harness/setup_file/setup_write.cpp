@@ -19,7 +19,7 @@ std::string toml_of_vector(const Vec3& value, std::string_view unit) {
          "]";
 }
 
-/// Constants are written in SI as bare numbers: what unit they had does not matter to the formula.
+/// Writes constants in SI as bare numbers: what unit they had does not matter to the formula.
 std::string toml_of_constants(const std::map<std::string, double>& constants) {
   std::string text;
   for (const auto& [name, value] : constants)

@@ -47,8 +47,8 @@ std::vector<std::string_view> parts_of(std::string_view word) {
   return parts;
 }
 
-/// Letters that differ over all parts of the word, each beside the part of the candidate that is most like
-/// it; -1: one is like none.
+/// Returns how many letters differ over all parts of the word, each beside the part of the candidate that is
+/// most like it; -1 where a part is like none.
 int distance_by_parts(const std::vector<std::string_view>& word, std::string_view candidate) {
   const std::vector<std::string_view> parts = parts_of(candidate);
   int sum = 0;

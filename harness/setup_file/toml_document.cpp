@@ -20,6 +20,8 @@ struct TomlAssertion {};
 #include <memory>
 #include <sstream>
 
+#include "kept_files.hpp"
+
 namespace shakedown {
 
 namespace {
@@ -70,7 +72,7 @@ TomlValue converted(const toml::node& node, const std::string& name) {
   return value;
 }
 
-/// The first line with which the file cannot be read, found by reading ever more lines.
+/// Returns the first line with which the file cannot be read, found by reading ever more lines.
 int line_of_assertion(std::string_view text) {
   int line = 1;
   for (std::size_t end = text.find('\n'); end != text.npos; end = text.find('\n', end + 1), ++line) {
@@ -85,8 +87,8 @@ int line_of_assertion(std::string_view text) {
   return line;
 }
 
-/// What the parser, which recurses, is handed at most. Setups and experiments stay far below: they nest 3
-/// deep.
+/// The parser, which recurses, is handed no more than this. Setups and experiments stay far below: they nest
+/// 3 deep.
 constexpr std::size_t most_bytes = 16'000'000;
 constexpr int deepest = 64;
 
@@ -96,7 +98,7 @@ class Depth {
  public:
   explicit Depth(std::string_view text) : text_(text) {}
 
-  /// The first line that goes deeper than allowed; 0 when none does.
+  /// Returns the first line that goes deeper than allowed; 0 when none does.
   int line_too_deep() {
     for (; at_ < text_.size(); ++at_) {
       const char c = text_[at_];
@@ -120,7 +122,8 @@ class Depth {
     if (c == '\n' || c == '=' || c == ',' || c == '{' || c == '[') dots_ = 0;
   }
 
-  /// To the last character of the text that begins here; to the end of the line when it is not closed.
+  /// Goes to the last character of the text that begins here, or to the end of the line when it is not
+  /// closed.
   void skip_text(char quote) {
     const std::string three(3, quote);
     const bool long_one = text_.substr(at_).starts_with(three);
@@ -195,6 +198,7 @@ TomlValue parse_toml(std::string_view text, const std::string& name) {
 
 std::string read_text_file(const std::filesystem::path& file) {
   if (file.empty()) throw FileError("the name of a file is empty; name the file to read");
+  expect_no_pipe(file);
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw FileError(file.string() + ": is a folder, not a file; name the file in it");

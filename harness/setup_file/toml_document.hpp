@@ -25,7 +25,7 @@ struct TomlValue {
   std::vector<TomlEntry> entries;  ///< in the order of the file
   SourcePlace place;
 
-  /// The value of a key, or nullptr.
+  /// Returns the value of a key, or nullptr.
   const TomlValue* find(std::string_view key) const;
 };
 
@@ -35,14 +35,14 @@ struct TomlEntry {
   TomlValue value;
 };
 
-/// "a text", "a whole number" ... for messages.
+/// Returns words for messages: "a text", "a whole number" ...
 std::string_view describe(TomlValue::Kind kind);
 
-/// `name` stands for the file in places. Throws InputError with the place of a syntax error, and for a text
-/// of more than 16 MB or one that nests deeper than 64.
+/// Reads a TOML text; `name` stands for the file in places. Throws InputError with the place of a syntax
+/// error, and for a text of more than 16 MB or one that nests deeper than 64.
 TomlValue parse_toml(std::string_view text, const std::string& name);
 
-/// The whole file; throws FileError, also when reading fails half way.
+/// Returns the whole file; throws FileError, also when reading fails half way.
 std::string read_text_file(const std::filesystem::path& file);
 
 }  // namespace shakedown

@@ -98,7 +98,8 @@ ValueOrProblem<ParameterValue> widened(const ValueOrProblem<T>& value) {
   return ParameterValue(std::get<T>(value));
 }
 
-/// Which of them is meant only its writer knows, and a wrong one is a thousandfold error: both are shown.
+/// Shows a bare number with its SI unit and with the usual one: only its writer knows which is meant, and a
+/// wrong one is a thousandfold error.
 std::string with_units(double number, std::string_view unit) {
   const std::string words = describe(unit_of(unit).dimension);  // "a mass (kg)"
   const std::size_t open = words.find('(');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values of a TOML file as numbers in SI, or what is wrong with them.
+// Turns values of a TOML file into numbers in SI, or says what is wrong with them.
 #pragma once
 #include <span>
 #include <string>
@@ -18,24 +18,24 @@ struct Problem {
 template <class T>
 using ValueOrProblem = std::variant<T, Problem>;
 
-/// A quantity with the dimension of `unit`, in SI; without a unit a bare number or a text such as "5 %".
+/// Reads a quantity with the dimension of `unit`, in SI; without a unit a bare number or a text as "5 %".
 /// `unit` serves as the example in remedies.
 ValueOrProblem<double> number_in(const TomlValue& value, std::string_view unit);
 
-/// A whole number between 0 and `high`.
+/// Reads a whole number between 0 and `high`.
 ValueOrProblem<std::int64_t> count_in(const TomlValue& value, double high);
 
-/// One of the words.
+/// Reads one of the words.
 ValueOrProblem<std::string> choice_in(const TomlValue& value, std::span<const std::string_view> choices);
 
-/// The value as a text, or as true or false; a problem where it is of another type.
+/// Read the value as a text, and as true or false; a problem where it is of another type.
 ValueOrProblem<std::string> text_in(const TomlValue& value);
 ValueOrProblem<bool> boolean_in(const TomlValue& value);
 
-/// A parameter of an effect, by its kind.
+/// Reads a parameter of an effect, by its kind.
 ValueOrProblem<ParameterValue> parameter_in(const TomlValue& value, const Parameter& parameter);
 
-/// The reason why a number is out of bounds, or nothing: `is -434 g (must be greater than 0 g)`.
+/// Returns the reason why a number is out of bounds, or nothing: `is -434 g (must be greater than 0 g)`.
 std::string out_of_bounds(double si, double low, double high, bool low_excluded, std::string_view unit);
 
 }  // namespace shakedown

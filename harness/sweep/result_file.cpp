@@ -43,7 +43,8 @@ constexpr const char* schema_version = "2";
 
 std::string column_name(std::string_view name) { return "\"" + std::string(name) + "\""; }
 
-/// The tables of a new file. Numbers of people's own queries: each axis and each number is a column.
+/// Returns the statements that make the tables of a new file. Each axis and each number is a column, so that
+/// people can query them.
 std::string tables_for(const SweepIdentity& identity) {
   std::string varied, numbers;
   for (const SweepAxis& axis : identity.axes) varied += ", " + column_name(axis.column()) + " REAL";
@@ -87,7 +88,7 @@ std::map<std::string, std::string> about(const SweepIdentity& identity) {
           {"axes", axes_text(identity.axes)}};
 }
 
-/// What two sweeps differ in, or nothing.
+/// Returns what two sweeps differ in, or nothing.
 std::string difference(std::map<std::string, std::string> a, std::map<std::string, std::string> b) {
   if (a["schema_version"] != b["schema_version"]) return "was written by another version of this program";
   if (a["engine"] != b["engine"])
@@ -97,9 +98,9 @@ std::string difference(std::map<std::string, std::string> a, std::map<std::strin
   return "";
 }
 
-/// A write-ahead log costs no wait for the disk after each run, but needs memory shared by all writers and so
-/// one machine; on file systems that may be shared by several the rollback journal works wherever locks do.
-/// With both a killed program loses nothing.
+/// Returns the journal that SQLite shall keep. A write-ahead log costs no wait for the disk after each run,
+/// but needs memory shared by all writers and so one machine; on file systems that may be shared by several
+/// the rollback journal works wherever locks do. With both a killed program loses nothing.
 const char* journal_for(const std::filesystem::path& file) {
   // ext, xfs, btrfs, tmpfs, overlay, zfs, f2fs
   constexpr std::array<long, 7> local{0xEF53,     0x58465342, 0x9123683E, 0x01021994,
@@ -110,9 +111,9 @@ const char* journal_for(const std::filesystem::path& file) {
   return is_local ? "WAL" : "TRUNCATE";
 }
 
-/// One process after another: of several that make the same file at once SQLite refuses all but one the
-/// change of journal, however long they would wait. Locks the folder, since the file itself carries SQLite's
-/// locks; where a file system has no such locks nothing is gained or lost.
+/// Lets one process after another open the file: of several that make it at once SQLite refuses all but one
+/// the change of journal, however long they would wait. Locks the folder, since the file itself carries
+/// SQLite's locks; where a file system has no such locks nothing is gained or lost.
 class OpeningTurn {
  public:
   explicit OpeningTurn(const std::filesystem::path& file)
@@ -130,7 +131,8 @@ class OpeningTurn {
   int folder_;
 };
 
-/// Over everything in a row but the time that it took: a row that was damaged is not taken for a result.
+/// Returns a digest of everything in a row but the time that it took, so that a row that was damaged is not
+/// taken for a result.
 std::string record_of(const ResultRow& row) {
   std::string text = fmt::format("{} {} {}", row.point, row.run, row.failure);
   for (const std::vector<double>& numbers : {row.varied, row.numbers})
@@ -138,8 +140,8 @@ std::string record_of(const ResultRow& row) {
   return hexadecimal(fnv1a(text));
 }
 
-/// Pages that are missing or of another time; views and triggers, which we make none of, run what somebody
-/// else wrote, for ever if he wants.
+/// Refuses a file with pages that are missing or of another time, and one with views and triggers, which this
+/// program makes none of: they run what somebody else wrote, perhaps without end.
 void expect_sound(const Database& database, const std::filesystem::path& file) {
   if (SqlStatement(database, "SELECT 1 FROM sqlite_master WHERE type IN ('view', 'trigger')").step())
     refuse_damaged(file);
@@ -147,8 +149,8 @@ void expect_sound(const Database& database, const std::filesystem::path& file) {
   if (!check.step() || check.text(0) != "ok") refuse_damaged(file);
 }
 
-/// False where there is no file, or one that a program was stopped in making. Opened to write, for what a
-/// stopped program left half done is to be taken back first.
+/// Returns false where there is no file, or one that a program was stopped in making. Opens it to write, for
+/// what a stopped program left half done is to be taken back first.
 bool is_begun(const std::filesystem::path& file) {
   return std::filesystem::exists(file) &&
          SqlStatement(Database(file, Database::Access::write), "SELECT 1 FROM sqlite_master").step();

@@ -48,17 +48,20 @@ class ResultFile {
   };
   /// Throws InputError when the file holds results of another sweep, or any where none may be; FileError.
   ResultFile(const std::filesystem::path& file, const SweepIdentity& identity, Opening opening);
-  /// For reading, whatever sweep it is. Throws InputError when it is no file of this program's.
+  /// Opens a file for reading, whatever sweep it is. Throws InputError when it is no file of this program's.
   explicit ResultFile(const std::filesystem::path& file);
   ~ResultFile();
   ResultFile(ResultFile&&) noexcept;
 
-  /// Thread-safe. A row that is there already stays as it is.
+  /// Adds a row, or several at once: all of them or none. Thread-safe. A row that is there already stays as
+  /// it is.
   void add(const ResultRow& row);
   void add(std::span<const ResultRow> rows);
+  /// Returns point (ResultRow::point) and run of every row, also of runs that failed.
   std::set<std::pair<std::string, int>> finished() const;
-  /// In order of point and run.
+  /// Returns all rows in order of point and run. Throws FileError for a damaged row.
   std::vector<ResultRow> rows() const;
+  /// Returns what all results of the file have in common.
   const SweepIdentity& identity() const;
   /// Notes which program adds to the file; returns the programs that did before and are another build.
   std::vector<std::string> begin_session(const std::string& program);
@@ -68,14 +71,14 @@ class ResultFile {
   std::unique_ptr<Inside> inside_;
 };
 
-/// 16 hexadecimal digits over all numbers of all rows: the same whatever the threads, shards, order and
-/// interruptions.
+/// Returns 16 hexadecimal digits over all numbers of all rows: the same whatever the threads, shards, order
+/// and interruptions.
 std::string results_digest(const std::vector<ResultRow>& rows);
 
-/// In the order of the axes' values.
+/// Returns mean and spread of each point, in the order of the axes' values.
 std::vector<PointSummary> summaries_of(const std::vector<ResultRow>& rows);
 
-/// A line a point: values of the axes, runs, failures, then mean and sd of each number.
+/// Returns a line a point: values of the axes, runs, failures, then mean and sd of each number.
 std::string summary_csv(const SweepIdentity& identity, const std::vector<PointSummary>& points);
 
 /// Puts the results of several files into one. Throws InputError when they are not of one sweep, or when two

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The numbers that a sweep keeps of each run: one table from which columns, averages and digests come.
+// One table holds the numbers that a sweep keeps of each run; columns, averages and digests come from it.
 #pragma once
 #include <span>
 #include <string_view>
@@ -24,10 +24,11 @@ struct RunNumber {
   double (*of)(const SeenRun& run);
 };
 
-/// In the order of the columns. New ones go to the end: files made before then lack the last columns.
+/// Returns the numbers in the order of the columns. New ones go to the end, so that files made before lack
+/// the last columns only.
 std::span<const RunNumber> run_numbers();
 
-/// All of them, NaN where a run has no such number.
+/// Returns all of them for a run, NaN where it has no such number.
 std::vector<double> numbers_of_run(const Setup& setup, const Trajectory& trajectory);
 
 }  // namespace shakedown

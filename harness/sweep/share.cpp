@@ -49,7 +49,7 @@ class Reader {
   const Environment& environment_;
 };
 
-/// A process among those that one command started.
+/// Returns the share of a process among those that one command started.
 JobShare among_processes(const Reader& read) {
   constexpr const char* pairs[][2] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
                                       {"MV2_COMM_WORLD_RANK", "MV2_COMM_WORLD_SIZE"},
@@ -63,7 +63,7 @@ JobShare among_processes(const Reader& read) {
   return {};
 }
 
-/// A member of an array of jobs.
+/// Returns the share of a member of an array of jobs.
 JobShare among_array_members(const Reader& read) {
   if (const std::optional<int> id = read.number("SLURM_ARRAY_TASK_ID");
       id && read.has("SLURM_ARRAY_TASK_COUNT")) {

@@ -20,7 +20,7 @@ class SqlStatement {
   SqlStatement& bind(int parameter, std::string_view text);
   SqlStatement& bind(int parameter, double number);  ///< NaN: NULL
   SqlStatement& bind(int parameter, int number);
-  /// True when there is a row. Throws FileError.
+  /// Goes on to the next row; true when there is one. Throws FileError.
   bool step();
   /// Executes a statement without rows and makes it ready for the next time.
   void run();
@@ -40,10 +40,10 @@ class SqlStatement {
 class Database {
  public:
   enum class Access { read, write };  ///< write: makes the file when it is missing
-  /// Throws FileError.
+  /// Opens the file. Throws FileError.
   Database(const std::filesystem::path& file, Access access);
 
-  /// Statements without results, separated by semicolons.
+  /// Executes statements without results, separated by semicolons. Throws FileError.
   void execute(const std::string& sql) const;
   [[noreturn]] void fail(std::string_view doing) const;
   sqlite3* handle() const { return handle_.get(); }
@@ -64,6 +64,7 @@ class Transaction {
   ~Transaction();
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;
+  /// Makes everything since the beginning happen. Throws FileError.
   void commit();
 
  private:

@@ -77,7 +77,7 @@ class Sweeper {
  private:
   bool stopped() const { return options_.stop != nullptr && *options_.stop; }
 
-  /// First, middle and last point of what is left: their time tells the cost.
+  /// Runs first, middle and last point of what is left: their time tells the cost.
   void pilot() {
     if (jobs_.empty()) return;
     std::set<std::size_t> chosen{0, std::min(jobs_.size(), plan_.points.size()) / 2,

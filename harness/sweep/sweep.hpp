@@ -12,7 +12,7 @@
 
 namespace shakedown {
 
-/// What a sweep will cost, from up to three runs of this share, which are kept.
+/// The cost of a sweep, as up to three runs of this share tell it; they are kept.
 struct SweepCost {
   std::size_t points = 0;
   std::size_t jobs = 0;      ///< points times runs, of all shares

@@ -21,7 +21,8 @@ constexpr const char* remedy_form = "write KEY=FROM:TO:STEP or KEY=A,B,C, e.g. b
   throw InputError({{{"--vary", 0, 0}, std::string(key), std::move(problem), std::move(remedy)}});
 }
 
-/// The unit in which people write the key's values. A key that does not exist is refused as everywhere else.
+/// Returns the unit in which people write the key's values. A key that does not exist is refused as
+/// everywhere else.
 std::string unit_of(const std::string& key, KnownEffects known) {
   try {
     (void)get_number(Setup{}, key, known);
@@ -51,7 +52,7 @@ bool is_bare(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789.eE+-") == text.npos;
 }
 
-/// Each part in SI. Parts without a unit take that of the last one.
+/// Returns each part in SI. Parts without a unit take that of the last one.
 std::vector<double> numbers_in(const std::string& key, std::vector<std::string> parts,
                                const std::string& unit) {
   const std::string& last = parts.back();
@@ -75,7 +76,7 @@ std::vector<double> numbers_in(const std::string& key, std::vector<std::string> 
   return numbers;
 }
 
-/// from, from + step ... in decimal, so that values are what a setup file would say.
+/// Returns from, from + step ... in decimal, so that values are what a setup file would say.
 std::vector<double> steps(const std::string& key, double from, double to, double step,
                           const std::string& unit) {
   if (step == 0 || (to - from) / step < 0)

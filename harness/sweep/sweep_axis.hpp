@@ -18,19 +18,19 @@ struct SweepAxis {
   std::string unit;            ///< in which people read its values; empty: a pure number
   std::vector<double> values;  ///< SI, in the order given
 
-  /// "box_length_mm", for columns of tables.
+  /// Returns "box_length_mm", for columns of tables.
   std::string column() const;
-  /// The value in the axis' own unit.
+  /// Returns the value in the axis' own unit.
   double shown(double si) const;
 };
 
-/// "box.length=25mm:600mm:5mm" (from, to and step; the end is included where the steps hit it) or
+/// Reads "box.length=25mm:600mm:5mm" (from, to and step; the end is included where the steps hit it) or
 /// "box.length=40mm,65mm,104mm". A unit after the last number alone holds for all: "25:600:5 mm". Values are
 /// the decimal numbers that a person would write: 25 mm + 3 x 5 mm is exactly the 40 mm of a setup file.
 /// Throws InputError.
 SweepAxis parse_axis(std::string_view text, KnownEffects known);
 
-/// Several at once, every violation together; refuses one key twice and more than two axes.
+/// Reads several at once, every violation together; refuses one key twice and more than two axes.
 std::vector<SweepAxis> parse_axes(const std::vector<std::string>& texts, KnownEffects known);
 
 }  // namespace shakedown

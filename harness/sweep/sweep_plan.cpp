@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "initial_state.hpp"
 #include "known_effects.hpp"
 #include "quantity.hpp"
 #include "setup_file.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 constexpr std::size_t most_reported = 8;
 
-/// An effect that a setup does not have can be varied only when it needs nothing else.
+/// Reports effects that the setup does not have and that need another parameter to be varied.
 std::vector<Violation> effects_that_need_more(const Setup& base, const std::vector<SweepAxis>& axes,
                                               KnownEffects known) {
   std::vector<Violation> found;

@@ -26,11 +26,12 @@ struct SweepPlan {
   std::vector<std::string> notes;  ///< what is done otherwise than the setup says
 };
 
-/// Throws InputError with the points that are no possible setup or that the engine does not model.
+/// Makes the plan. Throws InputError with the points that are no possible setup or that the engine does not
+/// model.
 SweepPlan plan_sweep(const Setup& base, std::vector<SweepAxis> axes, int runs, const Engine& engine,
                      KnownEffects known);
 
-/// What a result file must have been begun with so that this sweep goes on in it.
+/// Returns what a result file must have been begun with so that this sweep goes on in it.
 SweepIdentity identity_of(const SweepPlan& plan, const Engine& engine);
 
 }  // namespace shakedown

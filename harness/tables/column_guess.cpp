@@ -42,7 +42,8 @@ bool never_falls(const TableColumn& column) {
          numbers.front() < numbers.back();
 }
 
-/// "word": the whole name; "word*": a word in it begins so ("x_box", "posBox", not "index" for "x*").
+/// Tells whether a name is "word", or whether a word in it begins as "word*" ("x_box", "posBox", not "index"
+/// for "x*").
 bool names(const std::string& name, const std::string& word) {
   const std::string low = lower(name);
   if (!word.ends_with("*")) return low == word;
@@ -60,7 +61,7 @@ bool names_any(const std::string& name, const std::vector<std::string>& words) {
   return std::any_of(words.begin(), words.end(), [&](const std::string& word) { return names(name, word); });
 }
 
-/// "x_box_mm", "t/s": the unit at the end of a name.
+/// Returns the unit at the end of a name: "x_box_mm", "t/s".
 std::string unit_in_name(const std::string& name, bool is_time) {
   static const std::regex ending(R"(.*[_/ .]([A-Za-z]+)$)");
   std::smatch found;
@@ -74,14 +75,14 @@ const std::vector<std::string> angle_words{"angle*",  "winkel*", "theta*",  "phi
 
 bool is_angle_name(const std::string& name) { return names_any(name, angle_words); }
 
-/// ImageJ counts in pixels as long as nobody tells it a scale.
+/// Tells whether ImageJ made the table: it counts in pixels as long as nobody tells it a scale.
 bool is_of_imagej(const Table& table) {
   return std::any_of(table.columns.begin(), table.columns.end(), [](const TableColumn& column) {
     return names_any(column.name, {"slice*", "pixel value*"});
   });
 }
 
-/// The unit, and whether the table says it.
+/// Guesses the unit, and whether the table says it.
 void guess_unit(const Table& table, const TableColumn& column, bool is_time, GuessedColumn& guess) {
   if (!column.unit.empty() && !unit_size(column.unit, is_time, everything_given)) {
     guess.unit = column.unit;
@@ -126,7 +127,7 @@ const TableColumn* best_column(const std::vector<std::vector<std::string>>& by_r
   return nullptr;
 }
 
-/// Without velocities, sizes, and what stands still: a position moves.
+/// Returns the columns that may be positions: not velocities, not sizes, and not what stands still.
 std::vector<const TableColumn*> possible_positions(const Table& table) {
   static const std::vector<std::string> others{"v",      "v_*",   "vx*",    "vy*",     "vel*",
                                                "speed*", "acc*",  "width*", "height*", "force*",
@@ -146,7 +147,7 @@ std::vector<const TableColumn*> every_column(const Table& table) {
   return columns;
 }
 
-/// The one of a track's x and y that moves more.
+/// Returns the one of a track's x and y that moves more.
 const TableColumn* along_the_motion(const Table& table, const TableColumn* column,
                                     const std::set<std::string>& taken) {
   if (!column) return nullptr;

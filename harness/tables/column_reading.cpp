@@ -18,7 +18,7 @@ namespace {
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_violations = 20;  // a wrong column would otherwise print ten thousand
 
-/// Of a cell that is no number as much as somebody reads.
+/// Quotes a cell that is no number, as much of it as somebody reads.
 std::string quoted(const std::string& text) {
   constexpr std::size_t most = 60;
   std::size_t end = std::min(text.size(), most);
@@ -88,7 +88,7 @@ Source source_of(const Table& table, const ColumnChoice& choice, bool is_time, C
   return source;
 }
 
-/// One message for all alike cells, with the line of the first.
+/// Reports cells that are no numbers, with one message for all alike and the line of the first.
 void report_text(const Table& table, const TableColumn& column, std::vector<Violation>& violations) {
   std::map<std::string, std::pair<std::size_t, std::size_t>> alike;  // text -> first row, number
   for (const TableColumn::TextCell& cell : column.not_numbers)
@@ -106,8 +106,8 @@ void report_text(const Table& table, const TableColumn& column, std::vector<Viol
 
 std::string seconds(double value) { return write_quantity(value, "s"); }
 
-/// The clock must run forwards; says where it does not, once for each way. Rows that nobody told apart by
-/// track are `mixed`: what to do about it, or nothing.
+/// Reports where the clock does not run forwards, once for each way. `mixed`: what to do about rows that
+/// nobody told apart by track; empty where there are none.
 void check_clock(const Table& table, const std::vector<std::size_t>& rows, const std::vector<double>& time,
                  const std::string& column, const std::string& mixed, std::vector<Violation>& violations) {
   std::size_t first_twice = 0, first_back = 0, twice = 0, back = 0;
@@ -135,7 +135,7 @@ void check_clock(const Table& table, const std::vector<std::size_t>& rows, const
         "delete one of the two lines");
 }
 
-/// SI time of every row; NaN where the cell is not a number (reported).
+/// Returns the time of every row, s; NaN where the cell is not a number (reported).
 std::vector<double> times_of(const Table& table, const RunColumns& columns, const ClockAndScale& scale,
                              std::vector<Violation>& violations) {
   std::vector<double> time(table.rows(), missing);
@@ -194,7 +194,8 @@ bool is_track(double number, const std::vector<std::string>& tracks) {
   });
 }
 
-/// What to do about rows of several tracks that are read as one; nothing when the table has no such rows.
+/// Returns what to do about rows of several tracks that are read as one; empty when the table has no such
+/// rows.
 std::string choose_a_track(const Table& table) {
   const TableColumn* column = find_track_column(table);
   if (!column) return "";
@@ -206,7 +207,7 @@ std::string choose_a_track(const Table& table) {
 
 using Series = std::map<double, double>;  // s -> m
 
-/// Position by time of one quantity.
+/// Returns position by time of one quantity.
 Series series_of(const Table& table, const ColumnChoice& choice, const std::vector<double>& time,
                  const ClockAndScale& scale, const std::string& clock, std::vector<Violation>& violations) {
   const Source source = source_of(table, choice, false, scale, violations);
@@ -245,7 +246,7 @@ bool any_number(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-/// "microns" -> "um"
+/// Returns the usual spelling of a unit: "microns" -> "um".
 std::string usual_spelling(const std::string& unit) {
   struct Spelling {
     const char* written;
@@ -292,8 +293,8 @@ std::optional<double> unit_size(const std::string& unit, bool is_time, const Clo
 
 namespace {
 
-/// Numbers of frames need not begin with 0 (ImageJ's begin with 1): without a stated release the first frame
-/// is taken for it.
+/// Counts time from the first frame, which is taken for the release without a stated one: numbers of frames
+/// need not begin with 0 (ImageJ's begin with 1).
 void count_from_first_frame(const Table& table, const RunColumns& columns, const ClockAndScale& scale,
                             std::vector<double>& time, std::vector<std::string>& notes) {
   const TableColumn* column = columns.time ? find_column(table, columns.time->from) : nullptr;
@@ -313,7 +314,7 @@ void count_from_first_frame(const Table& table, const RunColumns& columns, const
 
 namespace {
 
-/// Positions from velocities or accelerations.
+/// Integrates velocities or accelerations to positions.
 Series integrated(const Series& rates, const Table& table, const ColumnChoice& choice, RunSeries& run) {
   TimeSeries series;
   for (const auto& [when, rate] : rates) series.time.push_back(when), series.value.push_back(rate);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the columns of a table to the series of a run.
+// Makes the series of a run from the columns of a table.
 #pragma once
 #include <limits>
 #include <optional>
@@ -33,7 +33,7 @@ struct ClockAndScale {
   double per_radian = 0;               ///< m; 0: not said
 };
 
-/// Whether a unit is known at all: everything that units can need is there.
+/// Everything that units can need, to ask whether a unit is known at all.
 constexpr ClockAndScale everything_given{1, 1, std::nullopt, 1};
 
 struct RunColumns {
@@ -51,17 +51,17 @@ struct RunSeries {
   std::vector<std::string> notes;
 };
 
-/// The columns of one run in SI. Throws InputError with every fault of them.
+/// Reads the columns of one run in SI; what is wrong with them stands in RunSeries::violations.
 RunSeries read_columns(const Table& table, const RunColumns& columns, const ClockAndScale& scale);
 
-/// SI size of a unit of time, or of length or angle, as people and programs write it ("micron", "sec", "px",
-/// "frame", "deg"); nothing when it is none or cannot be converted.
+/// Returns the SI size of a unit of time, or of length or angle, as people and programs write it ("micron",
+/// "sec", "px", "frame", "deg"); nothing when it is none or cannot be converted.
 std::optional<double> unit_size(const std::string& unit, bool is_time, const ClockAndScale& scale);
 
-/// The same of a velocity (`derivative` 1: "mm/s", "deg/s") or acceleration (2: "m/s^2", "rad/s2").
+/// Returns the same for a velocity (`derivative` 1: "mm/s", "deg/s") or acceleration (2: "m/s^2", "rad/s2").
 std::optional<double> rate_unit_size(const std::string& unit, int derivative, const ClockAndScale& scale);
 
-/// rad, deg and how else people write them.
+/// Tells whether a unit is rad, deg or what else people write for them.
 bool is_unit_of_angle(const std::string& unit);
 
 }  // namespace shakedown

@@ -24,7 +24,8 @@ struct GuessedLength {
   bool certain = true;      ///< no other number of millimetres stands in the name
 };
 
-/// "L040", "L=40.25mm", "65 mm_b": the letter counts for more, for grains have millimetres too.
+/// Guesses the box's length from a file's name: "L040", "L=40.25mm", "65 mm_b". The letter counts for more,
+/// for grains have millimetres too.
 GuessedLength length_in_name(const std::filesystem::path& file) {
   static const std::regex millimetres(R"((?:^|[^0-9.])([0-9]{2,3}(?:\.[0-9]+)?) ?mm)", std::regex::icase),
       letter(R"((?:^|[^A-Za-z])L[=_]?0*([1-9][0-9]{0,2}(?:\.[0-9]+)?)(?![0-9]))");
@@ -66,7 +67,7 @@ std::string column_text(const GuessedColumn& guess, const ImportOptions& options
   return text;
 }
 
-/// The column's numbers that belong to one track; all of them where there are no tracks.
+/// Returns the column's numbers that belong to one track; all of them where there are no tracks.
 std::vector<double> values_of_track(const Table& table, const TableColumn& column, const std::string& track) {
   const TableColumn* tracks = track.empty() ? nullptr : find_track_column(table);
   if (!tracks) return column.value;
@@ -102,7 +103,8 @@ std::string preview_of(const Table& table, const std::vector<GuessedColumn>& col
   return text;
 }
 
-/// The line of the box's length of this table: as given, as the file's name says, or left to be filled in.
+/// Returns the line of the box's length of this table: as given, as the file's name says, or left to be
+/// filled in.
 std::string length_line(const std::filesystem::path& file, const std::string& given, bool asked) {
   if (!given.empty()) return "box_length = " + toml_string(given) + "\n";
   const GuessedLength length = length_in_name(file);
@@ -114,7 +116,7 @@ std::string length_line(const std::filesystem::path& file, const std::string& gi
   return asked ? "box_length = \"? mm\"\n" : "# box_length = \"40 mm\"  # left out: the setup's\n";
 }
 
-/// "a", "a, b, c", or with more "a, b, c and 4 more".
+/// Returns "a", "a, b, c", or with more "a, b, c and 4 more".
 std::string title_of(const std::vector<std::filesystem::path>& files) {
   constexpr std::size_t named = 3;
   std::string title;
@@ -148,7 +150,7 @@ void check_options(const ImportOptions& options, std::size_t files) {
   if (!violations.empty()) throw InputError(std::move(violations));
 }
 
-/// [[run]] of one table; `box` names its own column where several trials stand side by side.
+/// Returns the [[run]] of one table; `box` names its own column where several trials stand side by side.
 std::string run_text(const Table& table, const std::filesystem::path& file, const ImportedTables& layout,
                      const std::string& box, const std::string& length) {
   std::string text = "\n[[run]]\nfile = " + toml_string(file.generic_string()) + "\n" + length;
@@ -158,14 +160,9 @@ std::string run_text(const Table& table, const std::filesystem::path& file, cons
   return text;
 }
 
-}  // namespace
-
-ImportedTables import_tables(const std::vector<std::filesystem::path>& files,
-                             const std::filesystem::path& relative_to, const ImportOptions& options) {
-  EXPECT(!files.empty());
-  check_options(options, files.size());
+/// Guesses what each column of the first table is, and collects what the table does not say.
+ImportedTables guessed_from(const Table& first) {
   ImportedTables result;
-  const Table first = read_table(files.front());
   std::set<std::string> taken;
   result.columns.push_back(guess_time(first));
   taken.insert(result.columns[0].from);
@@ -176,26 +173,30 @@ ImportedTables import_tables(const std::vector<std::filesystem::path>& files,
   guess_tracks(first, result.columns);
   if (result.columns[1].from.empty())
     result.open_questions.push_back("column.box_position.from: " + result.columns[1].reason);
-  bool in_pixels = false;
   for (const GuessedColumn& guess : result.columns)
     if (guess.role != "time" && is_unit_of_angle(guess.unit))
       result.open_questions.push_back(
           "column." + guess.role +
           ".per_radian: the length that one radian is (the distance from the pivot)");
-    else if (is_pixel(guess.unit))
-      in_pixels = true;
-    else if (!guess.unit.empty() && !unit_size(guess.unit, guess.role == "time", everything_given))
+    else if (!is_pixel(guess.unit) && !guess.unit.empty() &&
+             !unit_size(guess.unit, guess.role == "time", everything_given))
       result.open_questions.push_back("column." + guess.role + ".unit: '" + guess.unit +
                                       "' is not known here");
+  return result;
+}
+
+/// Adds title, camera and columns of the experiment file, and what the camera must still be asked for.
+void add_layout(const std::string& title, const ImportOptions& options, ImportedTables& result) {
   const bool needs_rate = result.columns[0].from.empty() || result.columns[0].unit.starts_with("frame");
+  const bool in_pixels = std::any_of(result.columns.begin(), result.columns.end(),
+                                     [](const GuessedColumn& guess) { return is_pixel(guess.unit); });
   if (in_pixels && options.pixel_size.empty())
     result.open_questions.push_back("camera.pixel_size: the length that one pixel shows (--pixel)");
   if (needs_rate && options.frame_rate.empty())
     result.open_questions.push_back("camera.frame_rate: the frames a second (--frame-rate)");
-
   std::string& text = result.experiment;
   text = "# Written by shakedown import from the tables' own headers; check what is marked.\ntitle = " +
-         toml_string(title_of(files)) + "\n\n[camera]\n";
+         toml_string(title) + "\n\n[camera]\n";
   if (needs_rate || !options.frame_rate.empty())
     text += "frame_rate = " + toml_string(options.frame_rate.empty() ? "? Hz" : options.frame_rate) + "\n";
   if (in_pixels || !options.pixel_size.empty())
@@ -204,6 +205,39 @@ ImportedTables import_tables(const std::vector<std::filesystem::path>& files,
       "# sensor = \"encoder\"  # or camera, ranger, gyro, other: only a camera has a lens and a shutter\n";
   for (const GuessedColumn& guess : result.columns)
     if (!guess.from.empty()) text += column_text(guess, options);
+}
+
+/// Reports columns that the first table has and this one lacks.
+void check_layout(const Table& table, const std::string& first, const std::vector<GuessedColumn>& columns,
+                  std::vector<Violation>& violations) {
+  for (const GuessedColumn& guess : columns)
+    if (!guess.from.empty() && guess.role != "grain_centre" && !find_column(table, guess.from))
+      violations.push_back({{table.file, 1, 1},
+                            guess.role,
+                            "has no column '" + guess.from + "' as " + first + " has",
+                            "import tables of different layout one by one"});
+}
+
+/// Adds the runs of one table; `length`: its line, or nothing.
+void add_runs(const Table& table, const std::filesystem::path& file, const std::string& length,
+              ImportedTables& result) {
+  const std::vector<std::string> trials = trials_beside(table, result.columns[1].from);
+  for (const std::string& trial : trials)
+    result.experiment += run_text(table, file, result, trials.size() > 1 ? trial : "", length);
+  if (trials.size() > 1)
+    result.preview += "  " + std::to_string(trials.size()) + " columns are named like '" +
+                      result.columns[1].from + "': one run each\n";
+}
+
+}  // namespace
+
+ImportedTables import_tables(const std::vector<std::filesystem::path>& files,
+                             const std::filesystem::path& relative_to, const ImportOptions& options) {
+  EXPECT(!files.empty());
+  check_options(options, files.size());
+  const Table first = read_table(files.front());
+  ImportedTables result = guessed_from(first);
+  add_layout(title_of(files), options, result);
   std::vector<Violation> violations;
   // A length that some tables say, or that grains need, is asked for; a box alone is the setup's.
   const bool asked = !result.columns[2].from.empty() ||
@@ -217,19 +251,9 @@ ImportedTables import_tables(const std::vector<std::filesystem::path>& files,
                                                             : options.lengths[which];
     const Table table = file == files.front() ? first : read_table(file);
     result.preview += preview_of(table, result.columns);
-    for (const GuessedColumn& guess : result.columns)
-      if (!guess.from.empty() && guess.role != "grain_centre" && !find_column(table, guess.from))
-        violations.push_back({{table.file, 1, 1},
-                              guess.role,
-                              "has no column '" + guess.from + "' as " + first.file + " has",
-                              "import tables of different layout one by one"});
-    const std::vector<std::string> trials = trials_beside(table, result.columns[1].from);
-    for (const std::string& trial : trials)
-      text += run_text(table, std::filesystem::proximate(file, relative_to.empty() ? "." : relative_to),
-                       result, trials.size() > 1 ? trial : "", length_line(file, given, asked));
-    if (trials.size() > 1)
-      result.preview += "  " + std::to_string(trials.size()) + " columns are named like '" +
-                        result.columns[1].from + "': one run each\n";
+    check_layout(table, first.file, result.columns, violations);
+    add_runs(table, std::filesystem::proximate(file, relative_to.empty() ? "." : relative_to),
+             length_line(file, given, asked), result);
     if (given.empty() && asked && length_in_name(file).millimetres.empty())
       result.open_questions.push_back("run.box_length of " + file.filename().string() +
                                       " (--length; delete the line for the setup's)");

@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: MIT
-// From bare tables to an experiment file: which column is what, in which unit, as far as names and numbers
+// Makes an experiment file from bare tables: which column is what, in which unit, as far as names and numbers
 // tell.
 #pragma once
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "table.hpp"
+#include "column_guess.hpp"
 
 namespace shakedown {
-
-/// What a column seems to be.
-struct GuessedColumn {
-  std::string role;     ///< "time", "box_position", "grain_centre"
-  std::string from;     ///< header; empty: nothing suitable
-  std::string unit;     ///< as it will stand in the experiment file
-  std::string track;    ///< of tables with one row a track and frame
-  std::string reason;   ///< why, in words
-  bool certain = true;  ///< false: look at it
-};
 
 struct ImportedTables {
   std::string experiment;  ///< text of an experiment file

@@ -45,7 +45,7 @@ std::vector<Line> lines_of(std::string_view text) {
   return lines;
 }
 
-/// The second half is data in every format we know, whatever stands above it.
+/// Returns lines from the second half, which is data in every format we know, whatever stands above it.
 std::vector<std::string_view> sample_of(const std::vector<Line>& lines) {
   std::vector<std::string_view> sample;
   for (std::size_t i = lines.size() / 2; i < lines.size() && sample.size() < 200; ++i)
@@ -62,7 +62,7 @@ bool has_decimal_comma(const std::vector<std::string_view>& sample, char delimit
   return false;
 }
 
-/// The text as UTF-8; nothing where it is not of this encoding (a name that iconv knows).
+/// Returns the text as UTF-8; nothing where it is not of this encoding (a name that iconv knows).
 std::optional<std::string> utf8_from(const char* encoding, std::string_view text) {
   const iconv_t converter = iconv_open("UTF-8", encoding);
   EXPECT(converter != reinterpret_cast<iconv_t>(-1));
@@ -88,7 +88,8 @@ bool is_data(const Row& row, std::size_t width, bool decimal_comma) {
   return numbers >= 1 && numbers >= words && 2 * row.size() >= width;
 }
 
-/// Names over every column and no number among them: what follows with a number in it is data, if bad data.
+/// Tells whether a row has names over every column and no number: what follows with a number in it is data,
+/// if bad data.
 bool is_row_of_names(const Row& row, std::size_t width, bool decimal_comma) {
   return filled(row) == width && std::none_of(row.begin(), row.end(), [&](const std::string& cell) {
            return cell_number(cell, decimal_comma).has_value();
@@ -100,7 +101,7 @@ bool holds_number(const Row& row, bool decimal_comma) {
                      [&](const std::string& cell) { return cell_number(cell, decimal_comma).has_value(); });
 }
 
-/// "x [mm]" and "x (mm)" into name and unit.
+/// Splits "x [mm]" and "x (mm)" into name and unit.
 std::pair<std::string, std::string> name_and_unit(const std::string& header) {
   for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
     const std::size_t begin = header.rfind(open);
@@ -129,7 +130,8 @@ bool has_twins(const Row& row) {
   return false;
 }
 
-/// Names of tracks stand over the first column of each; the other columns of a track are blank.
+/// Puts the names of tracks before those of their columns: they stand over the first column of each track,
+/// with blanks over the others.
 void put_track_before_names(const Row& tracks, Row& names) {
   std::string track;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -190,7 +192,8 @@ std::size_t commonest_width(const std::vector<std::string_view>& sample, char de
       ->first;
 }
 
-/// A column that has neither a name nor a number is the shadow of a delimiter at the end of each line.
+/// Removes last columns that have neither a name nor a number: shadows of a delimiter at the end of each
+/// line.
 void drop_shadow_columns(Table& table) {
   while (!table.columns.empty() && table.columns.back().name.starts_with("column ") &&
          table.columns.back().not_numbers.empty() &&
@@ -210,7 +213,7 @@ constexpr std::size_t longest_name = 200;
 
 namespace {
 
-/// Files that are no text, by their first bytes.
+/// Refuses files that are no text, by their first bytes.
 void refuse_other_formats(std::string_view text, const std::string& name) {
   const std::string save_as = "open it there and save it as CSV UTF-8 (File, Save as)";
   if (text.starts_with("MATLAB 5.0") || text.starts_with("\x89HDF"))
@@ -294,7 +297,7 @@ Table read_table(const std::filesystem::path& file) {
   const bool is_folder = std::filesystem::is_directory(file, unreadable);
   if (!is_folder) text << input.rdbuf();
   if (is_folder) throw FileError(file.string() + ": is a folder, not a table; name the file in it");
-  if (!input) throw FileError(file.string() + ": cannot be read; check the path and its permissions");
+  if (!input) cannot_be_read(file);
   return parse_table(text.str(), file.string());
 }
 

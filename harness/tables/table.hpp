@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A table of numbers as the program that made it wrote it: delimiter, decimal sign, header rows and units are
-// found from the text.
+// Reads a table of numbers as the program that made it wrote it: delimiter, decimal sign, header rows and
+// units are found from the text.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -40,17 +40,17 @@ struct Table {
 /// numbers.
 Table read_table(const std::filesystem::path& file);
 
-/// The same from text; `name` stands for the file in messages.
+/// Reads a table from text in the same way; `name` stands for the file in messages.
 Table parse_table(std::string_view text, const std::string& name);
 
-/// The column of this name; nullptr when there is none.
+/// Returns the column of this name; nullptr when there is none.
 const TableColumn* find_column(const Table& table, std::string_view name);
 
-/// The column that tells tracks apart in a table with one row a track and frame, by the headers that trackers
-/// write; nullptr when there is none.
+/// Returns the column that tells tracks apart in a table with one row a track and frame, by the headers that
+/// trackers write; nullptr when there is none.
 const TableColumn* find_track_column(const Table& table);
 
-/// The names of all columns.
+/// Returns the names of all columns.
 std::vector<std::string> column_names(const Table& table);
 
 }  // namespace shakedown

@@ -63,8 +63,8 @@ std::optional<double> cell_number(std::string_view cell, bool decimal_comma) {
 
 namespace {
 
-/// Share of the lines that have the commonest number of cells, times the share of numbers among their cells;
-/// a single column counts nothing.
+/// Returns the share of the lines that have the commonest number of cells, times the share of numbers among
+/// their cells; a single column counts nothing.
 double evenness(const std::vector<std::string_view>& lines, char delimiter) {
   std::map<std::size_t, int> of_width;
   double numbers = 0, cells_in_all = 0;

@@ -10,16 +10,17 @@
 
 namespace shakedown {
 
-/// The cells of a line, trimmed and without quotes; delimiter ' ' splits at any run of blanks and tabs.
+/// Returns the cells of a line, trimmed and without quotes; delimiter ' ' splits at any run of blanks and
+/// tabs.
 std::vector<std::string> split_cells(std::string_view line, char delimiter);
 
-/// Blank, or one of the usual words for "no value" (nan, NA, null, -).
+/// Tells whether a cell is blank, or one of the usual words for "no value" (nan, NA, null, -).
 bool is_blank_cell(std::string_view cell);
 
-/// The finite number in a cell; nothing when it is not one.
+/// Returns the finite number in a cell; nothing when it is not one.
 std::optional<double> cell_number(std::string_view cell, bool decimal_comma);
 
-/// The delimiter that splits these lines of data most evenly into numbers.
+/// Returns the delimiter that splits these lines of data most evenly into numbers.
 char find_delimiter(const std::vector<std::string_view>& lines);
 
 }  // namespace shakedown

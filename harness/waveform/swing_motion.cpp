@@ -29,7 +29,7 @@ class Swing {
     return resting_ ? 0 : (driving(s) - direction_ * dry_) / physics_.box_mass;
   }
 
-  /// One step of h, or less where the box turns.
+  /// Makes one step of h (s), or less where the box turns.
   void advance(double h) {
     if (resting_) {
       now_.t += h;
@@ -60,7 +60,7 @@ class Swing {
  private:
   bool turns() const { return dry_ != 0 || dahl_.any(); }
 
-  /// All forces but the dry one, N.
+  /// Returns all forces but the dry one, N.
   double driving(const SwingState& s) const {
     const double spring = -physics_.stiffness * s.x * (1 + physics_.spring_cubic * s.x * s.x);
     return physics_.box.newton(s.x, s.v, s.t, spring) + (dahl_.any() ? dahl_.newton(s.x) : 0);
@@ -95,7 +95,7 @@ class Swing {
   SwingState now_;
 };
 
-/// Hermite's cubic between two steps.
+/// Returns the place on Hermite's cubic between two steps, m.
 double between(const SwingState& a, const SwingState& b, double t) {
   const double h = b.t - a.t;
   if (!(h > 0)) return b.x;

@@ -33,7 +33,7 @@ Eigen::VectorXd starting_values(const std::vector<WaveformRun>& runs, const std:
                                 double frequency) {
   Eigen::VectorXd value = Eigen::VectorXd::Zero(count_of(runs, laws));
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    // A sine about a constant through the first period.
+    // Fit a sine about a constant through the first one and a half periods.
     const WaveformRun& run = runs[r];
     std::vector<Eigen::Vector3d> rows;
     std::vector<double> right;
@@ -66,7 +66,7 @@ WaveformFit fit_waveform(const std::vector<WaveformRun>& runs, const std::vector
     search.parameters.maxfev = options.evaluations;
     // chi2 is some thousands, and ln odds are wanted to a tenth.
     search.parameters.ftol = search.parameters.xtol = 1e-5;
-    // MINPACK's first region of trust, in the units of the residuals where the start is the origin.
+    // This is MINPACK's first region of trust, in the units of the residuals where the start is the origin.
     residuals.at(start, left);
     search.parameters.factor = std::max(1.0, left.norm());
     search.minimize(scaled);
@@ -112,7 +112,7 @@ WaveformFit fit_growing(const std::vector<WaveformRun>& runs, const std::vector<
 
 namespace {
 
-/// The residuals of a fit with one more law that hardly acts, and how they change with its strength.
+/// Returns the residuals of a fit with one more law that hardly acts, and how they change with its strength.
 std::pair<Eigen::VectorXd, Eigen::VectorXd> last_column(const std::vector<WaveformRun>& runs,
                                                         const WaveformFit& fit, const WaveformLaw& law,
                                                         const WaveformOptions& options) {
@@ -126,7 +126,7 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> last_column(const std::vector<Wavefo
   return {left, residuals.slope_of_last_law(start, left)};
 }
 
-/// The residuals of a fit with one more law, and how they change with its first numbers.
+/// Holds the residuals of a fit with one more law, and how they change with its first numbers.
 struct OneMore {
   Eigen::VectorXd left;
   Eigen::MatrixXd free, columns;  ///< of the fit's own numbers, of the law's

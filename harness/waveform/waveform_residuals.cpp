@@ -20,7 +20,8 @@ double as_parameter(const MomentumTerm& term, double strength) {
   return whole > 0 ? std::max(term.least, 1 / std::sqrt(whole)) : term.most;
 }
 
-/// A number of an effect that the setup has, whatever its bounds: a search may pass through what cannot be.
+/// Sets a number of an effect that the setup has, whatever its bounds: a search may pass through what cannot
+/// be.
 void put(const std::string& key, double value, Setup& setup) {
   const std::size_t dot = key.find('.');
   const std::string_view effect = std::string_view(key).substr(0, dot);
@@ -96,7 +97,7 @@ Residuals::Residuals(const std::vector<WaveformRun>& runs, const std::vector<Wav
 }
 
 namespace {
-/// Of the scaled numbers, for a derivative.
+/// Step of the scaled numbers for a derivative.
 constexpr double small_step = 1e-4;
 }  // namespace
 

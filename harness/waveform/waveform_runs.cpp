@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiment_file.hpp"
+#include "experiment.hpp"
 #include "waveform.hpp"
 
 namespace shakedown {
@@ -10,7 +10,8 @@ namespace shakedown {
 namespace {
 
 constexpr std::size_t least_frames = 16;
-/// A mean over a fiftieth of a period has lost 7e-4 of the swing, alike everywhere.
+/// Frames a period that are kept at least: a mean over a fiftieth of a period has lost 7e-4 of the swing,
+/// alike everywhere.
 constexpr double frames_a_period = 48;
 
 WaveformRun waveform_run(const Measurement::Run& run, bool every_frame) {

@@ -10,7 +10,7 @@ namespace shakedown {
 
 namespace {
 
-/// `share/shakedown` of the prefix in which this program stands; empty where there is none.
+/// Returns `share/shakedown` of the prefix in which this program stands; empty where there is none.
 std::filesystem::path installed_data() {
   std::error_code unreadable;
   const std::filesystem::path folder = program_folder().parent_path() / "share/shakedown";

@@ -47,7 +47,7 @@ class Line {
     if (!delivering_) deliver_all(lock);
   }
 
-  /// A thread whose result is due delivers it, and those behind it that wait already.
+  /// Delivers the result that is due, and those behind it that wait already.
   void deliver_all(std::unique_lock<std::mutex>& lock) {
     delivering_ = true;
     for (auto due = waiting_.begin(); due != waiting_.end() && due->first == turn_; due = waiting_.begin()) {

@@ -6,7 +6,7 @@
 
 namespace shakedown {
 
-/// With `& < > " '` as entities; line breaks stay.
+/// Returns the text with `& < > " '` as entities; line breaks stay.
 std::string escaped(std::string_view text);
 
 }  // namespace shakedown

@@ -36,7 +36,7 @@ void make_folder_of(const fs::path& file) {
   if (error) cannot_write(file, error.message());
 }
 
-/// A file takes the place of what is there; only a plain file of an earlier result may go that way.
+/// Throws FileError where something other than a plain file of an earlier result stands in the file's place.
 void refuse_what_must_stay(const fs::path& file) {
   if (file.empty()) cannot_write(file, "the name is empty", "name a file");
   std::error_code error;
@@ -53,7 +53,8 @@ void refuse_what_must_stay(const fs::path& file) {
     cannot_write(file, "this command reads it, or its other results go there", "choose another name");
 }
 
-/// Opened new: whatever has that name, a link to somewhere else for one, is no file of ours.
+/// Opens a new file: whatever has that name, a link to somewhere else for one, is no file of ours. Below
+/// zero: it cannot be made.
 int open_new(const fs::path& neighbour) {
   std::error_code ignored;
   fs::remove(neighbour, ignored);  // of a process with our number that was killed
@@ -114,8 +115,8 @@ void write_file(const fs::path& file, std::string_view contents) {
 
 void expect_writable(const fs::path& file) { const GrowingFile trial(file); }
 
-/// Held through a file in the folder: some file systems lock no folders, and a program that is killed leaves
-/// a file that locks nothing.
+/// Locks a folder through a file in it: some file systems lock no folders, and a program that is killed
+/// leaves a file that locks nothing.
 class OutputFolder::Lock {
  public:
   explicit Lock(const fs::path& folder) : file_(folder / ".being-written") {

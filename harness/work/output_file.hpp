@@ -20,7 +20,7 @@ class GrowingFile {
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
 
-  /// Appends it. Throws FileError when the disk is full.
+  /// Appends the text. Throws FileError when the disk is full.
   void add(std::string_view text);
   /// Puts the file in its place.
   void finish();
@@ -48,6 +48,7 @@ class OutputFolder {
   /// Makes the folder when it is missing. Throws FileError when files cannot be written into it, or when it
   /// is to be used alone and another program does so. Alone it is used until the last copy of this is gone.
   explicit OutputFolder(std::filesystem::path folder, Use use = Use::shared);
+  /// Replaces the contents of a file in the folder. Throws FileError.
   void write(const std::filesystem::path& name, std::string_view contents) const;
   /// Removes files of an earlier command that the present one may not write again, and folders that this
   /// leaves empty; what the command reads stays.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What made a result, so that it can be made again.
+// Says what made a result, so that it can be made again.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -18,13 +18,13 @@ struct Provenance {
   int runs = 0, threads = 0;
 };
 
-/// The part that this program and this machine determine; the caller fills in the rest.
+/// Returns the part that this program and this machine determine; the caller fills in the rest.
 Provenance provenance_of_this_program();
 
-/// As the object `provenance` of every result file.
+/// Returns the provenance as the object `provenance` of every result file.
 std::string provenance_json(const Provenance& provenance);
 
-/// "shakedown 0.1.0 (commit, compiler)".
+/// Returns "shakedown 0.1.0 (commit, compiler)".
 std::string version_line();
 
 }  // namespace shakedown

@@ -7,6 +7,7 @@
 
 #include "errors.hpp"
 #include "fnv.hpp"
+#include "kept_files.hpp"
 #include "output_file.hpp"
 
 namespace shakedown {
@@ -72,6 +73,7 @@ SimulationJournal::SimulationJournal(fs::path file, const std::string& work, boo
     : file_(std::move(file)) {
   const std::string title = "shakedown simulations of " + work + "\n";
   std::error_code none;
+  expect_no_pipe(file_);
   const bool go_on = resume && fs::exists(file_) && fs::file_size(file_, none) > 0;
   if (go_on) read(title);
   std::error_code problem;
@@ -86,7 +88,7 @@ SimulationJournal::SimulationJournal(fs::path file, const std::string& work, boo
 
 void SimulationJournal::read(const std::string& title) {
   std::ifstream stream(file_, std::ios::binary);
-  if (!stream) throw FileError(file_.string() + ": cannot be read");
+  if (!stream) cannot_be_read(file_);
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   if (!text.starts_with(title))
     throw InputError({{{file_.string(), 0, 0},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What simulations gave, written down while long work goes on: the work can be stopped at any moment and
+// A journal keeps what simulations gave while long work goes on: the work can be stopped at any moment and
 // begun again, and what is in the journal is not simulated a second time. The answer is the same either way.
 #pragma once
 #include <Eigen/Core>
@@ -24,11 +24,12 @@ class SimulationJournal {
   /// work to go on in.
   SimulationJournal(std::filesystem::path file, const std::string& work, bool resume);
 
-  /// May be called from many threads, as keep().
+  /// Returns what a simulation gave, nothing where it is not in the journal; keep() adds one. Both may be
+  /// called from many threads.
   std::optional<Features> find(const std::string& simulation) const;
   void keep(const std::string& simulation, const Features& features);
 
-  /// Number of simulations that it holds.
+  /// Returns the number of simulations that it holds.
   std::int64_t kept() const;
   const std::filesystem::path& file() const { return file_; }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sounds of drops, made: clicks that ring, in noise, beside other sounds.
+#include "drop_tables.hpp"
 #include "sound.hpp"
 
 #include <gtest/gtest.h>

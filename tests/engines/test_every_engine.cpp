@@ -6,6 +6,7 @@
 #include <numbers>
 #include <thread>
 
+#include "initial_state.hpp"
 #include "random.hpp"
 #include "setups.hpp"
 #include "within.hpp"

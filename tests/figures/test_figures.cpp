@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "drawing.hpp"
+#include "drawn_figure.hpp"
 #include "errors.hpp"
 #include "output_file.hpp"
 #include "result_figures.hpp"

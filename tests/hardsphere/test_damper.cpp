@@ -5,6 +5,7 @@
 
 #include "hard_engine.hpp"
 #include "hard_sphere_system.hpp"
+#include "initial_state.hpp"
 #include "within.hpp"
 
 using namespace shakedown;

@@ -7,6 +7,7 @@
 
 #include "ensemble.hpp"
 #include "fluid.hpp"
+#include "initial_state.hpp"
 #include "within.hpp"
 
 using namespace shakedown;

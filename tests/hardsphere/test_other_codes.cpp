@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "hard_sphere_system.hpp"
+#include "initial_state.hpp"
 #include "random.hpp"
 #include "within.hpp"
 

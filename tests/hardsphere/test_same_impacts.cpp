@@ -11,6 +11,7 @@
 #include "driven_box.hpp"
 #include "event_loop.hpp"
 #include "fluid.hpp"
+#include "initial_state.hpp"
 #include "random.hpp"
 #include "within.hpp"
 

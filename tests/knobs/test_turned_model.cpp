@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a page is told of how curves follow the numbers: exact where the fits and the simulations were made,
 // on a stand-in for the engine.
+#include "refit.hpp"
+#include "refit_options.hpp"
 #include "turned_model.hpp"
 
 #include <gtest/gtest.h>

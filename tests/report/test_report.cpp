@@ -15,6 +15,7 @@
 #include "measured_against_model.hpp"
 #include "output_file.hpp"
 #include "packed_numbers.hpp"
+#include "packed_replay.hpp"
 #include "paper_report.hpp"
 #include "report_joined.hpp"
 #include "report_parts.hpp"

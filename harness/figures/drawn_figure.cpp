@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "drawing.hpp"
+#include "drawn_figure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ struct Frame {
   double left = 0, top = 0, right = 0, bottom = 0;  // points
 };
 
-/// A curve of few points is drawn smooth through them (Catmull and Rom's cubics); gaps stay.
+/// Puts more points on a curve of few, smooth through them (Catmull and Rom's cubics); gaps stay.
 void smooth(std::vector<double>& x, std::vector<double>& y) {
   constexpr std::size_t enough = 1000;
   constexpr int parts = 5;

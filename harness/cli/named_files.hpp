@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// The names of all files that one command is given.
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace shakedown {
+
+/// Throws InputError where a parsed command is given an empty name, where two of its options name one file to
+/// write, or where one names a file in the folder of --out that the command's own results replace.
+void check_named_files(const CLI::App& command);
+
+}  // namespace shakedown

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Packs motion into as few bytes as a page needs.
+#pragma once
+#include <string>
+
+#include "report.hpp"
+
+namespace shakedown {
+
+/// Points of a replay in whole time and length units, columns of zigzag 7-bit numbers (page/replay.js reads
+/// them).
+struct PackedReplay {
+  std::string bytes;
+  double time_unit = 2e-6;    ///< s
+  double length_unit = 2e-6;  ///< m
+};
+PackedReplay packed(const ReportReplay& replay);
+
+}  // namespace shakedown
