@@ -2,9 +2,11 @@
 // Preloaded into a program: disks that are full, folders that are read-only, a power cut. Counts the calls
 // that change files below $FAULT_UNDER - opening to write, writing, fsync, truncating, renaming - and from
 // call $FAULT_AT on (from 1) they fail with $FAULT_KIND: ENOSPC or EROFS; KILL: in the midst of that call the
-// program is killed. The number of calls is left in $FAULT_COUNT when the program ends by itself.
+// program is killed. VANISH counts calls that open a file there to read instead, and from that call on the
+// file is not there. The number of calls is left in $FAULT_COUNT when the program ends by itself.
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -52,6 +54,7 @@ bool fails(const Half& half) {
     half();
     (void)::kill(::getpid(), SIGKILL);
   }
+  if (std::strcmp(kind, "VANISH") == 0) return false;
   errno = std::strcmp(kind, "EROFS") == 0 ? EROFS : ENOSPC;
   return true;
 }
@@ -77,15 +80,29 @@ struct Count {
 
 bool writes(int flags) { return (flags & (O_WRONLY | O_RDWR)) != 0; }
 
+/// True where a file that is opened to read is there no longer; folders stay.
+bool has_vanished(const char* path) {
+  struct stat there {};
+  if (std::strcmp(setting("FAULT_KIND"), "VANISH") != 0 || ::stat(path, &there) != 0 ||
+      !S_ISREG(there.st_mode))
+    return false;
+  const long at = std::strtol(setting("FAULT_AT"), nullptr, 10), call = ++calls;
+  if (at == 0 || call < at) return false;
+  errno = ENOENT;
+  return true;
+}
+
 int opened(const char* name, const char* path, int flags, mode_t mode) {
   const auto open_it = next<int(const char*, int, ...)>(name);
-  if (!is_below(path) || !writes(flags)) return open_it(path, flags, mode);
+  if (is_below(path) && !writes(flags)) return has_vanished(path) ? -1 : open_it(path, flags, mode);
+  if (!is_below(path)) return open_it(path, flags, mode);
   return fails() ? -1 : watching(open_it(path, flags, mode));
 }
 
 std::FILE* opened_stream(const char* name, const char* path, const char* mode) {
   const auto open_it = next<std::FILE*(const char*, const char*)>(name);
-  if (!is_below(path) || std::strpbrk(mode, "wa+") == nullptr) return open_it(path, mode);
+  if (!is_below(path)) return open_it(path, mode);
+  if (std::strpbrk(mode, "wa+") == nullptr) return has_vanished(path) ? nullptr : open_it(path, mode);
   if (fails()) return nullptr;
   std::FILE* stream = open_it(path, mode);
   if (stream != nullptr) watching(::fileno(stream));

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A full disk, a read-only folder, a power cut at each call that changes a file, for every command that
-// writes: nothing is lost, nothing stands there in part, and one sentence says what happened.
+// A full disk, a read-only folder, a power cut at calls that change a file (the first, the last and some
+// between), an input that vanishes, two programs on one folder: nothing is lost, nothing stands there in
+// part, and one sentence says what happened.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <future>
+#include <iterator>
 #include <map>
 #include <ostream>
 
@@ -61,6 +64,31 @@ std::vector<Writer> writers() {
       {"crosscheck",
        {"crosscheck", "IN/setup.toml", "--engines", "hard,soft", "--runs", "2", "--out", "OUT/c"}},
       {"report", {"report", "IN/k", "--out", "OUT/page.html"}},
+      {"export_csv", {"export", "IN/k", "--as", "csv", "--out", "OUT/x", "--rate", "40Hz"}},
+      {"export_lammps", {"export", "IN/k", "--as", "lammps", "--out", "OUT/x", "--rate", "40Hz"}},
+      {"plot_svg", {"plot", "IN/k", "--out", "OUT/decay.svg"}},
+      {"plot_pdf", {"plot", "IN/k", "--kind", "energy", "--out", "OUT/energy.pdf"}},
+      {"effects_json", {"effects", "--json", "OUT/effects.json"}},
+      {"import_json",
+       {"import", "IN/a.csv", "--replace", "--out", "OUT/x.toml", "--json", "OUT/columns.json"}},
+      {"sweep_json",
+       {"sweep", "IN/setup.toml", "--vary", "box.length=40mm,50mm", "--out", "OUT/r.sqlite", "--threads", "1",
+        "--resume", "--json", "OUT/r.json", "--report", "OUT/r.html"}},
+      {"merge_json",
+       {"merge", "OUT/all.sqlite", "IN/r.sqlite", "--json", "OUT/all.json", "--report", "OUT/all.html"}},
+      {"hide_json",
+       {"hide", "IN/setup.toml", "--engine", "hard", "--lengths", "40mm", "--out", "OUT/case", "--truth",
+        "OUT/truth.json", "--json", "OUT/hide.json"}},
+      {"crosscheck_json",
+       {"crosscheck", "IN/setup.toml", "--engines", "hard,soft", "--runs", "2", "--json", "OUT/c.json",
+        "--report", "OUT/c.html"}},
+      {"bounce_json", {"bounce", "IN/throws.csv", "--json", "OUT/drops.json"}},
+      {"ladder", asked_of_the_film("ladder", {}), false, true},
+      {"check",
+       {"check", "linear-decay", "--engines", "hard", "--lengths", "40", "--baselines", "OUT/decay.csv",
+        "--update", "--json", "OUT/check.json"},
+       false,
+       true},
       {"compare", asked_of_the_film("compare", {}), false, true},
       {"fit", asked_of_the_film("fit", {"--free", "spring.frequency"}), false, true},
       {"diagnose", asked_of_the_film("diagnose", {}), false, true},
@@ -69,9 +97,11 @@ std::vector<Writer> writers() {
 
 /// Those that take less than some tens of milliseconds.
 std::vector<Writer> quick_writers() {
+  static constexpr const char* takes_longer[] = {"bounce", "hide", "crosscheck", "sweep_json", "merge_json"};
   std::vector<Writer> quick = writers();
   std::erase_if(quick, [](const Writer& writer) {
-    return writer.dear || writer.name == "bounce" || writer.name == "hide" || writer.name == "crosscheck";
+    return writer.dear || std::any_of(std::begin(takes_longer), std::end(takes_longer),
+                                      [&](const char* name) { return writer.name.starts_with(name); });
   });
   return quick;
 }
@@ -122,8 +152,9 @@ class Faults : public WithFolder {
   Files out() const { return files_in(folder / "OUT"); }
 
   /// `at` 0: nothing fails, calls are counted.
-  Outcome with_fault(const std::vector<std::string>& arguments, const std::string& kind, long at) const {
-    const std::string values[] = {FAULTS, in_folder("OUT"), std::to_string(at), kind, in_folder("calls")};
+  Outcome with_fault(const std::vector<std::string>& arguments, const std::string& kind, long at,
+                     const std::string& under = "OUT") const {
+    const std::string values[] = {FAULTS, in_folder(under), std::to_string(at), kind, in_folder("calls")};
     for (std::size_t i = 0; i < std::size(values); ++i) ::setenv(variables[i], values[i].c_str(), 1);
     const Outcome outcome = shakedown_program(placed(arguments));
     for (const char* name : variables) ::unsetenv(name);
@@ -136,7 +167,9 @@ class Faults : public WithFolder {
     return std::strtol(contents(folder / "calls").c_str(), nullptr, 10);
   }
 
-  static bool is_of_sqlite(const Writer& writer) { return writer.name == "sweep" || writer.name == "merge"; }
+  static bool is_of_sqlite(const Writer& writer) {
+    return writer.name.starts_with("sweep") || writer.name.starts_with("merge");
+  }
   static void expect_one_sentence(const Outcome& outcome, const std::string& reason) {
     EXPECT_EQ(outcome.code, 4) << outcome.err;
     const std::size_t said = outcome.err.find("cannot be");
@@ -248,4 +281,48 @@ TEST_F(Faults, AFolderGetsOneRunsFiles) {
     EXPECT_EQ(left.contains("k/collisions.log"), old_ones);
     EXPECT_EQ(left.at("k/setup.toml"), (old_ones ? before : after).at("k/setup.toml"));
   }
+}
+
+/// An input that goes while the command reads: at the first time that it opens it, the second, and so on.
+TEST_F(Faults, AFileThatVanishesIsNamedAndNothingHalfIsLeft) {
+  for (const Writer& writer : quick_writers()) {
+    if (is_of_sqlite(writer)) continue;  // SQLite opens files in its own ways
+    empty_out();
+    const Outcome counted = with_fault(writer.arguments, "VANISH", 0, "IN");
+    ASSERT_EQ(counted.code, 0) << counted.err;
+    const Files reference = out();
+    const long opened = std::strtol(contents(folder / "calls").c_str(), nullptr, 10);
+    for (long at = 1; at <= opened; ++at) {
+      SCOPED_TRACE(writer.name + ", the file opened as number " + std::to_string(at));
+      empty_out();
+      const Outcome outcome = with_fault(writer.arguments, "VANISH", at, "IN");
+      expect_whole(out(), reference);
+      if (outcome.code == 0) continue;  // what it had was enough
+      EXPECT_EQ(outcome.code, 4) << outcome.err;
+      EXPECT_NE(outcome.err.find(in_folder("IN")), std::string::npos) << outcome.err;
+      EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    }
+  }
+}
+
+/// Whoever comes second is told so, or comes when the first is done.
+TEST_F(Faults, OfTwoProgramsOnOneFolderOneWrites) {
+  const auto run = [this](const char* length) {
+    return shakedown_program(placed({"run", "IN/setup.toml", "--runs", "40", "--set",
+                                     std::string("box.length=") + length, "--out", "OUT/k"}));
+  };
+  std::future<Outcome> other = std::async(std::launch::async, [&] { return run("50mm"); });
+  const Outcome one = run("60mm"), two = other.get();
+  for (const Outcome& outcome : {one, two})
+    if (outcome.code != 0) {
+      EXPECT_EQ(outcome.code, 4);
+      EXPECT_NE(outcome.err.find("another program is writing its results there"), std::string::npos)
+          << outcome.err;
+    }
+  EXPECT_TRUE(one.code == 0 || two.code == 0);
+  const Files left = out();
+  const std::string length = left.at("k/setup.toml").find("60 mm") != std::string::npos ? "60mm" : "50mm";
+  empty_out();
+  ASSERT_EQ(run(length.c_str()).code, 0);
+  expect_whole(left, out());
 }

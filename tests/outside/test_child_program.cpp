@@ -94,6 +94,18 @@ TEST(WorkFolder, IsGoneUnlessItIsKept) {
   EXPECT_TRUE(std::filesystem::exists(scratch / "kept"));
 }
 
+TEST(WorkFolder, ThatIsKeptWritesThroughNoLink) {
+  const ScratchFolder scratch;
+  std::filesystem::create_directory(scratch / "kept");
+  std::ofstream(scratch / "precious") << "mine";
+  std::filesystem::create_symlink("../precious", scratch / "kept" / "setup.json");
+  const WorkFolder folder(scratch / "kept");
+  EXPECT_THROW(folder.write("setup.json", "{}"), FileError);
+  EXPECT_EQ(contents_of(scratch / "precious"), "mine");
+  folder.write("in.lammps", "run 0");
+  EXPECT_EQ(contents_of(folder / "in.lammps"), "run 0");
+}
+
 TEST(KeptFolder, IsThatOfTheOptionBeforeThatOfTheEnvironment) {
   const Named named("SHAKEDOWN_KEEP", "/somewhere");
   EXPECT_EQ(kept_folder("lammps", 3), "/somewhere/lammps/run_3");

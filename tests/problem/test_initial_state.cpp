@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <fstream>
 
 #include "effects.hpp"
+#include "errors.hpp"
 #include "initial_state.hpp"
+#include "packing.hpp"
 #include "scratch_folder.hpp"
 #include "setup_file.hpp"
 #include "within.hpp"
@@ -226,4 +229,21 @@ TEST(InitialState, ABoxHardlyWiderThanAGrainHoldsIt) {
     setup.grains.count = 20;
     EXPECT_LE(deepest_overlap(setup, initial_state(setup)), 1e-15);
   }
+}
+
+// A hundred million grains take seconds.
+TEST(InitialState, PackingStopsWhenItIsAsked) {
+  const std::atomic<bool> stop{true};
+  stop_packing_when(&stop);
+  for (const Packing packing : {Packing::fcc, Packing::square, Packing::random, Packing::spread}) {
+    shakedown::Setup setup;
+    setup.grains.count = 5;
+    setup.release.packing = packing;
+    EXPECT_THROW(initial_state(setup), Interrupted) << static_cast<int>(packing);
+  }
+  shakedown::Setup fluid;
+  fluid.domain = Domain::periodic;
+  EXPECT_THROW(initial_state(fluid), Interrupted);
+  stop_packing_when(nullptr);
+  EXPECT_EQ(initial_state(fluid).size(), 37u);
 }
