@@ -195,9 +195,20 @@ TEST(Evidence, WhatIsTakenBackLeavesTheTableBecauseTheTableSaysSo) {
   WITHIN(with, 0.9 * kept, 8e-17, 4e-18);
 }
 
+TEST(Evidence, WhatIsTakenBackLeavesItsOddsToTheRest) {
+  const double odds = 1.5, kept = 1 / (1 + std::exp(-odds));
+  const std::vector<Hypothesis> rest = taken_back({{{"a", "b"}, 2, 0.9}}, "a", odds);
+  ASSERT_EQ(rest.size(), 2u);
+  EXPECT_EQ(rest[0].effects, (std::vector<std::string>{"a", "b"}));
+  EXPECT_DOUBLE_EQ(rest[0].log_odds, 2 + std::log(kept));
+  EXPECT_EQ(rest[1].effects, std::vector<std::string>{"b"});
+  EXPECT_DOUBLE_EQ(rest[1].log_odds, 2 + std::log(1 - kept));
+}
+
 TEST(Evidence, SomethingInNoListIsWeighedByThePValue) {
   const double prior = rules::something_else;
-  WITHIN(probability_of_something_else(0.9), prior, 9e-17, 4.5e-18);
+  for (const double p_value : {0.9, 0.5, 0.37})  // above 1/e a p-value says nothing against a model
+    WITHIN(probability_of_something_else(p_value), prior, 9e-17, 4.5e-18);
   WITHIN(probability_of_something_else(std::nan("")), prior, 9e-17, 4.5e-18);
   WITHIN(probability_of_something_else(0.01), 0.14, 3e-3, 1.8e-4);  // odds of 1/49 over 0.125
   EXPECT_GT(probability_of_something_else(1e-6), 0.99);

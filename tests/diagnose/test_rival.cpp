@@ -189,6 +189,7 @@ TEST(Rival, AShortFitStandsWhereThereWasNoTimeForMore) {
   seen.gain = 3391 - 693;
   EXPECT_DOUBLE_EQ(rival.log_odds, log_odds_of(seen, known));
   EXPECT_TRUE(is_found(rival));
+  EXPECT_TRUE(ranked_as(rival).fitted);
   EXPECT_EQ(ranked_as(rival).gain, seen.gain);
 }
 
@@ -333,6 +334,22 @@ TEST(PairRival, ThatIsBetterByWhatSignaturesErrWaitsForASingleOne) {
       pairs_beyond(screened.rivals, {{0, 1, 0.5, 2, 1080}}, screened.candidates, known);
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_FALSE(is_far_beyond(pairs[0], screened.rivals));
+}
+
+TEST(PairRival, ThatWasFittedIsWeighedByTheLikelihoodOfBoth) {
+  const Screened screened({100, 40}, 500);
+  PairRival pair{screened.rivals[0], screened.rivals[1], 300, -200};
+  for (Rival* one : {&pair.first, &pair.second}) one->screened.seen = {0, 1, 0.1, 1, true, 1};
+  pair.first.log_ratio = 500;
+  pair.second.log_ratio = 530;  // of the fit of both
+  weigh_pair(pair, known);
+  EXPECT_EQ(pair.log_odds, -200);  // it was not fitted
+  pair.fitted = true;
+  weigh_pair(pair, known);
+  StrengthSeen seen = pair.first.screened.seen;
+  const double first = log_odds_of(seen, known);
+  seen.gain = 2 * 30;
+  EXPECT_DOUBLE_EQ(pair.log_odds, first + log_odds_of(seen, known));
 }
 
 // Where restitutions imitate both, nothing elsewhere looks better than either about what was believed.

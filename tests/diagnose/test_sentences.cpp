@@ -100,3 +100,13 @@ TEST(Hypotheses, SomethingElseStandsBesideWhatWasFound) {
 }
 
 }  // namespace
+
+TEST(Sentence, AModelThatHoldsHasAPValueOnlyWhereOneWasMade) {
+  Diagnosis d;
+  d.verdict = Verdict::adequate;
+  d.ladder.emplace_back();
+  d.ladder.back().p_value = 0.4;
+  EXPECT_TRUE(says(d, "run to run (p = 0.4).")) << sentence_of(d, all_effects());
+  d.ladder.back().p_value = std::nan("");  // of a waveform
+  EXPECT_TRUE(says(d, "run to run.")) << sentence_of(d, all_effects());
+}

@@ -135,6 +135,19 @@ TEST(Verdict, StaysWhereThePromisedIsDoubtfulOrTheBalanceIsOpen) {
   EXPECT_TRUE(stays(d));
 }
 
+TEST(Verdict, AnErrorIsComparedWithThatOfTheModelAsGivenWhereBothAreKnown) {
+  Validation given, fitted;
+  given.observable = fitted.observable = "box";
+  given.error = 3e-3, fitted.error = 1e-3;
+  Difference box{"box", 2e-3, 1e-3};
+  compare_with_given({given}, {}, box);
+  compare_with_given({}, {fitted}, box);
+  EXPECT_EQ(box.error, 2e-3);
+  compare_with_given({given}, {fitted}, box);
+  EXPECT_EQ(box.as_given, 3e-3);
+  EXPECT_EQ(box.error, 1e-3);
+}
+
 TEST(Verdict, WhatIsLeftWeighsSomethingInNoList) {
   EXPECT_EQ(p_value_of_left({}), 1);
   EXPECT_EQ(p_value_of_left({{"box", 2.4e-3, 1e-3}}), 1);  // within what right answers leave
