@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "balance_problem.hpp"
 #include "effects.hpp"
@@ -358,6 +359,28 @@ TEST(SlowMomentum, WhatTheSetupHasIsNotMissed) {
   const MomentumAudit audit = audited(experiment, with_damping(experiment, 0.05));
   EXPECT_EQ(names(audit), "");
   EXPECT_GT(audit.as_given.p_value, 1e-3) << audit.as_given.chi2_per_degree();
+}
+
+// Most of what a balance asks changes no camera: frames are smoothed once.
+TEST(MomentumRun, WithForcesOfAnotherSetupIsThatOfTheSetup) {
+  const Experiment experiment = pushed_box({}, 1);
+  Measurement::Run changed = measurement_of(pushed_setups(experiment), experiment).runs.front();
+  const MomentumRun as_given = momentum_run(changed);
+  shakedown::Setup& setup = changed.setup;
+  setup.box.mass *= 1.01;
+  setup.grains.mass *= 0.99;
+  setup.effects.push_back(with_defaults(*all_effects().find("clamp_dry_friction")));
+  setup.effects.back().values["force"] = 0.01;
+  setup.effects.push_back(with_defaults(*all_effects().find("blade_viscous_damping")));
+  setup.effects.back().values["damping"] = 0.02;
+  const MomentumRun one = with_forces_of(setup, as_given), other = momentum_run(changed);
+  EXPECT_NE(one.stiffness, as_given.stiffness);
+  EXPECT_EQ(std::tie(one.box_mass, one.grain_mass, one.stiffness, one.viscous, one.dry_friction, one.effects),
+            std::tie(other.box_mass, other.grain_mass, other.stiffness, other.viscous, other.dry_friction,
+                     other.effects));
+  for (const auto& series : {&MomentumRun::time, &MomentumRun::v_smooth, &MomentumRun::model_force,
+                             &MomentumRun::model_force_dx, &MomentumRun::model_force_dv})
+    EXPECT_TRUE((one.*series == other.*series).all());
 }
 
 }  // namespace
