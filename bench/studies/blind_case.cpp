@@ -219,21 +219,19 @@ void Draw::hide_twin(std::size_t number, Random& random, std::vector<Override>& 
   drawn.twin = pair.twin;
   drawn.trial.runs = twin_runs();
   drawn.more = design_.runs;
-  drawn.more.push_back(
-      {"N60",
-       {{"box.length", "\"65 mm\"", ""}, {"grains.count", "60", ""}, {"run.duration", "\"12 s\"", ""}}});
-  drawn.more.push_back(
-      {"N20",
-       {{"box.length", "\"40 mm\"", ""}, {"grains.count", "20", ""}, {"run.duration", "\"20 s\"", ""}}});
-  drawn.more.push_back(
-      {"empty",
-       {{"box.length", "\"40 mm\"", ""}, {"grains.count", "0", ""}, {"run.duration", "\"12 s\"", ""}}});
+  const auto add = [&](const char* name, const char* length, const char* key, const std::string& value,
+                       const char* duration) {
+    drawn.more.push_back({name,
+                          {{"box.length", toml_string(length), ""},
+                           {key, value, ""},
+                           {"run.duration", toml_string(duration), ""}}});
+  };
+  add("N60", "65 mm", "grains.count", "60", "12 s");
+  add("N20", "40 mm", "grains.count", "20", "20 s");
+  add("empty", "40 mm", "grains.count", "0", "12 s");
   // A late clock shifts the box by a distance that grows with the release; a push at release does not.
-  drawn.more.push_back(
-      {"half",
-       {{"box.length", "\"40 mm\"", ""},
-        {"release.displacement", toml_string(write_quantity(0.5 * believed_.release.displacement, "m")), ""},
-        {"run.duration", "\"12 s\"", ""}}});
+  add("half", "40 mm", "release.displacement",
+      toml_string(write_quantity(0.5 * believed_.release.displacement, "m")), "12 s");
 }
 
 void Draw::hide_what_the_kind_says(Random& random, int index, std::vector<Override>& truth,

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// One series of intervals or instants cut into drops.
+#include "drop_sequences.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "drop_tables.hpp"
 
 namespace shakedown {
 

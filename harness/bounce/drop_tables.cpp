@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "column_reading.hpp"
+#include "drop_sequences.hpp"
 #include "robust_statistics.hpp"
 #include "table_layout.hpp"
 #include "track_drops.hpp"

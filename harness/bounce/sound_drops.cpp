@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "drop_sequences.hpp"
 #include "drop_tables.hpp"
 #include "errors.hpp"
 #include "sound.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "column_reading.hpp"
-#include "drop_tables.hpp"
+#include "drop_sequences.hpp"
 #include "least_squares.hpp"
 #include "robust_statistics.hpp"
 

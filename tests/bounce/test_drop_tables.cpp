@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "drop_sequences.hpp"
 #include "drop_tables.hpp"
 #include "errors.hpp"
 #include "random.hpp"
