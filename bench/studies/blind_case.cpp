@@ -217,8 +217,7 @@ void Draw::hide_twin(std::size_t number, Random& random, std::vector<Override>& 
   const TwinPair& pair = twin_pairs()[number % twin_pairs().size()];
   hide(random, *find_hideable(pair.hidden), twin_signal, truth, drawn);
   drawn.twin = pair.twin;
-  drawn.trial.runs = twin_runs();
-  drawn.more = design_.runs;
+  drawn.trial.runs = twin_runs(), drawn.more = design_.runs;
   const auto add = [&](const char* name, const char* length, const char* key, const std::string& value,
                        const char* duration) {
     drawn.more.push_back({name,

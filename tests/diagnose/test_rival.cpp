@@ -218,6 +218,13 @@ TEST(Rival, AFittedErrorOfTheCameraKeepsTheOddsOfItsSignature) {
   WITHIN(rivals[1].log_odds - rivals[0].log_odds, averaged(9), 1e-12, 5e-14);
 }
 
+TEST(Rival, IsFoundWhereAFitMakesItMoreProbableThanNothing) {
+  const Candidate one = named("a");
+  EXPECT_TRUE(is_found(fitted(one, 1, 0.5, {1, 1})));
+  EXPECT_FALSE(is_found(fitted(one, 1, -0.5, {1, 1})));
+  EXPECT_FALSE(is_found({&one, {}}));
+}
+
 TEST(Rival, WhatTheDataRejectKeepsItsOdds) {
   const Candidate first = named("a"), second = named("b");
   std::vector<Rival> rivals{fitted(first, 1, 2600, {1, 1}), fitted(second, 1, 2400, {0, 0}, 0.001)};
