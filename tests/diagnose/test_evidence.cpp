@@ -195,6 +195,13 @@ TEST(Evidence, WhatIsTakenBackLeavesTheTableBecauseTheTableSaysSo) {
   WITHIN(with, 0.9 * kept, 8e-17, 4e-18);
 }
 
+TEST(Evidence, WhereAllIsImpossibleNothingIsProbable) {
+  std::vector<Hypothesis> table{{{"a"}, -std::numeric_limits<double>::infinity(), 0.5},
+                                {{}, std::nan(""), 0.5}};
+  weigh(table);
+  for (const Hypothesis& h : table) EXPECT_EQ(h.probability, 0);
+}
+
 TEST(Evidence, WhatIsTakenBackLeavesItsOddsToTheRest) {
   const double odds = 1.5, kept = 1 / (1 + std::exp(-odds));
   const std::vector<Hypothesis> rest = taken_back({{{"a", "b"}, 2, 0.9}}, "a", odds);

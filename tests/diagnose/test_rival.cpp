@@ -87,6 +87,8 @@ TEST(Rival, OfSignaturesAsGoodWhatWasMoreProbableBeforehandIsFittedFirst) {
                             fitted(third, 2, 2000, {1, 1})};
   EXPECT_EQ(first_to_fit({&rivals[0], &rivals[1], &rivals[2]}), &rivals[1]);
   EXPECT_EQ(first_to_fit({&rivals[0], &rivals[2]}), &rivals[0]);
+  rivals[2].screened.seen.odds = 0.1, rivals[2].log_odds = 2600;  // as probable beforehand as the first
+  EXPECT_EQ(first_to_fit({&rivals[0], &rivals[2]}), &rivals[0]);
   EXPECT_EQ(first_to_fit({}), nullptr);
 }
 
