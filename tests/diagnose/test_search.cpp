@@ -10,7 +10,9 @@
 #include "effects.hpp"
 #include "formula_engine.hpp"
 #include "random.hpp"
+#include "rival.hpp"
 #include "rules.hpp"
+#include "setup_file.hpp"
 #include "state.hpp"
 #include "within.hpp"
 
@@ -137,6 +139,23 @@ TEST(Search, AShortFitStandsWhereSimulationsSufficeForNoMore) {
   expect_the_law(round);
   ASSERT_EQ(round.notes.size(), 1u);
   EXPECT_NE(round.notes.front().find("no time for more than a short fit"), std::string::npos);
+}
+
+TEST(Search, AFitOfOneMoreBeginsAtWhatItsSignatureAsksFor) {
+  Refitted refitted(1000);
+  Candidate law;
+  law.effect = "velocity_dependent_restitution";
+  law.knobs = {{"velocity_dependent_restitution.exponent", 0, 0.01, 0, 0.5}};
+  law.dear = true;
+  Rival rival{&law, {}};
+  rival.screened.value = 0.1;
+  const DiagnosisState with = with_rival(refitted.state, rival, refitted.tools);
+  EXPECT_EQ(with.missing, Names{law.effect});
+  EXPECT_TRUE(with.dear);
+  ASSERT_EQ(with.found.size(), 1u);
+  EXPECT_EQ(with.found.front().centre, 0.1);
+  EXPECT_EQ(with.found.front().width, 0.05);  // half of it to either side
+  EXPECT_EQ(get_number(with.setup, law.knobs.front().key, all_effects()), 0.1);
 }
 
 TEST(Search, TwoThatTheDataRejectEachAloneAreFittedTogether) {
