@@ -195,7 +195,7 @@ LocalCubic local_cubic(int half) {
 
 namespace {
 
-/// Returns the positions before the camera; empty where there is no balance.
+/// Returns the positions before the camera.
 Recording before_the_camera(const Measurement::Run& measurement) {
   const MeasuredRun& measured = measurement.recorded;
   const RunAudit& audit = measurement.audit;

@@ -39,10 +39,15 @@ bool is_utf8(std::string_view text) {
 /// Line ends and tabs may stand in a formula.
 bool is_control_character(char c) {
   const auto byte = static_cast<unsigned char>(c);
-  return (byte < 0x20 && c != '\n' && c != '\r' && c != '\t') || byte == 0x7f;
+  return (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f;
 }
 
 bool has_control_characters(std::string_view text) {
+  const auto second_set = [&](std::size_t i) {  // U+0080 to U+009F
+    return static_cast<unsigned char>(text[i]) == 0xc2 && static_cast<unsigned char>(text[i + 1]) < 0xa0;
+  };
+  for (std::size_t i = 0; i + 1 < text.size(); ++i)
+    if (second_set(i)) return true;
   return std::any_of(text.begin(), text.end(), is_control_character);
 }
 

@@ -47,8 +47,11 @@ struct DiagnoseArguments {
 /// as JSON.
 void write_answer(OutputFolder& folder, const Diagnosis& diagnosis, const std::string& document) {
   folder.write("setup.toml", amended_setup(diagnosis));
-  if (!diagnosis.momentum.unlisted) folder.remove({"force.csv"});  // of an earlier diagnosis
-  if (!diagnosis.free_restitution) folder.remove({"free_restitution.toml"});
+  std::error_code none;
+  if (std::filesystem::exists(folder.path() / "diagnosis.json", none)) {  // of an earlier diagnosis
+    if (!diagnosis.momentum.unlisted) folder.remove({"force.csv"});
+    if (!diagnosis.free_restitution) folder.remove({"free_restitution.toml"});
+  }
   if (diagnosis.momentum.unlisted) folder.write("force.csv", points_of_force(diagnosis.momentum.curves));
   if (diagnosis.free_restitution)
     folder.write("free_restitution.toml",

@@ -40,36 +40,47 @@ std::vector<Violation> empty_names(const CLI::App& command) {
     if (!named || option->get_items_expected_max() == 0) continue;
     for (const std::string& value : option->results())
       if (value.empty())
-        found.push_back(
-            {{}, option->get_name(), "has an empty name", "name a file or folder, or leave the option out"});
+        found.push_back({{}, option->get_name(), "has an empty name", "say what is meant, or leave it out"});
   }
   return found;
 }
 
 std::vector<NamedOutput> outputs_of(const CLI::App& command) {
-  constexpr std::array names{"out", "json", "report", "table", "truth"};
+  constexpr std::array names{"out", "json", "report", "table", "truth", "known", "baselines"};
+  const CLI::Option* updates = command.get_option_no_throw("--update");
   std::vector<NamedOutput> outputs;
   for (const CLI::Option* option : command.get_options())
     for (const char* name : names) {
-      if (!option->check_lname(name) || option->count() == 0 || option->get_items_expected_max() == 0)
-        continue;
-      const std::string value = option->results().empty() ? "" : option->results().front();
+      if (!option->check_lname(name) || option->get_items_expected_max() == 0) continue;
+      const std::string type = option->get_type_name(), option_name = "--" + std::string(name);
+      // --known of some commands is no file, and baselines are written on request.
+      if (option_name == "--known" && type != "FILE") continue;
+      if (option_name == "--baselines" && (updates == nullptr || updates->count() == 0)) continue;
+      const std::string value =
+          option->results().empty() ? option->get_default_str() : option->results().front();
       if (value.empty() || value == "-") continue;  // of --json: to standard output
-      outputs.push_back({"--" + std::string(name), place_of(value), option->get_type_name() == "DIR"});
+      outputs.push_back({option_name, place_of(value), type == "DIR"});
     }
   return outputs;
 }
 
-/// Files that commands write into their folders: setups, tables, logs and arrays of any name, and these.
-bool is_of_a_folder(const fs::path& file) {
-  constexpr std::array endings{".toml", ".csv", ".log", ".npy", ".journal"};
-  constexpr std::array names{"summary.json", "diagnosis.json", "compare.json", "fit.json",
-                             "ladder.json",  "report.json",    "map.json"};
-  return std::find(endings.begin(), endings.end(), file.extension()) != endings.end() ||
-         std::find(names.begin(), names.end(), file.filename()) != names.end();
+/// The command's own document, which --json writes with the same bytes.
+bool is_same_document(const NamedOutput& output) {
+  constexpr std::array documents{"summary.json", "diagnosis.json", "compare.json", "fit.json", "ladder.json"};
+  return output.option == "--json" &&
+         std::find(documents.begin(), documents.end(), output.path.filename()) != documents.end();
 }
 
 }  // namespace
+
+bool is_result(const std::filesystem::path& file) {
+  constexpr std::array endings{".toml", ".csv", ".log", ".npy", ".journal", ".svg", ".md", ".sqlite"};
+  constexpr std::array names{"summary.json", "diagnosis.json", "compare.json", "fit.json",
+                             "ladder.json",  "report.json",    "map.json",     "provenance.json",
+                             "plan.json",    "score.json",     "paper.json",   "truth.json"};
+  return std::find(endings.begin(), endings.end(), file.extension()) != endings.end() ||
+         std::find(names.begin(), names.end(), file.filename()) != names.end();
+}
 
 void check_named_files(const CLI::App& command) {
   const std::vector<NamedOutput> outputs = outputs_of(command);
@@ -82,7 +93,8 @@ void check_named_files(const CLI::App& command) {
                          "names what " + one.option + " names (" + one.path.string() +
                              "), and one would replace the other",
                          "name two files"});
-      if (one.folder && other.path.parent_path() == one.path && is_of_a_folder(other.path.filename()))
+      if (one.folder && other.path.parent_path() == one.path && is_result(other.path) &&
+          !is_same_document(other))
         found.push_back({{},
                          other.option,
                          "names a file of the folder of " + one.option + " (" + other.path.string() +

@@ -2,11 +2,15 @@
 // The names of all files that one command is given.
 #pragma once
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 namespace shakedown {
 
 /// Throws InputError where a parsed command is given an empty name, where two of its options name one file to
 /// write, or where one names a file in the folder of --out that the command's own results replace.
 void check_named_files(const CLI::App& command);
+
+/// Tells whether commands write files of this name or ending into their folders.
+bool is_result(const std::filesystem::path& file);
 
 }  // namespace shakedown

@@ -8,6 +8,7 @@
 
 #include "command.hpp"
 #include "kept_files.hpp"
+#include "named_files.hpp"
 #include "report_joined.hpp"
 #include "report_output.hpp"
 #include "sweep_report.hpp"
@@ -42,12 +43,12 @@ NamedReport stored_report(const std::filesystem::path& place, const std::string&
   return {name, is_result_file(place) ? report_of(ResultFile(place), name) : read_report(place)};
 }
 
-/// The page goes over no result that it shows: a file, or one in a folder that is no page itself.
+/// The page goes over no result that it shows: a file, or one in a folder.
 void keep_results(const std::filesystem::path& place) {
   keep_unchanged(place);
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(place, none))
-    if (entry.is_regular_file(none) && entry.path().extension() != ".html") keep_unchanged(entry.path());
+    if (entry.is_regular_file(none) && is_result(entry.path())) keep_unchanged(entry.path());
 }
 
 }  // namespace

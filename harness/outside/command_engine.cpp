@@ -42,8 +42,7 @@ class CommandEngine final : public Engine {
     const State initial = initial_state(setup, options.run);
     const WorkFolder folder(kept_folder(std::filesystem::path(words_[0]).filename().string(), options.run));
     folder.write("setup.json", command_question(setup, physics, initial, options.run));
-    std::error_code ignored;
-    std::filesystem::remove(folder / "motion.csv", ignored);  // of an earlier run that was kept
+    for (const char* written : {"motion.csv", "output.txt", "error.txt"}) folder.make_way(written);
     execute(folder, setup, options);
     Trajectory trajectory =
         command_answer(folder / "motion.csv", "engine '" + name_ + "'", setup, physics, initial);

@@ -78,6 +78,8 @@ class LammpsEngine final : public Engine {
     folder.write(lammps_script_file, script.text);
     folder.write(lammps_bodies_file, script.bodies);
     if (!script.table.empty()) folder.write(lammps_table_file, script.table);
+    for (const char* written : {lammps_motion_file, lammps_end_file, "log.lammps", "output.txt", "error.txt"})
+      folder.make_way(written);
     execute(program, folder, lammps_steps(setup), options);
     Trajectory trajectory = lammps_answer(folder, setup, physics, initial, script);
     trajectory.wall_seconds =

@@ -47,6 +47,13 @@ void WorkFolder::write(const std::string& name, std::string_view contents) const
                     "). Free space, or set TMPDIR to another folder.");
 }
 
+void WorkFolder::make_way(const std::string& name) const {
+  if (temporary_) return;
+  expect_writable(path_ / name);
+  std::error_code ignored;
+  std::filesystem::remove(path_ / name, ignored);
+}
+
 namespace {
 
 std::filesystem::path asked_for;

@@ -19,6 +19,9 @@ class WorkFolder {
 
   /// Writes a file in the folder. Throws FileError.
   void write(const std::string& name, std::string_view contents) const;
+  /// Makes way for a file that another program is to write: removes that of an earlier run. Throws FileError
+  /// where a link, a device or a file that the command reads has its name.
+  void make_way(const std::string& name) const;
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }  ///< absolute
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "grain_file.hpp"
 #include "packing.hpp"
@@ -35,6 +34,7 @@ void set_sizes(const Setup& setup, double deviation, int run, State& state) {
   const double mass =
       relative.empty() ? 0 : setup.grains.mass * static_cast<double>(relative.size()) / volume;
   for (const double diameter : relative) {
+    expect_packing_goes_on();
     state.radius.push_back(setup.grains.diameter / 2 * diameter);
     state.mass.push_back(deviation == 0 ? setup.grains.mass : mass * diameter * diameter * diameter);
   }
@@ -45,8 +45,10 @@ void set_sizes(const Setup& setup, double deviation, int run, State& state) {
 void set_velocities(const Setup& setup, double energy, int run, State& state) {
   Random random(setup.run.seed, static_cast<std::uint64_t>(run), Stream::velocities);
   state.velocity.resize(state.size());
-  for (Vec3& velocity : state.velocity)
+  for (Vec3& velocity : state.velocity) {
+    expect_packing_goes_on();
     for (double& component : velocity) component = random.normal();
+  }
   if (setup.domain == Domain::periodic) {
     Vec3 momentum = Vec3::Zero();
     double mass = 0;

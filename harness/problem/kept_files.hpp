@@ -11,11 +11,12 @@ namespace shakedown {
 void begin_keeping_files();
 
 /// Declares a file the user's (read as an input, or where the results of this command go): whatever else the
-/// command writes may not replace it. Any thread may call it; the file need not exist. Throws FileError where
-/// a pipe or a device stands there, which gives what it has once at most, or never ends.
+/// command writes may not replace it. Any thread may call it; the file need not exist. Throws FileError as
+/// expect_no_pipe() does.
 void keep_unchanged(const std::filesystem::path& file);
 
-/// Throws FileError where a pipe or a device stands in the file's place.
+/// Throws FileError where a named pipe or a device stands in the file's place: reading it may never end.
+/// Pipes that a shell hands over (/dev/fd, /dev/stdin) are read.
 void expect_no_pipe(const std::filesystem::path& file);
 
 /// Tells whether writing to `file`, by whatever path, would replace a file that is kept.

@@ -29,12 +29,6 @@ namespace {
 
 std::atomic<const std::atomic<bool>*> asked_to_stop{nullptr};
 
-void expect_not_stopped() {
-  const std::atomic<bool>* asked = asked_to_stop.load(std::memory_order_relaxed);
-  if (asked != nullptr && asked->load(std::memory_order_relaxed))
-    throw Interrupted("the grains were not packed yet");
-}
-
 /// Throws InputError when the largest grain drawn does not fit into the box, as the mean one may.
 void check_room_of_the_largest(const Setup& setup, const std::vector<double>& radius) {
   const double largest = 2 * *std::max_element(radius.begin(), radius.end());
@@ -66,7 +60,7 @@ std::vector<Vec3> fcc_layers(const Setup& setup) {
     const double x = front - 10e-6 - layer * half_constant;
     if (x < -front) does_not_fit(setup, centres.size(), "fcc");
     for (int i = 0; i < rows && centres.size() < count; ++i) {
-      expect_not_stopped();
+      expect_packing_goes_on();
       for (int j = 0; j < columns && centres.size() < count; ++j)
         if ((i + j + layer) % 2 == 0)
           centres.emplace_back(x, first_y + i * half_constant, first_z + j * half_constant);
@@ -91,7 +85,7 @@ std::vector<Vec3> square_layers(const Setup& setup) {
     const int shrink = layer % 2;
     const int r = rows - shrink, c = columns - shrink;
     for (int i = 0; i < r && centres.size() < count; ++i) {
-      expect_not_stopped();
+      expect_packing_goes_on();
       for (int j = 0; j < c && centres.size() < count; ++j)
         centres.emplace_back(x, spacing * (i - (r - 1) / 2.0), spacing * (j - (c - 1) / 2.0));
     }
@@ -104,7 +98,7 @@ std::vector<Vec3> random_centres(const Setup& setup, double thickness, int run) 
   const double diameter = setup.grains.diameter, front = (setup.box.length - diameter) / 2;
   std::vector<Vec3> centres(static_cast<std::size_t>(setup.grains.count));
   for (Vec3& centre : centres) {
-    expect_not_stopped();
+    expect_packing_goes_on();
     centre.x() = front - 10e-6 - random.uniform() * thickness;
     centre.y() = (random.uniform() - 0.5) * (setup.box.width[0] - diameter);
     centre.z() = (random.uniform() - 0.5) * (setup.box.width[1] - diameter);
@@ -151,7 +145,7 @@ std::vector<Vec3> filled_cell(const Setup& setup) {
   const Lattice lattice{cells, room};
   std::vector<Vec3> centres(count);
   for (std::size_t i = 0; i < count; ++i) {
-    expect_not_stopped();
+    expect_packing_goes_on();
     centres[i] = lattice.site(static_cast<std::int64_t>(i));
   }
   // every site of a lattice sees what the first one sees
@@ -169,14 +163,18 @@ std::vector<std::int64_t> drawn_places(std::int64_t places, std::int64_t count, 
   std::vector<std::int64_t> drawn;
   if (places <= std::max(most_walked, 100 * count)) {
     // Each is kept with the probability of places still wanted over places left.
-    for (std::int64_t place = 0, left = count; left > 0; ++place)
+    for (std::int64_t place = 0, left = count; left > 0; ++place) {
+      expect_packing_goes_on();
       if (random.uniform() * static_cast<double>(places - place) < static_cast<double>(left))
         drawn.push_back(place), --left;
+    }
     return drawn;
   }
   std::set<std::int64_t> different;
-  while (std::ssize(different) < count)
+  while (std::ssize(different) < count) {
+    expect_packing_goes_on();
     different.insert(static_cast<std::int64_t>(random.uniform() * static_cast<double>(places)));
+  }
   drawn.assign(different.begin(), different.end());
   return drawn;
 }
@@ -194,8 +192,10 @@ std::vector<Vec3> sparsely_filled_cell(const Setup& setup, int run) {
   // The order of the lattice stays, so neighbours are near in memory.
   Random random(setup.run.seed, static_cast<std::uint64_t>(run), Stream::packing);
   std::vector<Vec3> centres;
-  for (const std::int64_t place : drawn_places(lattice.size(), count, random))
+  for (const std::int64_t place : drawn_places(lattice.size(), count, random)) {
+    expect_packing_goes_on();
     centres.push_back(lattice.site(place));
+  }
   return centres;
 }
 
@@ -207,7 +207,7 @@ bool relax(const Setup& setup, const std::vector<double>& radius, std::vector<Ve
   for (int sweep = 0; sweep < 20000; ++sweep) {
     bool overlapping = false;
     for (std::size_t i = 0; i < centres.size(); ++i) {
-      expect_not_stopped();
+      expect_packing_goes_on();
       for (std::size_t j = i + 1; j < centres.size(); ++j) {
         const Vec3 apart = centres[i] - centres[j];
         const double reach = radius[i] + radius[j], distance = apart.norm();
@@ -233,7 +233,7 @@ bool free_of_overlap(const Setup& setup, const std::vector<double>& radius,
   const bool periodic = setup.domain == Domain::periodic;
   const Vec3 cell(setup.box.length, setup.box.width[0], setup.box.width[1]);
   for (std::size_t i = 0; i < centres.size(); ++i) {
-    expect_not_stopped();
+    expect_packing_goes_on();
     if (!periodic && ((cell / 2 - centres[i].cwiseAbs()).array() < radius[i]).any()) return false;
     for (std::size_t j = i + 1; j < centres.size(); ++j) {
       Vec3 apart = centres[i] - centres[j];
@@ -266,6 +266,12 @@ std::vector<Vec3> placed_centres(const Setup& setup, Packing packing, int run) {
 }
 
 }  // namespace
+
+void expect_packing_goes_on() {
+  const std::atomic<bool>* asked = asked_to_stop.load(std::memory_order_relaxed);
+  if (asked != nullptr && asked->load(std::memory_order_relaxed))
+    throw Interrupted("the grains were not packed yet");
+}
 
 void stop_packing_when(const std::atomic<bool>* asked) { asked_to_stop = asked; }
 

@@ -16,4 +16,7 @@ std::vector<Vec3> packed_centres(const Setup& setup, Packing packing, const std:
 /// Lets packings that take long stop once this is true. It must outlive every packing.
 void stop_packing_when(const std::atomic<bool>* asked);
 
+/// Throws Interrupted once it is asked to stop; for loops over grains.
+void expect_packing_goes_on();
+
 }  // namespace shakedown

@@ -34,7 +34,8 @@ struct MoreColumn {
 };
 ReportTable numbers_of(const ReportBars& bars, std::string first_column, const std::vector<MoreColumn>& more);
 
-/// Returns the worse of both in each number; every note once.
+/// Returns the larger errors and overlap of both, the sums of their rescues and refused events, and every
+/// note once.
 Health worse_of(Health a, const Health& b);
 
 /// Says how well the engines kept their promises; `of` says of what.

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "program.hpp"
 
@@ -53,6 +54,12 @@ TEST_F(HostileFiles, PipesAndDevicesAreNoInputs) {
               4, "is a pipe or a device");
 }
 
+TEST_F(HostileFiles, WhatAShellHandsOverIsRead) {
+  const std::string line = "cat " + setup() + " | " + SHAKEDOWN + " run /dev/stdin --json > " +
+                           in_folder("a.json") + " 2> " + in_folder("err");
+  EXPECT_EQ(std::system(line.c_str()), 0) << contents(folder / "err");
+}
+
 TEST_F(HostileFiles, DevicesAreNoOutputs) {
   for (const char* option : {"--json", "--report"})
     expect_said({"run", setup(), option, "/dev/null"}, 4, "it is a device or a pipe");
@@ -64,23 +71,28 @@ TEST_F(HostileFiles, OneCommandsResultsDoNotReplaceEachOther) {
            {"run", mine, "--json", same, "--report", in_folder("./same")},
            {"theory", mine, "--out", same, "--json", same},
            {"run", mine, "--out", out, "--json", out},
+           {"bounce", mine, "--known", same, "--json", same},
+           {"check", "linear-decay", "--baselines", same, "--update", "--json", same},
+           {"import", file("b.csv", "frame,x_px\n0,9\n1,8\n2,7\n"), "--json=experiment.toml"},
            {"sweep", mine, "--vary", "box.length=40mm,50mm", "--table", same, "--json", same},
            {"import", file("a.csv", "frame,x_px\n0,9\n1,8\n2,7\n"), "--out", same, "--json", same}})
     expect_said(arguments, 2, "one would replace the other");
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {"run", mine, "--out", out, "--report", out + "/setup.toml"},
            {"hide", mine, "--out", out, "--truth", out + "/experiment.toml"},
-           {"run", mine, "--out", out, "--json", out + "/../k/summary.json"}})
+           {"run", mine, "--out", out, "--json", out + "/../k/provenance.json"},
+           {"hide", mine, "--out", out, "--json", out + "/truth.json"}})
     expect_said(arguments, 2, "where this command's results may go");
   EXPECT_FALSE(fs::exists(same));
   EXPECT_FALSE(fs::exists(out));
   const Outcome outcome = shakedown_program(
-      {"run", mine, "--out", out, "--report", out + "/page.html", "--json", out + "/all.json"});
+      {"run", mine, "--out", out, "--report", out + "/page.html", "--json", out + "/summary.json"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   const std::string before = contents(folder / "k/summary.json");
   EXPECT_EQ(shakedown_program({"report", out, "--out", out + "/summary.json"}).code, 4);
   EXPECT_EQ(contents(folder / "k/summary.json"), before);
-  EXPECT_EQ(shakedown_program({"report", out, "--out", out + "/page.html"}).code, 0);
+  for (const char* page : {"/page.html", "/page.htm", "/page.htm"})  // over its own too
+    EXPECT_EQ(shakedown_program({"report", out, "--out", out + page}).code, 0) << page;
 }
 
 TEST_F(HostileFiles, NamesWithControlCharactersAreRefused) {
@@ -90,6 +102,8 @@ TEST_F(HostileFiles, NamesWithControlCharactersAreRefused) {
   EXPECT_NE(outcome.err.find("e\\x1b[31m.toml"), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.out.find('\033'), std::string::npos);
   EXPECT_EQ(outcome.err.find('\033'), std::string::npos);
+  expect_said({"run", in_folder("e\u009b31m.toml")}, 2, "e\\xc2\\x9b31m.toml");
+  expect_said({"run", in_folder("e\r.toml")}, 2, "e\\x0d.toml");
 }
 
 TEST_F(HostileFiles, AnotherExportLeavesNoFramesOfTheFirst) {

@@ -193,6 +193,8 @@ TEST(Rival, AShortFitStandsWhereThereWasNoTimeForMore) {
   EXPECT_TRUE(is_found(rival));
   EXPECT_TRUE(ranked_as(rival).fitted);
   EXPECT_EQ(ranked_as(rival).gain, seen.gain);
+  rival.held_out_gain = 9;  // of a difference of two chi2
+  EXPECT_EQ(ranked_as(rival).standard_error, 6);
 }
 
 // 64 simulations of attraction took a tenth of the time: 288 would take .45, 120 take .19.
@@ -225,6 +227,14 @@ TEST(Rival, IsFoundWhereAFitMakesItMoreProbableThanNothing) {
   EXPECT_TRUE(is_found(fitted(one, 1, 0.5, {1, 1})));
   EXPECT_FALSE(is_found(fitted(one, 1, -0.5, {1, 1})));
   EXPECT_FALSE(is_found({&one, {}}));
+}
+
+TEST(Rival, IsAsProbableAsAllItsFormsTogetherBesideNothingAndTheOthers) {
+  const Candidate one = named("a"), other = named("b");
+  const std::vector<Rival> rivals{fitted(one, 1, std::log(2), {1, 1}), fitted(one, 1, std::log(4), {1, 1}),
+                                  fitted(other, 1, 0, {1, 1})};
+  EXPECT_DOUBLE_EQ(probability_among(rivals, rivals[0]), 6.0 / 8);
+  EXPECT_DOUBLE_EQ(probability_among(rivals, rivals[2]), 1.0 / 8);
 }
 
 TEST(Rival, WhatTheDataRejectKeepsItsOdds) {

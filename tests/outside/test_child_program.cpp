@@ -102,6 +102,10 @@ TEST(WorkFolder, ThatIsKeptWritesThroughNoLink) {
   const WorkFolder folder(scratch / "kept");
   EXPECT_THROW(folder.write("setup.json", "{}"), FileError);
   EXPECT_EQ(contents_of(scratch / "precious"), "mine");
+  EXPECT_THROW(folder.make_way("setup.json"), FileError);
+  folder.write("motion.csv", "of an earlier run");
+  folder.make_way("motion.csv");
+  EXPECT_FALSE(std::filesystem::exists(folder / "motion.csv"));
   folder.write("in.lammps", "run 0");
   EXPECT_EQ(contents_of(folder / "in.lammps"), "run 0");
 }

@@ -243,7 +243,10 @@ TEST(InitialState, PackingStopsWhenItIsAsked) {
   }
   shakedown::Setup fluid;
   fluid.domain = Domain::periodic;
-  EXPECT_THROW(initial_state(fluid), Interrupted);
+  for (const Packing packing : {Packing::fcc, Packing::random}) {
+    fluid.release.packing = packing;
+    EXPECT_THROW(initial_state(fluid), Interrupted);
+  }
   stop_packing_when(nullptr);
   EXPECT_EQ(initial_state(fluid).size(), 37u);
 }
