@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "camera.hpp"
 #include "experiment.hpp"
 #include "known_effects.hpp"
 #include "least_squares.hpp"
+#include "physics.hpp"
 
 namespace shakedown {
 
@@ -248,17 +250,13 @@ void set_frames(const Measurement::Run& measurement, const Physics& physics, Mom
 
 MomentumRun momentum_run(const Measurement::Run& measurement) {
   const RunAudit& audit = measurement.audit;
-  const Setup& setup = measurement.setup;
-  const Physics physics = physics_of(setup);
   MomentumRun run;
   run.name = measurement.recorded.name;
   run.interval = audit.frame_interval;
   run.box_noise = audit.box;
   run.com_noise = audit.com;
-  set_constants(setup, physics, run);
-  if (tells_momentum(measurement)) set_frames(measurement, physics, run);
-  if (run.time.size() > 0) add_model_forces(physics, setup.grains.count, run);
-  return run;
+  if (tells_momentum(measurement)) set_frames(measurement, physics_of(measurement.setup), run);
+  return with_forces_of(measurement.setup, std::move(run));
 }
 
 MomentumRun with_forces_of(const Setup& setup, MomentumRun run) {

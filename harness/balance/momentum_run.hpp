@@ -5,9 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "camera.hpp"
 #include "measurement.hpp"
-#include "physics.hpp"
 
 namespace shakedown {
 

@@ -2,10 +2,10 @@
 #include "arguments.hpp"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 
 #include "errors.hpp"
+#include "named_files.hpp"
 
 namespace shakedown {
 
@@ -65,9 +65,8 @@ std::string with_bytes_named(std::string_view text) {
 
 /// "--out=": the parser's own words for it say less.
 bool names_nothing(std::string_view word) {
-  constexpr std::array<std::string_view, 7> files{
-      "--data=", "--out=", "--report=", "--table=", "--truth=", "--keep=", "--known="};
-  return std::find(files.begin(), files.end(), word) != files.end();
+  return std::any_of(options_for_files.begin(), options_for_files.end(),
+                     [&](const char* option) { return word == "--" + std::string(option) + "="; });
 }
 
 }  // namespace

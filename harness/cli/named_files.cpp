@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "errors.hpp"
+#include "kept_files.hpp"
 
 namespace shakedown {
 
@@ -21,21 +22,12 @@ struct NamedOutput {
   bool folder = false;
 };
 
-/// Returns one name for each place, whatever path leads to it.
-fs::path place_of(const std::string& name) {
-  std::error_code error;
-  const fs::path absolute = fs::absolute(name, error), plain = fs::weakly_canonical(absolute, error);
-  const fs::path place = error ? absolute.lexically_normal() : plain;
-  return place.has_filename() ? place : place.parent_path();
-}
-
 /// What a command is to read, and to write, has a name.
 std::vector<Violation> empty_names(const CLI::App& command) {
-  constexpr std::array options{"data", "out", "report", "table", "truth", "keep", "known"};
   std::vector<Violation> found;
   for (const CLI::Option* option : command.get_options()) {
     const bool named =
-        option->get_positional() || std::any_of(options.begin(), options.end(),
+        option->get_positional() || std::any_of(options_for_files.begin(), options_for_files.end(),
                                                 [&](const char* name) { return option->check_lname(name); });
     if (!named || option->get_items_expected_max() == 0) continue;
     for (const std::string& value : option->results())
@@ -59,7 +51,7 @@ std::vector<NamedOutput> outputs_of(const CLI::App& command) {
       const std::string value =
           option->results().empty() ? option->get_default_str() : option->results().front();
       if (value.empty() || value == "-") continue;  // of --json: to standard output
-      outputs.push_back({option_name, place_of(value), type == "DIR"});
+      outputs.push_back({option_name, one_name_of(value), type == "DIR"});
     }
   return outputs;
 }

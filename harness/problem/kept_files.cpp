@@ -27,15 +27,15 @@ Kept& kept() {
   return files;
 }
 
-/// Returns one name for each file, whatever path leads to it.
-std::string one_name_of(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::filesystem::path absolute = std::filesystem::absolute(file, error);
-  const std::filesystem::path plain = std::filesystem::weakly_canonical(absolute, error);
-  return (error ? absolute.lexically_normal() : plain).string();
-}
-
 }  // namespace
+
+std::filesystem::path one_name_of(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::path absolute = std::filesystem::absolute(file, error),
+                              plain = std::filesystem::weakly_canonical(absolute, error),
+                              place = error ? absolute.lexically_normal() : plain;
+  return place.has_filename() ? place : place.parent_path();
+}
 
 void begin_keeping_files() { kept().counting = true; }
 
@@ -58,14 +58,14 @@ void expect_no_pipe(const std::filesystem::path& file) {
 void keep_unchanged(const std::filesystem::path& file) {
   expect_no_pipe(file);
   if (!kept().counting) return;
-  const std::string name = one_name_of(file);
+  const std::string name = one_name_of(file).string();
   const std::lock_guard lock(kept().mutex);
   kept().files.insert(name);
 }
 
 bool is_kept_unchanged(const std::filesystem::path& file) {
   if (!kept().counting) return false;
-  const std::string name = one_name_of(file);
+  const std::string name = one_name_of(file).string();
   const std::lock_guard lock(kept().mutex);
   return kept().files.contains(name);
 }

@@ -10,6 +10,9 @@ namespace shakedown {
 /// may replace what they have read.
 void begin_keeping_files();
 
+/// Returns one name for each place, whatever path leads to it: absolute, without links and dots.
+std::filesystem::path one_name_of(const std::filesystem::path& file);
+
 /// Declares a file the user's (read as an input, or where the results of this command go): whatever else the
 /// command writes may not replace it. Any thread may call it; the file need not exist. Throws FileError as
 /// expect_no_pipe() does.
