@@ -252,9 +252,10 @@ void settle_hypotheses(Diagnosis& d, const Findings& findings) {
   // Where a formula closes the balance and no set of known strengths does, odds are those of the two fits.
   const double something_else = findings.unlisted ? 1 / (1 + std::exp(-d.momentum.unlisted_log_odds))
                                                   : probability_of_something_else(worst_p_value(findings));
-  d.hypotheses = findings.unlisted ? with_something_else(std::move(d.hypotheses), something_else, d.missing)
-                                   : with_something_else_or(left_out_of(d), std::move(d.hypotheses),
-                                                            something_else, d.missing);
+  const LeftOutEffects left_out = left_out_of(d);  // which reads the table
+  d.hypotheses = findings.unlisted
+                     ? with_something_else(std::move(d.hypotheses), something_else, d.missing)
+                     : with_something_else_or(left_out, std::move(d.hypotheses), something_else, d.missing);
   constexpr double shown = 0.99;
   double sum = 0;
   std::size_t count = 0;

@@ -113,16 +113,8 @@ void Course::judge() {
     weighed.camera = together(state.camera, tools_.weigh_damper(state.setup));
     return weighed;
   });
-  DiagnosisState given = state;
-  given.theta = as_given(state.setup, tools_.measurement().known, tools_.known());
-  tools_.workshop().store.recordings = tools_.options().ensembles;
-  given.fit = fit_within(share::model_as_given, given, "the model as given", effort::least);
-  if (!is_far_off(given.fit))
-    given.fit = fit_within(share::model_as_given, given, "the model as given", effort::look);
-  tools_.workshop().store.recordings = nullptr;
-  tools_.limit_to(rules::for_the_search);
-  result_.ladder.push_back(step_of("as given", given.fit));
-  note_failures(given.fit, result_);
+  const DiagnosisState given = compared_as_given(state);
+  state.scatter_at_start = given.fit.scatter;
   const MomentumAudit& balance = result_.momentum;
   const bool balance_holds =
       !balance.possible || (balance.terms.empty() && balance.refitted.p_value > balance_rejected);
@@ -164,6 +156,20 @@ void Course::judge() {
   final = without_untold(std::move(final), refitted);
   if (final.missing.empty() && accepted) return conclude(user_, given, given, false, tools_, result_);
   conclude(user_, given, final, !no_better, tools_, result_);
+}
+
+DiagnosisState Course::compared_as_given(const DiagnosisState& state) {
+  DiagnosisState given = state;
+  given.theta = as_given(state.setup, tools_.measurement().known, tools_.known());
+  tools_.workshop().store.recordings = tools_.options().ensembles;
+  given.fit = fit_within(share::model_as_given, given, "the model as given", effort::least);
+  if (!is_far_off(given.fit))
+    given.fit = fit_within(share::model_as_given, given, "the model as given", effort::look);
+  tools_.workshop().store.recordings = nullptr;
+  tools_.limit_to(rules::for_the_search);
+  result_.ladder.push_back(step_of("as given", given.fit));
+  note_failures(given.fit, result_);
+  return given;
 }
 
 DiagnosisState Course::with_packing() {
@@ -213,9 +219,11 @@ DiagnosisState Course::with_terms(DiagnosisState state, const std::vector<FoundT
   if (!first_periods_) return state;
   // A layer whose contacts last begins almost without chaos, so that over a box as wide as what is believed
   // its features are no line.
+  const double scatter_at_start = state.scatter_at_start;
   state.fit = *first_periods_;
   state = state.settled(tools_.known());
   state.fit = {};
+  state.scatter_at_start = scatter_at_start;  // of whole runs
   return state;
 }
 

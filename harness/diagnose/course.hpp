@@ -33,6 +33,8 @@ class Course {
   void judge();
   /// Returns the first state, with the packing and the camera that the recordings show.
   DiagnosisState with_packing();
+  /// Returns the state as the user gave it, compared with the measurements; nothing is fitted.
+  DiagnosisState compared_as_given(const DiagnosisState& state);
   /// Chooses the engine that simulates from now on, by the question which engine makes what the films show.
   DiagnosisState with_engine(DiagnosisState state);
   /// Returns the spring's frequency that the balance found, or else the setup's, Hz.

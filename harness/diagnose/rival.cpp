@@ -144,6 +144,8 @@ DiagnosisState with_rival(const DiagnosisState& before, const Rival& rival, Diag
   state.found = together(before.found, added);
   state.camera = without(before.camera, added);
   state.dear = before.dear || candidate.dear;
+  // Runs with the effect have another spread, by which a scatter is told.
+  state.scatter_at_start = std::numeric_limits<double>::infinity();
   if (std::find(state.missing.begin(), state.missing.end(), candidate.effect) == state.missing.end())
     state.missing.push_back(candidate.effect);  // else it is one more component
   return state;

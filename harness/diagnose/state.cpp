@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "camera_features.hpp"
@@ -73,6 +74,7 @@ std::vector<Knob> DiagnosisState::knobs() const { return together(together(theta
 
 DiagnosisState DiagnosisState::settled(KnownEffects known) const {
   DiagnosisState at = *this;
+  at.scatter_at_start = fit.scatter;
   for (std::vector<Knob>* list : {&at.theta, &at.found})
     for (Knob& knob : *list)
       for (const FittedValue& value : fit.values)
@@ -106,6 +108,7 @@ DiagnosisState as_believed(DiagnosisState state) {
       knob = before;
       knob.width *= knob.key == "spring.frequency" ? of_the_frequency : of_a_restitution;
     }
+  state.scatter_at_start = std::numeric_limits<double>::infinity();
   return state;
 }
 
@@ -201,6 +204,7 @@ RefitOptions DiagnosisTools::options_of(const DiagnosisState& state, Effort effo
   options.count = effort.count;
   options.most_looks = effort.looks;
   options.confirming = effort.confirming;
+  options.scatter_at_start = state.scatter_at_start;
   if (effort.beside) options.look_beside_below = rules::doubtful;
   options.first_run = next_batch();
   return options;

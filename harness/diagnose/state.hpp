@@ -4,6 +4,7 @@
 #pragma once
 #include <chrono>
 #include <ctime>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ struct DiagnosisState {
   Refit fit;
   bool dear = false;                ///< an effect makes runs cost several times a plain one
   std::vector<Knob> before_fits{};  ///< theta before any fit
+  /// Refit::scatter of the model where a fit of this state begins; infinite where nobody has simulated it.
+  double scatter_at_start = std::numeric_limits<double>::infinity();
 
   /// Returns all that a fit of it varies.
   std::vector<Knob> knobs() const;

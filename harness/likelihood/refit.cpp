@@ -45,11 +45,13 @@ void judge_at(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z,
   round.calibrate(z, result.chi2, result);
 }
 
-/// Tells whether the emulator promised much more than its solution keeps.
-bool misled(const Refit& result) {
+bool is_clearly_more(double scatter, double than) {
   constexpr double more = 0.3;  // codes of one physics differ by 0.1 to 0.33 (rules.hpp)
-  return result.scatter > (1 + more) * result.promised_scatter + more;
+  return scatter > (1 + more) * than + more;
 }
+
+/// Tells whether the emulator promised much more than its solution keeps.
+bool misled(const Refit& result) { return is_clearly_more(result.scatter, result.promised_scatter); }
 
 /// Returns the knobs about z, straight, for there a line is enough.
 std::vector<Knob> centred_at(const Eigen::VectorXd& z, std::vector<Knob> knobs) {
@@ -198,11 +200,21 @@ std::vector<Knob> next_box(std::vector<Knob> knobs, const Minimum& minimum, cons
   return knobs;
 }
 
-/// Returns the box to look at next, about the best solution so far: half as wide where the emulator was
-/// misled; else along the valley 1.5 standard errors to one side, then to the other. Empty where there is no
-/// need.
-std::vector<Knob> next_look(const Refit& latest, const Refit& best, const std::vector<Knob>& last,
-                            const RefitOptions& options, int looks) {
+/// Returns the first box, half as wide at each look.
+std::vector<Knob> about_the_beginning(std::vector<Knob> first, int looks) {
+  for (Knob& knob : first)
+    if (!knob.exact) knob.width *= std::pow(0.5, looks + 1);
+  return first;
+}
+
+/// Returns the box to look at next. Where the best solution so far is clearly worse than the beginning, about
+/// that. Else about the solution: half as wide where the emulator was misled, or along the valley 1.5
+/// standard errors to one side, then to the other. Empty where there is no need.
+std::vector<Knob> next_look(const Refit& latest, const Refit& best, const std::vector<Knob>& first,
+                            const std::vector<Knob>& last, const RefitOptions& options, int looks) {
+  if (options.confirming > 0 && !last.empty() && looks < options.most_looks &&
+      is_clearly_more(best.scatter, options.scatter_at_start))
+    return about_the_beginning(first, looks);
   const bool nearer = misled(latest) && latest.promised_chi2 < options.look_again_below;
   const bool beside_it = best.p_value <= options.look_beside_below && best.scatter < beyond_a_valley;
   if (options.confirming == 0 || last.empty() || looks >= options.most_looks || !(nearer || beside_it))
@@ -230,7 +242,7 @@ Refit refit_by_rounds(const std::vector<MeasuredFeatures>& measured, std::vector
       std::all_of(knobs.begin(), knobs.end(), [](const Knob& knob) { return knob.exact; });
   int looks = 0;
   if (best) {
-    knobs = next_look(*best, *best, knobs, options, looks++);
+    knobs = next_look(*best, *best, first, knobs, options, looks++);
     if (knobs.empty()) return *best;
   }
   for (int number = best ? options.rounds : 1;; ++number) {
@@ -259,7 +271,7 @@ Refit refit_by_rounds(const std::vector<MeasuredFeatures>& measured, std::vector
     Refit result = result_at(round, measured, here, minimum, pooling, options);
     if (!best || result.scatter < best->scatter || std::isnan(best->scatter)) best = result;
     if (nothing_to_scatter) return *best;
-    knobs = next_look(result, *best, here, options, looks++);
+    knobs = next_look(result, *best, first, here, options, looks++);
     if (knobs.empty()) return *best;
   }
 }

@@ -34,6 +34,10 @@ struct RefitOptions {
   /// Where the emulator promised much more than the simulations at the solution confirm, the fit looks again
   /// in a narrower box, if what was promised is below this judged_chi2.
   double look_again_below = std::numeric_limits<double>::infinity();
+  /// Misfit over that of the model's own runs where the fit begins, as simulations there have shown it. Where
+  /// the fit ends with clearly more, its emulator has led it away, and it looks again about its beginning, in
+  /// narrower boxes. Infinite: nobody has looked.
+  double scatter_at_start = std::numeric_limits<double>::infinity();
   /// At this p-value or below, where the misfit is not gross, the fit looks again on both sides along the
   /// direction that is known least, and keeps the best, because the emulator of a valley is noisy.
   double look_beside_below = 0;

@@ -227,6 +227,25 @@ TEST(Verdict, ALateTriggerIsNoErrorThatRose) {
   EXPECT_NE(judgement_of({0.5, 1, ""}, {0.5, 1, ""}, {box}).standing, Standing::holds);
 }
 
+// A model that fails speaks for each effect that there was no time to look at as it does for something in no
+// list.
+TEST(Verdict, WhereNoRoundWasHeldAFailingModelSpeaksForWhatNobodyLookedAt) {
+  Diagnosis d;
+  d.hypotheses = {{{}, 0, 0.8}, {{"grain_friction"}, 0, 0.15}, {{"grain_air_drag"}, 0, 0.05}};
+  d.not_tried = {no_round_held};
+  Findings findings;
+  findings.features = {1 / 401.0, 11, ""};
+  findings.far_p_value = 1e-100;
+  settle_hypotheses(d, findings);
+  ASSERT_EQ(d.hypotheses.size(), 3u);
+  EXPECT_EQ(d.hypotheses[0].effects, std::vector<std::string>{"grain_friction"});
+  EXPECT_EQ(d.hypotheses[2].effects, std::vector<std::string>{std::string(unlisted_effect)});
+  // All three have their priors, for nothing explains the data as they are.
+  WITHIN(d.hypotheses[0].probability / d.hypotheses[1].probability, 3, 1e-14, 1e-15);
+  WITHIN(d.hypotheses[0].probability / d.hypotheses[2].probability,
+         0.15 * (1 - rules::something_else) / rules::something_else, 1e-13, 1e-14);
+}
+
 }  // namespace
 
 // Weak friction was added beside an acceleration that the data accepted (p = .03), and both errors rose.

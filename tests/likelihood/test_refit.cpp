@@ -238,6 +238,22 @@ TEST(SlowRefit, SimulationsAtTheSolutionJudgeItAndWhatPromisedTooMuchLooksAgain)
   WITHIN(fits.confirmed.values[0].value, truth, 0.005, 4.1e-4);
 }
 
+TEST(SlowRefit, WhatEndsWorseThanItBeganLooksAgainAboutItsBeginning) {
+  const double truth = 0.82;
+  const Bent step(truth, 0.02);
+  const TwoFits fits(step, truth);
+  RefitOptions options = fits.confirming;
+  options.look_again_below = 0;  // so that nothing but the beginning says that the emulator was misled
+  std::vector<Knob> knobs = theta;
+  knobs.front().centre = truth + 0.004;
+  const Refit begun = compare_at(fits.measured, knobs, fits.workshop, fits.trusting),
+              led_away = refit(fits.measured, knobs, fits.workshop, options);
+  options.scatter_at_start = begun.scatter;
+  const Refit kept = refit(fits.measured, knobs, fits.workshop, options);
+  EXPECT_GT(led_away.scatter, 2 * begun.scatter);  // seen: 4.1 times
+  EXPECT_LT(kept.scatter, begun.scatter);          // seen: 0.72 times
+}
+
 /// Where a parabola over a part of the box follows.
 constexpr double truth_of_curve = 0.85;
 const TwoFits& fits_of_curve() {
