@@ -156,8 +156,8 @@ Fit fitted_and_judged(const Setup& given, const Measurement& recorded, const Fit
   const MomentumAudit balance =
       audit_momentum(with_setup(measurement, found.fitted, all_effects()), all_effects());
   if (!found.used.empty())
-    found.judgement = judgement_of({found.p_value, found.scatter, ""}, balance.test_of(balance.as_given),
-                                   differences_of(found.used));
+    found.judgement =
+        judgement_of(found.solution.test(), balance.test_of(balance.as_given), differences_of(found.used));
   return found;
 }
 

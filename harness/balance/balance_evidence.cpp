@@ -251,21 +251,51 @@ void take_noise_off(const SelectionProblem& p, Selection& selection) {
   fit.chi2 = fit.residual.squaredNorm();
 }
 
+/// Returns the ln of what the likelihood leaves of the prior of a set's strengths, as log_odds_of() has it of
+/// a set that is weighed with the noise of all; -infinity where a strength has the wrong sign or is out of
+/// its bounds.
+double log_share_of_prior(const SelectionProblem& p, const Selection& selection) {
+  std::vector<Eigen::Index> places;
+  std::vector<const MomentumTerm*> terms;
+  Eigen::Index column = 0;
+  for (const ChosenTerm& c : selection.chosen) {
+    if (p.is_known(c.term) && c.term > 0)
+      places.push_back(column), terms.push_back(&p.known[static_cast<std::size_t>(c.term)]);
+    column += width_of(c);
+  }
+  if (places.empty()) return 0;
+  const Eigen::MatrixXd block = selection.fit.covariance(places, places);
+  const Eigen::VectorXd size = block.diagonal().cwiseSqrt();
+  const Eigen::MatrixXd correlation =
+      size.cwiseInverse().asDiagonal() * block * size.cwiseInverse().asDiagonal();
+  const Eigen::LLT<Eigen::MatrixXd> root(correlation.inverse());
+  double sum = 0;
+  for (std::size_t a = 0; a < places.size(); ++a) {
+    const auto i = static_cast<Eigen::Index>(a);
+    const double strength = selection.fit.strength[places[a]], error = size[i] / root.matrixLLT()(i, i);
+    if ((terms[a]->never_negative && strength <= 0) || !terms[a]->possible(strength))
+      return -std::numeric_limits<double>::infinity();
+    sum += std::min(0.0, log_prior(strength, terms[a]->typical, terms[a]->never_negative) +
+                             std::log(2 * std::numbers::pi) / 2 + std::log(error)) +
+           prior_odds(p, terms[a]->odds);
+  }
+  return sum;
+}
+
 /// Weighs those in question once more, each with the noise that its own forces let in, and the parts of the
 /// first.
 std::vector<BalanceHypothesis> weighed_again(const SelectionProblem& p,
                                              const std::vector<BalanceHypothesis>& sets) {
-  constexpr double hopeless = 14;  // ln odds: one in a million
   constexpr std::size_t most = 8;
   std::vector<BalanceHypothesis> list;
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    const bool in_question = i < most && sets[i].log_odds > sets.front().log_odds - hopeless;
+    const bool in_question = i < most && sets[i].log_odds > sets.front().log_odds - hopeless_log_odds;
     if (!in_question && !is_part_of(sets[i].chosen, sets.front().chosen)) continue;
     SelectionProblem own = p;
     const Selection fit = fit_terms(own, sets[i].chosen);
     BalanceHypothesis hypothesis = sets[i];
-    hypothesis.log_odds += -hypothesis.gain / 2 - fit.objective / 2;
-    list.push_back(std::move(hypothesis));
+    hypothesis.log_odds = log_share_of_prior(own, fit) - fit.objective / 2;
+    if (std::isfinite(hypothesis.log_odds)) list.push_back(std::move(hypothesis));
   }
   return by_probability(std::move(list));
 }
@@ -395,7 +425,7 @@ SineFound best_sine(const SelectionProblem& p, const Selection& beside, double l
   for (double width = step / 2; width > step / 500; width /= 2)
     for (const double frequency : {best.frequency - width, best.frequency + width})
       if (const Seen seen = seen_at(frequency); seen.gain > most)
-        most = seen.gain, best.frequency = frequency, odds.push_back(seen.log_odds);
+        most = seen.gain, best.frequency = frequency;
   best.log_odds = log_sum(odds) - std::log(static_cast<double>(odds.size())) + prior_odds(p, 1);
   return best;
 }

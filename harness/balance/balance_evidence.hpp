@@ -12,6 +12,9 @@
 
 namespace shakedown {
 
+/// ln odds beneath the most probable set below which a set is out of question: one in a million.
+constexpr double hopeless_log_odds = 14;
+
 /// Names one term in the fit: a known strength, a formula (lines beyond the known ones), or a sine (two
 /// columns).
 struct ChosenTerm {

@@ -287,7 +287,10 @@ FormulaFit fit_formulas(SelectionProblem problem) {
   std::stable_sort(fit.curves.begin(), fit.curves.end(),
                    [](const ForceCurve& a, const ForceCurve& b) { return a.gain > b.gain; });
   constexpr int most_steps = 4;
-  for (int step = 0; step < most_steps && add_best(p, map, selection); ++step) drop_needless(p, selection);
+  for (int step = 0; step < most_steps && add_best(p, map, selection); ++step) {
+    drop_needless(p, selection);
+    map = ForceMap(p.problem, *p.runs);  // whitened by the noise that the fitted forces let in
+  }
   for (std::size_t which = 1; which < selection.chosen.size() && has_formula(p, selection); ++which) {
     const int term = selection.chosen[which].term;
     if (term < 0 || !p.terms[static_cast<std::size_t>(term)].shape) continue;

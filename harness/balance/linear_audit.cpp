@@ -225,14 +225,15 @@ std::vector<FoundTerm> terms_found(const SelectionProblem& p, const Selection& s
 std::vector<BalanceAlternative> alternatives_of(const SelectionProblem& p,
                                                 const std::vector<BalanceHypothesis>& sets, double frequency,
                                                 KnownEffects known) {
-  constexpr double hopeless = -14, in_question = 0.02;
+  constexpr double in_question = 0.02;
   constexpr std::size_t most = 3;
   std::vector<BalanceAlternative> list;
   for (std::size_t i = 1; i < sets.size() && list.size() < most; ++i) {
     const double log_odds = sets[i].log_odds - sets.front().log_odds;
     const bool has_more = sets[i].chosen.size() > sets.front().chosen.size();
     const bool is_part = is_part_of(sets[i].chosen, sets.front().chosen);
-    if (log_odds < hopeless || has_more || !(is_part || sets[i].probability > in_question)) continue;
+    if (log_odds < -hopeless_log_odds || has_more || !(is_part || sets[i].probability > in_question))
+      continue;
     SelectionProblem own = p;
     const Selection selection = fit_terms(own, sets[i].chosen);
     BalanceAlternative alternative{log_odds, terms_found(own, selection, known), 0, 0,

@@ -2,6 +2,7 @@
 // Fits with full effort what a search has found, and drops what that made needless.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "key_unit.hpp"
@@ -101,6 +102,8 @@ DiagnosisState pruned(const DiagnosisState& state, DiagnosisTools& tools,
                   [&](const EffectChoice& choice) { return choice.record->name == effect; });
     std::erase_if(less.found, [&](const Knob& knob) { return effect_of(knob.key) == effect; });
     std::erase(less.missing, effect);
+    less.scatter_at_start =
+        std::numeric_limits<double>::infinity();  // it was told of the model with the effect
     less.fit = tools.fit(less, "is " + effect + " still needed?", less.knobs(), effort::beside);
     if (less.fit.p_value <= rules::holds &&
         (less.fit.scatter - state.fit.scatter) * state.fit.degrees > rules::emulator_noise)

@@ -227,21 +227,30 @@ void complete_ranking(Diagnosis& d) {
 namespace {
 
 /// Returns the effects that there was no time for: those that are named in not_tried and, where no round was
-/// held, all but the ones found.
+/// held, all of the table. What was fitted was looked at, in whichever of its shapes; so was what the balance
+/// weighs.
 LeftOutEffects left_out_of(const Diagnosis& d) {
   const auto in = [](const std::vector<std::string>& list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
+  const auto in_ranking = [&](const std::string& effect, bool fitted) {
+    return std::any_of(d.ranking.begin(), d.ranking.end(), [&](const RankedEffect& ranked) {
+      return ranked.effect == effect && (ranked.fitted || !fitted);
+    });
+  };
+  const auto in_balance = [&](const std::string& effect) {
+    return std::any_of(d.momentum.seen.begin(), d.momentum.seen.end(),
+                       [&](const std::string& key) { return key.starts_with(effect + "."); });
+  };
   LeftOutEffects left_out;
-  for (const std::string& step : d.not_tried) {
-    const bool is_weighed = std::any_of(d.ranking.begin(), d.ranking.end(),
-                                        [&](const RankedEffect& ranked) { return ranked.effect == step; });
-    (is_weighed ? left_out.not_fitted : left_out.not_looked_at).push_back(step);
-  }
+  for (const std::string& step : d.not_tried)
+    if (!in_ranking(step, true))
+      (in_ranking(step, false) ? left_out.not_fitted : left_out.not_looked_at).push_back(step);
   if (in(d.not_tried, no_round_held))
     for (const Hypothesis& h : d.hypotheses)
       for (const std::string& effect : h.effects)
-        if (!in(d.missing, effect) && !in(left_out.not_fitted, effect) && !in(left_out.not_looked_at, effect))
+        if (!in_ranking(effect, true) && !in_balance(effect) && !in(left_out.not_fitted, effect) &&
+            !in(left_out.not_looked_at, effect))
           left_out.not_looked_at.push_back(effect);
   return left_out;
 }

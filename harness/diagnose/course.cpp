@@ -107,7 +107,7 @@ void Course::judge_empty_box(const MomentumOptions& whole) {
 
 void Course::judge() {
   DiagnosisState state = with_engine(with_packing());
-  tools_.limit_to(share::model_as_given / 2);
+  tools_.limit_to(std::max(share::model_as_given / 2, tools_.share_spent() + share::errors_of_the_damper));
   state = unless_spent(damper_weighed, state, [&] {
     DiagnosisState weighed = state;
     weighed.camera = together(state.camera, tools_.weigh_damper(state.setup));
@@ -134,13 +134,13 @@ void Course::judge() {
   else
     final = search(refitted);
   if (refitted.missing.empty() && !balance.unlisted) note_failures(refitted.fit, result_);
-  // A fit may end along the valley of the restitutions where fresh simulations find nothing gained: effects
-  // are to beat the better of the two.
-  const bool no_better = accepted && refitted.missing.empty() && given.fit.p_value > refitted.fit.p_value;
   if (final.missing.empty() && accepted) return conclude(user_, given, given, false, tools_, result_);
   if (!final.missing.empty() && final.missing != refitted.missing &&
       !explains(final.fit.p_value, final.fit.scatter, refitted.fit.scatter, final.fit.error_box(),
                 final.fit.floor_box())) {
+    for (const std::string& effect : final.missing)
+      if (std::find(refitted.missing.begin(), refitted.missing.end(), effect) == refitted.missing.end())
+        take_back(effect);
     final = refitted;
     result_.ladder.push_back(step_of(step_name(final.missing) + ", the rest taken back", final.fit));
   }
@@ -155,7 +155,7 @@ void Course::judge() {
   }
   final = without_untold(std::move(final), refitted);
   if (final.missing.empty() && accepted) return conclude(user_, given, given, false, tools_, result_);
-  conclude(user_, given, final, !no_better, tools_, result_);
+  conclude(user_, given, final, true, tools_, result_);
 }
 
 DiagnosisState Course::compared_as_given(const DiagnosisState& state) {
@@ -289,7 +289,7 @@ DiagnosisState Course::with_the_force_on_its_body(const DiagnosisState& on_box) 
                             error.what());
     return on_box;
   }
-  if (on_grains.fit.judged_chi2 > on_box.fit.judged_chi2 - 2 * rules::emulator_noise) return on_box;
+  if (on_grains.fit.judged_chi2 > on_box.fit.own_chi2 - 2 * rules::emulator_noise) return on_box;
   result_.ladder.push_back(
       step_of(step_name(on_grains.missing) + " + the force of the formula on the grains", on_grains.fit));
   return on_grains.settled(tools_.known());
@@ -314,7 +314,7 @@ DiagnosisState Course::settled_by_ensembles(const DiagnosisState& before, const 
                               error.what());
       continue;
     }
-    const double log_odds = alternative.log_odds + (found.fit.judged_chi2 - other.fit.judged_chi2) / 2;
+    const double log_odds = alternative.log_odds + (found.fit.own_chi2 - other.fit.judged_chi2) / 2;
     if (log_odds > most) most = log_odds, best = other, kept = &alternative;
   }
   if (kept == nullptr) return found;

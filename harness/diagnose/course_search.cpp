@@ -52,9 +52,9 @@ DiagnosisState Course::search(DiagnosisState& refitted) {
       break;
     }
     if (!searched && state.fit.p_value <= rules::doubtful && !is_sure(round)) {
-      const double before = state.fit.judged_chi2;
+      const double before = state.fit.scatter * state.fit.degrees;
       state = beside(refitted);
-      if (round.added && state.fit.judged_chi2 < before - rules::emulator_noise) try {
+      if (round.added && state.fit.scatter * state.fit.degrees < before - rules::emulator_noise) try {
           round = search_round(state, tools_, result_.momentum.seen);
         } catch (const BudgetSpent&) {  // what was found beside the poorer fit stands
         }

@@ -67,6 +67,14 @@ DiagnosisState with_balance(DiagnosisState state, const std::vector<FoundTerm>& 
       state.missing.push_back(term.effect);
       continue;
     }
+    const bool is_second_sine =
+        term.frequency > 0 && std::any_of(state.found.begin(), state.found.end(), [&](const Knob& knob) {
+          return effect_of(knob.key) == term.effect;
+        });
+    if (is_second_sine) {  // a setup has one of each effect
+      add_once(notes, "the momentum balance finds two sines: ensembles are fitted with the first alone");
+      continue;
+    }
     const bool had_already = find_choice(state.setup, term.effect) != nullptr;
     if (had_already)
       add_once(notes, "the momentum balance asks for another " + term.key() + ": it is refitted");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "errors.hpp"
 #include "rules.hpp"
 
 namespace shakedown {
@@ -67,7 +68,7 @@ std::vector<PairRival> pairs_beyond(const std::vector<Rival>& rivals, const std:
 void fit_pair(PairRival& pair, const DiagnosisState& before, DiagnosisTools& tools, EffectScreen& screen,
               double lowest, Effort effort) {
   fit_rival(pair.second, with_rival(before, pair.first, tools), tools, screen, lowest, effort);
-  if (!std::isfinite(pair.second.log_ratio)) return;  // no time to weigh it
+  if (!std::isfinite(pair.second.log_ratio)) throw BudgetSpent("no time to weigh the pair");
   pair.fitted = true;
   pair.first.state = pair.second.state;
   pair.first.log_ratio = pair.first.nothing_gained;  // the ratio of both is told with the second

@@ -154,7 +154,7 @@ DiagnosisState with_rival(const DiagnosisState& before, const Rival& rival, Diag
 void fit_shortly(Rival& rival, const DiagnosisState& before, DiagnosisTools& tools) {
   DiagnosisState state = with_rival(before, rival, tools);
   const double spent = tools.share_spent();
-  rival.chi2_without = before.fit.judged_chi2;
+  rival.chi2_without = before.fit.own_chi2;  // by which the short fit is judged
   state.fit = tools.fit(state, "looking at " + rival.candidate->effect, knobs_of_fit(before, state),
                         effort::least, &before.fit);
   rival.short_chi2 = state.fit.judged_chi2;
@@ -234,7 +234,7 @@ void weigh_beside_the_best(std::vector<Rival>& rivals, double candidates) {
   };
   for (Rival& rival : rivals) {
     if (&rival == best) continue;
-    if (rival.fitted && (std::isfinite(rival.log_ratio) || is_weighed_by_left(rival))) {
+    if (rival.fitted && !is_arithmetic(rival)) {
       const double weighed = beside_the_best(rival, chi2_of(left_by(rival.state.fit), covariances), of_fits);
       // A fit that the data reject gets no credit for its gain.
       rival.log_odds =

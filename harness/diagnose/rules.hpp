@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "balance_rules.hpp"
 #include "judgement.hpp"
 
 namespace shakedown {
@@ -28,7 +29,7 @@ constexpr Rule answer_set{
     "answer_set", 0.95, "probability",
     "the smallest set of hypotheses that holds as much is the answer, as a 95 % interval is"};
 constexpr Rule expected_effects{
-    "expected_effects", 0.5, "effects",
+    "expected_effects", shakedown::expected_effects, "effects",
     "an experiment hides half an effect beforehand: as many hide something as hide "
     "nothing, rounded down"};
 constexpr Rule something_else{

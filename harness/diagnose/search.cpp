@@ -95,7 +95,7 @@ class Round {
         searched_(static_cast<double>(tools.known().searched())),
         rejected_(is_rejected(state.fit)),
         far_off_(is_far_off(state.fit)),
-        lowest_(state.fit.judged_chi2) {
+        lowest_(state.fit.own_chi2) {
     round_.next = state;
   }
 
@@ -195,7 +195,8 @@ class Round {
       if (pairs_due && (tried_ > 0 || pairs_first) && none_holds() && in_question(rivals_).empty()) {
         pairs_due = false;
         fit_pairs();
-        if (std::any_of(pairs_.begin(), pairs_.end(), [](const PairRival& p) { return holds(p.second); }))
+        if (std::any_of(pairs_.begin(), pairs_.end(),
+                        [](const PairRival& p) { return p.fitted && holds(p.second); }))
           return;
       }
       Rival* next = next_to_fit(promised);
@@ -252,8 +253,15 @@ class Round {
         // A nearly certain effect may use what is kept for the last fit.
         if (probability_among(rivals_, rival) <= rules::adds_effect && !is_alone_in_question(rivals_, rival))
           throw;
+        const double limit = tools_.limit();
         tools_.limit_to(1);
-        fit(effort::least);
+        try {
+          fit(effort::least);
+        } catch (...) {
+          tools_.limit_to(limit);
+          throw;
+        }
+        tools_.limit_to(limit);
       }
     } catch (const BudgetSpent&) {
       if (!take_short_fit(rivals_, rival)) return leave_out(rival);

@@ -31,14 +31,21 @@ FitRound::FitRound(const std::vector<MeasuredFeatures>& measured, const std::vec
     w.codes = std::pow(options.model_error * measured[r].setup.release.displacement, 2);
     w.chaos =
         w.root.matrixL().solve(unseen(r).transpose()).squaredNorm() / static_cast<double>(unseen(r).rows());
-    Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(covariance.rows(), covariance.cols());
-    for (Eigen::Index f = 0; f < noise.rows(); ++f)
-      noise(f, f) = measured[r].plan.features[static_cast<std::size_t>(f)].noise;
-    w.expected = w.chaos + w.root.matrixL().solve(noise).squaredNorm();
-    if (measured[r].own.cols() > 0) w.expected += w.root.matrixL().solve(measured[r].own).squaredNorm();
+    w.expected = expected_sum(r, w.root);
     whitened_.push_back(std::move(w));
   }
   objective_ = objective_of(measured_values(), true);
+}
+
+double FitRound::expected_sum(std::size_t r, const Eigen::LLT<Eigen::MatrixXd>& root) const {
+  const std::vector<Feature>& features = measured_[r].plan.features;
+  Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(std::ssize(features), std::ssize(features));
+  for (Eigen::Index f = 0; f < noise.rows(); ++f) noise(f, f) = features[static_cast<std::size_t>(f)].noise;
+  double sum =
+      root.matrixL().solve(unseen(r).transpose()).squaredNorm() / static_cast<double>(unseen(r).rows()) +
+      root.matrixL().solve(noise).squaredNorm();
+  if (measured_[r].own.cols() > 0) sum += root.matrixL().solve(measured_[r].own).squaredNorm();
+  return sum;
 }
 
 std::vector<Emulator> FitRound::recentred(const Eigen::VectorXd& z, std::vector<Emulator> there) const {
@@ -228,15 +235,20 @@ double FitRound::judged_chi2(std::size_t r, const Eigen::VectorXd& z, const Judg
   const double error =
       phi.dot(emulators_[r].inverse_normal * phi) / static_cast<double>(emulators_[r].residuals.rows());
   const double wrong = rule.root.matrixL().solve(emulators_[r].residuals.transpose()).squaredNorm() * error;
-  return rule.root.matrixL().solve(measured_[r].values - model(r, z)).squaredNorm() * rule.expected /
-         (rule.expected + wrong);
+  const double sum = rule.root.matrixL().solve(measured_[r].values - model(r, z)).squaredNorm(),
+               expected = rule.expected + wrong;
+  // As Objective::true_sum(): the emulator's error adds to what a wrong model leaves.
+  return sum > expected ? sum - wrong : sum * rule.expected / expected;
 }
 
 std::vector<JudgingRule> FitRound::rules_of(const Refit* other) const {
   std::vector<JudgingRule> rules;
   for (std::size_t r = 0; r < measured_.size(); ++r) {
     JudgingRule rule{whitened_[r].root, whitened_[r].expected};
-    if (other != nullptr) rule.root = Eigen::LLT<Eigen::MatrixXd>(other->covariances[r]);
+    if (other != nullptr) {
+      rule.root = Eigen::LLT<Eigen::MatrixXd>(other->covariances[r]);
+      rule.expected = expected_sum(r, rule.root);
+    }
     rules.push_back(std::move(rule));
   }
   return rules;

@@ -78,8 +78,9 @@ class FitRound {
   /// makes the slope, it is more.
   Eigen::MatrixXd emulator_scatter(const Eigen::VectorXd& z) const;
 
-  /// Returns the chi2 of run r at z by this rule, which may be another fit's, scaled down by what the
-  /// emulator's own error adds to its expectation.
+  /// Returns the chi2 of run r at z by this rule, which may be another fit's, less what the emulator's own
+  /// error adds to its expectation. What the knobs' values cost beforehand (Objective::disbelief()) is not in
+  /// it.
   double judged_chi2(std::size_t r, const Eigen::VectorXd& z, const JudgingRule& rule) const;
 
   /// Returns a rule for each run: with the covariances of `other`, or of this round where there is none.
@@ -100,6 +101,9 @@ class FitRound {
                                      const Eigen::MatrixXd& covariance) const;
 
  private:
+  /// Returns the whitened sum of squares to be expected of run r: chaos that the covariance has not seen,
+  /// camera noise, what is the run's own. `root`: of the covariance.
+  double expected_sum(std::size_t r, const Eigen::LLT<Eigen::MatrixXd>& root) const;
   /// Returns the measured features of each run, m.
   std::vector<Eigen::VectorXd> measured_values() const;
 

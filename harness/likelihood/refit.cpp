@@ -45,6 +45,18 @@ void judge_at(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z,
   round.calibrate(z, result.chi2, result);
 }
 
+/// Sets the chi2 of all runs with what the knobs' values cost, by the covariances of `other` (null: the
+/// round's own) and by the round's own.
+void set_judged(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z, const Refit* other,
+                Refit& result) {
+  const std::vector<JudgingRule> own = round.rules_of(nullptr), asked = round.rules_of(other);
+  result.judged_chi2 = result.own_chi2 = round.objective().disbelief(z);
+  for (std::size_t r = 0; r < runs; ++r) {
+    result.judged_chi2 += round.judged_chi2(r, z, asked[r]);
+    result.own_chi2 += round.judged_chi2(r, z, own[r]);
+  }
+}
+
 bool is_clearly_more(double scatter, double than) {
   constexpr double more = 0.3;  // codes of one physics differ by 0.1 to 0.33 (rules.hpp)
   return scatter > (1 + more) * than + more;
@@ -98,6 +110,14 @@ struct Confirmed {
   double chi2() const { return worth_a_step() ? chi2_here : chi2_there; }
 };
 
+/// Multiplies variances of the fit, where simulations have shown more scatter than its emulator promised.
+void widen(double variance, Refit& result) {
+  if (!(variance > 1)) return;
+  result.covariance *= variance;
+  result.least_known *= std::sqrt(variance);
+  for (FittedValue& value : result.values) value.error *= std::sqrt(variance);
+}
+
 /// Judges the solution by simulations made there, which also move it (a step of Gauss and Newton).
 void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& measured,
              const Workshop& workshop, const RefitOptions& options, const Eigen::VectorXd& z, Refit& result) {
@@ -112,15 +132,13 @@ void confirm(const FitRound& emulated, const std::vector<MeasuredFeatures>& meas
   const Confirmed& best = second && second->chi2() < first.chi2() ? *second : first;
   const Eigen::VectorXd solution = best.solution();
   judge_at(best.round, measured.size(), solution, result);
+  widen(std::max(1.0, result.scatter) / std::max(1.0, result.promised_scatter), result);
   for (std::size_t k = 0; k < best.about.size(); ++k)
     set_value(best.about[k], best.about[k].at(solution[static_cast<Eigen::Index>(k)]), result.values[k]);
   result.covariances = best.round.covariances();
   result.for_means = best.round.for_means(options.model_error);
   result.at_solution = best.round.moved_to(solution);
-  const std::vector<JudgingRule> rules = best.round.rules_of(options.judged_by);
-  result.judged_chi2 = 0;
-  for (std::size_t r = 0; r < measured.size(); ++r)
-    result.judged_chi2 += best.round.judged_chi2(r, solution, rules[r]);
+  set_judged(best.round, measured.size(), solution, options.judged_by, result);
 }
 
 /// Returns the most that two codes differ by in any effect of these models.
@@ -167,9 +185,7 @@ Refit result_at(const FitRound& round, const std::vector<MeasuredFeatures>& meas
           axes.eigenvectors()(k, least) * std::sqrt(std::max(0.0, axes.eigenvalues()[least])) *
           knobs[static_cast<std::size_t>(open[static_cast<std::size_t>(k)])].width;
   }
-  const std::vector<JudgingRule> own = round.rules_of(options.judged_by);
-  for (std::size_t r = 0; r < measured.size(); ++r)
-    result.judged_chi2 += round.judged_chi2(r, minimum.z, own[r]);
+  set_judged(round, measured.size(), minimum.z, options.judged_by, result);
   result.covariances = round.covariances();
   result.for_means = round.for_means(options.model_error);
   if (options.confirming > 0 && scattered > 0) try {

@@ -64,6 +64,48 @@ ForceShape of_position(double (*value)(double, const ShapeValues&)) {
   return shape;
 }
 
+// Noise of a position enters by the slope of a force, and by that of a damping's potential.
+TEST(ForceMap, SlopesAreThoseOfTheirForces) {
+  PushedBox what;
+  what.duration = 4;
+  const Experiment experiment = pushed_box(what, 3);
+  const MomentumRun run = momentum_run(measurement_of(pushed_setups(experiment), experiment).runs.front());
+  MomentumRun moved = run;
+  constexpr double step = 1e-5;  // m
+  moved.x_box += step, moved.x_smooth += step;
+  ForceShape shape = of_position([](double x, const ShapeValues&) { return 1 + 30 * x + 400 * x * x; });
+  const ForceSamples force = shape_samples(shape, {}, run), force_beside = shape_samples(shape, {}, moved);
+  WITHIN(((force_beside.force - force.force) / step - force.force_dx).abs().maxCoeff(), 400 * step, 1e-4,
+         1e-5);
+  shape.of = ShapeOf::damping_at_x;
+  const ForceSamples damping = shape_samples(shape, {}, run);
+  // The potential begins at the left end of the motion, so that two places of one run are compared.
+  Eigen::Index low = 0, high = 0;
+  run.x_box.minCoeff(&low), run.x_box.maxCoeff(&high);
+  const double a = run.x_box[low], b = run.x_box[high];
+  const auto integral = [](double x) { return x + 15 * x * x + 400.0 / 3 * x * x * x; };
+  WITHIN(damping.potential[high] - damping.potential[low], integral(b) - integral(a), 1e-6, 1e-7);
+  for (Eigen::Index i = 0; i < run.x_box.size(); ++i)
+    EXPECT_EQ(damping.potential_dx[i], shape.value(run.x_box[i], {}));
+}
+
+TEST(ForceMap, ACurveReachesOverWhatTheRunsShow) {
+  PushedBox what;
+  what.duration = 4;
+  const Experiment experiment = pushed_box(what, 3);
+  const Measurement measurement = measurement_of(pushed_setups(experiment), experiment);
+  const BalanceProblem balance(measurement, all_effects());
+  const SelectionProblem p = balance.windows_of(0.5, 0.125);
+  ForceMap map(p.problem, balance.runs());
+  map.project_out(p.problem.impulse(), Eigen::MatrixXd(p.problem.size(), 0));
+  double farthest = 0;
+  for (const MomentumRun& run : balance.runs()) farthest = std::max(farthest, run.x_box.abs().maxCoeff());
+  const ForceCurve curve = map.curve(ShapeOf::position);
+  constexpr double beyond = 1.05;  // of the farthest, so that no place lies on the edge
+  WITHIN(curve.argument.front() / farthest, -beyond, 1e-14, 1e-15);
+  WITHIN(curve.argument.back() / farthest, beyond, 1e-14, 1e-15);
+}
+
 TEST(ForceMap, WhatTheFitHasGainsNothingAndTheUnitOfAStrengthIsNoMatter) {
   PushedBox what;
   what.cubic = -0.03, what.duration = 4, what.box_noise = 1e-7, what.com_noise = 1e-5;

@@ -50,6 +50,17 @@ TEST_F(SetsOfForces, EvidenceOfANoiseIsTheLikelihoodAveragedOverTheSpring) {
   }
 }
 
+TEST_F(SetsOfForces, WhatIsKnownOfTheSpringHoldsIt) {
+  constexpr double change = 0.05;
+  p_.problem.set_spring(change, 1e-9);
+  const Regression held = regress(p_.problem.impulse(), columns_of(p_, {{0, 0}}));
+  WITHIN(held.strength[0], change, 1e-8, 1e-9);
+  p_.problem.set_spring(change, 1e3);
+  const double told = regress(p_.problem.impulse(), columns_of(p_, {{0, 0}})).strength[0];
+  p_.problem.set_spring(0, 0);
+  WITHIN(told, regress(p_.problem.impulse(), columns_of(p_, {{0, 0}})).strength[0], 1e-8, 1e-9);
+}
+
 /// Sets of the spring's frequency and one force each, all as probable as the first, which has another force.
 std::vector<BalanceHypothesis> alike(std::size_t number) {
   std::vector<BalanceHypothesis> sets(number, {{{0, 0}, {1, 0}}, 0, 0, 0});

@@ -10,6 +10,20 @@ using namespace shakedown;
 
 namespace {
 
+TEST(Emulator, HasSquaresAndProductsOfCurvedKnobsAlone) {
+  const Knob curved{"a", 0, 1, -9, 9, true}, straight{"b", 0, 1, -9, 9, false};
+  Knob cubic = curved;
+  cubic.cubic = true;
+  const Eigen::Vector3d z(2, 3, 5);
+  const auto terms = [&](const std::vector<Knob>& knobs) {
+    const Eigen::VectorXd list = regression_terms(knobs, z);
+    return std::vector<double>(list.begin(), list.end());
+  };
+  EXPECT_EQ(terms({straight, straight, straight}), (std::vector<double>{1, 2, 3, 5}));
+  EXPECT_EQ(terms({curved, straight, curved}), (std::vector<double>{1, 2, 3, 5, 4, 10, 25}));
+  EXPECT_EQ(terms({straight, cubic, straight}), (std::vector<double>{1, 2, 3, 5, 9, 27}));
+}
+
 TEST(Emulator, LearnsFromThePoolWhatLiesInItsBox) {
   const DampedOscillation engine;
   const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
