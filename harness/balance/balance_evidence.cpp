@@ -297,6 +297,7 @@ std::vector<BalanceHypothesis> weighed_again(const SelectionProblem& p,
     hypothesis.log_odds = log_share_of_prior(own, fit) - fit.objective / 2;
     if (std::isfinite(hypothesis.log_odds)) list.push_back(std::move(hypothesis));
   }
+  if (list.empty()) return sets;  // a noise that is no number (no stiffness, no frames) weighs nothing
   return by_probability(std::move(list));
 }
 

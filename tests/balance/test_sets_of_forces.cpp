@@ -61,23 +61,49 @@ TEST_F(SetsOfForces, WhatIsKnownOfTheSpringHoldsIt) {
   WITHIN(told, regress(p_.problem.impulse(), columns_of(p_, {{0, 0}})).strength[0], 1e-8, 1e-9);
 }
 
+/// The place of a strength among the terms.
+int place_of(const SelectionProblem& p, std::string_view key) {
+  for (std::size_t term = 0; term < p.known.size(); ++term)
+    if (p.known[term].key() == key) return static_cast<int>(term);
+  ADD_FAILURE() << key;
+  return 0;
+}
+
 /// Sets of the spring's frequency and one force each, all as probable as the first, which has another force.
-std::vector<BalanceHypothesis> alike(std::size_t number) {
-  std::vector<BalanceHypothesis> sets(number, {{{0, 0}, {1, 0}}, 0, 0, 0});
-  sets.front().chosen[1].term = 2;
+/// Either may have either sign.
+std::vector<BalanceHypothesis> alike(const SelectionProblem& p, std::size_t number) {
+  std::vector<BalanceHypothesis> sets(number,
+                                      {{{0, 0}, {place_of(p, "spring_cubic.coefficient"), 0}}, 0, 0, 0});
+  sets.front().chosen[1].term = place_of(p, "constant_acceleration.acceleration.x");
   return sets;
 }
 
 TEST_F(SetsOfForces, OfThoseInQuestionEightAreWeighedAgain) {
-  EXPECT_EQ(with_own_noise(p_, alike(8)).size(), 8u);
-  EXPECT_EQ(with_own_noise(p_, alike(12)).size(), 8u);
+  EXPECT_EQ(with_own_noise(p_, alike(p_, 8)).size(), 8u);
+  EXPECT_EQ(with_own_noise(p_, alike(p_, 12)).size(), 8u);
 }
 
 TEST_F(SetsOfForces, WhatIsHopelessIsNotWeighedAgainUnlessItIsPartOfTheFirst) {
-  std::vector<BalanceHypothesis> sets = alike(4);
+  std::vector<BalanceHypothesis> sets = alike(p_, 4);
   sets[1].log_odds = -13.9, sets[2].log_odds = -14.1, sets[3].log_odds = -14.1;
   sets[3].chosen.pop_back();
   EXPECT_EQ(with_own_noise(p_, sets).size(), 3u);
+}
+
+// A steady force lets no noise in: its set is as probable with its own noise as with that of all. The
+// spring's frequency does, by its own error, and is in both.
+TEST_F(SetsOfForces, ASetWhoseForceLetsNoNoiseInIsAsProbableWithItsOwn) {
+  const int steady = place_of(p_, "constant_acceleration.acceleration.x");
+  std::vector<BalanceHypothesis> both;
+  for (const BalanceHypothesis& set : compare_sets(p_, {{0, 0}}))
+    if (set.chosen.size() == 1 || (set.chosen.size() == 2 && set.chosen[1].term == steady))
+      both.push_back(set);
+  ASSERT_EQ(both.size(), 2u);
+  const double odds = both[1].log_odds - both[0].log_odds;
+  const std::vector<BalanceHypothesis> own = with_own_noise(p_, both);
+  ASSERT_EQ(own.size(), 2u);
+  EXPECT_EQ(own[0].chosen.size(), both[0].chosen.size());
+  WITHIN(own[1].log_odds - own[0].log_odds, odds, 1e-4, 1e-5);
 }
 
 }  // namespace

@@ -10,13 +10,38 @@
 
 using namespace shakedown;
 
-// A sine that is hardly known: a fit may move its phase, but not to where no setup can have it.
-TEST(FromBalance, ASineStaysWithinTheBoundsOfASetup) {
+namespace {
+
+FoundTerm sine_of(double frequency) {
   FoundTerm sine;
   sine.effect = "oscillating_acceleration";
   sine.parameter = "amplitude";
   sine.value = 0.1, sine.low = 0, sine.high = 0.5;
-  sine.frequency = 1.4, sine.phase = 3;
+  sine.frequency = frequency, sine.phase = 3;
+  return sine;
+}
+
+}  // namespace
+
+// A setup has one sine: the second one would take the place of the first, whose knobs would move nothing.
+TEST(FromBalance, TheSecondOfTwoSinesIsNoted) {
+  DiagnosisState state;
+  state.setup = read_setup(std::string(PROJECT_ROOT) + "/harness/examples/L040.toml", all_effects());
+  DiagnoseOptions options;
+  options.known = all_effects();
+  std::vector<std::string> notes;
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  state = with_balance(state, {sine_of(1.4), sine_of(3)}, {}, *engine, options, notes);
+  EXPECT_EQ(state.missing, std::vector<std::string>{"oscillating_acceleration"});
+  EXPECT_EQ(state.found.size(), 3u);
+  EXPECT_EQ(get_number(state.setup, "oscillating_acceleration.frequency", all_effects()), 1.4);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes.front().find("two sines"), std::string::npos);
+}
+
+// A sine that is hardly known: a fit may move its phase, but not to where no setup can have it.
+TEST(FromBalance, ASineStaysWithinTheBoundsOfASetup) {
+  const FoundTerm sine = sine_of(1.4);
   DiagnosisState state;
   state.setup = read_setup(std::string(PROJECT_ROOT) + "/harness/examples/L040.toml", all_effects());
   DiagnoseOptions options;

@@ -246,6 +246,37 @@ TEST(Verdict, WhereNoRoundWasHeldAFailingModelSpeaksForWhatNobodyLookedAt) {
          0.15 * (1 - rules::something_else) / rules::something_else, 1e-13, 1e-14);
 }
 
+// A shape that there was no time for is named as not tried; the effect was fitted in another one.
+TEST(Verdict, WhatWasFittedInOneOfItsShapesWasLookedAt) {
+  Diagnosis d;
+  d.hypotheses = {{{"grain_cohesion"}, 0, 0.99}, {{}, 0, 0.01}};
+  d.ranking = {{.effect = "grain_cohesion", .fitted = true}};
+  d.not_tried = {"grain_cohesion"};
+  Findings findings;
+  findings.features = {1 / 401.0, 3, ""};
+  findings.far_p_value = 1e-6;
+  Diagnosis other = d;
+  other.not_tried.clear();
+  settle_hypotheses(d, findings);
+  settle_hypotheses(other, findings);
+  EXPECT_EQ(d.hypotheses.front().effects, std::vector<std::string>{std::string(unlisted_effect)});
+  EXPECT_EQ(d.hypotheses.front().probability, other.hypotheses.front().probability);
+}
+
+TEST(Verdict, WhatTheBalanceWeighedWasLookedAt) {
+  Diagnosis d;
+  d.hypotheses = {{{}, 0, 0.6}, {{"spring_cubic"}, 0, 0.3}, {{"grain_friction"}, 0, 0.1}};
+  d.momentum.seen = {"spring_cubic.coefficient"};
+  d.not_tried = {no_round_held};
+  Findings findings;
+  findings.features = {1 / 401.0, 11, ""};
+  findings.far_p_value = 1e-100;
+  settle_hypotheses(d, findings);
+  EXPECT_EQ(d.hypotheses.front().effects, std::vector<std::string>{"grain_friction"});
+  for (const Hypothesis& h : d.hypotheses)
+    EXPECT_NE(h.effects, std::vector<std::string>{"spring_cubic"}) << h.probability;
+}
+
 }  // namespace
 
 // Weak friction was added beside an acceleration that the data accepted (p = .03), and both errors rose.

@@ -254,6 +254,22 @@ TEST(SlowRefit, WhatEndsWorseThanItBeganLooksAgainAboutItsBeginning) {
   EXPECT_LT(kept.scatter, begun.scatter);          // seen: 0.72 times
 }
 
+// Rivals are weighed by what their values cost beforehand, as they are fitted.
+TEST(Refit, WhatItsValuesCostIsInTheChi2ThatWeighsIt) {
+  const DampedOscillation engine;
+  const Workshop workshop{&engine, all_effects(), {2}};
+  const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
+  RefitOptions options;
+  options.count = 96, options.rounds = options.most_rounds = 1;
+  const Refit free = refit(measured, theta, workshop, options);
+  std::vector<Knob> knobs = theta;
+  knobs[2].believed_error = 100 * free.values[2].error;
+  knobs[2].believed = free.values[2].value + 5 * knobs[2].believed_error;
+  const Refit doubted = refit(measured, knobs, workshop, options);
+  EXPECT_EQ(free.judged_chi2, free.own_chi2);
+  WITHIN(doubted.judged_chi2 - free.judged_chi2, 25, 0.2, 0.02);
+}
+
 TEST(SlowRefit, FollowsASolutionThatLeavesItsBox) {
   const DampedOscillation engine;
   const Workshop workshop{&engine, all_effects(), {2}};
