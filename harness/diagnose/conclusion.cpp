@@ -229,7 +229,7 @@ namespace {
 /// Returns the effects that there was no time for: those that are named in not_tried and, where no round was
 /// held, all of the table. What was fitted was looked at, in whichever of its shapes; so was what the balance
 /// weighs.
-LeftOutEffects left_out_of(const Diagnosis& d) {
+LeftOutEffects left_out_of(const Diagnosis& d, const std::vector<std::string>& found) {
   const auto in = [](const std::vector<std::string>& list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
@@ -251,7 +251,8 @@ LeftOutEffects left_out_of(const Diagnosis& d) {
       for (const std::string& effect : h.effects)
         if (!in_ranking(effect, true) && !in_balance(effect) && !in(left_out.not_fitted, effect) &&
             !in(left_out.not_looked_at, effect))
-          left_out.not_looked_at.push_back(effect);
+          (in_ranking(effect, false) ? left_out.not_beside : left_out.not_looked_at).push_back(effect);
+  left_out.found = found;
   return left_out;
 }
 
@@ -261,7 +262,7 @@ void settle_hypotheses(Diagnosis& d, const Findings& findings) {
   // Where a formula closes the balance and no set of known strengths does, odds are those of the two fits.
   const double something_else = findings.unlisted ? 1 / (1 + std::exp(-d.momentum.unlisted_log_odds))
                                                   : probability_of_something_else(worst_p_value(findings));
-  const LeftOutEffects left_out = left_out_of(d);  // which reads the table
+  const LeftOutEffects left_out = left_out_of(d, findings.found);  // which reads the table
   d.hypotheses = findings.unlisted
                      ? with_something_else(std::move(d.hypotheses), something_else, d.missing)
                      : with_something_else_or(left_out, std::move(d.hypotheses), something_else, d.missing);
@@ -337,6 +338,7 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
   set_camera(final.fit, d, tools.known());
   Findings findings;
   findings.unlisted = d.momentum.unlisted;
+  findings.found = final.missing;
   findings.anything_missing = !d.missing.empty();
   findings.refitted = refitted || final.setup.release.packing != user.release.packing;
   findings.camera_stands_out = !standing_out(d.camera).empty();

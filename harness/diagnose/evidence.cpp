@@ -76,11 +76,17 @@ std::vector<Hypothesis> with_something_else_or(const LeftOutEffects& left_out, s
       return std::find(list.begin(), list.end(), effect) != list.end();
     });
   };
+  const auto has_all_found = [&](const Hypothesis& h) {
+    return std::all_of(left_out.found.begin(), left_out.found.end(), [&](const std::string& effect) {
+      return std::find(h.effects.begin(), h.effects.end(), effect) != h.effects.end();
+    });
+  };
   double sum = 0, something_else = 0;
   for (Hypothesis& h : table) {
     const bool speaks = !has_one_of(h, left_out.not_fitted);
     something_else += h.probability * (speaks ? odds : prior);
-    if (speaks && has_one_of(h, left_out.not_looked_at))
+    if (speaks &&
+        (has_one_of(h, left_out.not_looked_at) || (has_one_of(h, left_out.not_beside) && has_all_found(h))))
       h.probability *= raised, h.log_odds += std::log(raised);
     sum += h.probability;
   }

@@ -53,6 +53,9 @@ std::vector<Hypothesis> with_something_else(std::vector<Hypothesis> table, doubl
 struct LeftOutEffects {
   std::vector<std::string> not_looked_at;  ///< they stand in the table at their prior
   std::vector<std::string> not_fitted;     ///< they stand in it with what their signature says
+  /// Effects that were looked at beside less than was found in the end, `found`: sets of all that was found
+  /// and one of these stand in the table at their prior.
+  std::vector<std::string> not_beside{}, found{};
 };
 
 /// Returns the same, where some effects were left out. A p-value is of a model without them. It speaks for

@@ -14,11 +14,12 @@ void compare_with_given(const std::vector<Validation>& given, const std::vector<
 
 /// Holds what the verdict rests on.
 struct Findings {
-  bool unlisted = false;           ///< a force of no list acts on the box
-  bool anything_missing = false;   ///< effects were found
-  bool refitted = false;           ///< parameters had to move
-  double explained = 1;            ///< share of the misfit as given that the effects found take away
-  bool camera_stands_out = false;  ///< something of the camera explains the recording
+  bool unlisted = false;             ///< a force of no list acts on the box
+  bool anything_missing = false;     ///< effects were found
+  std::vector<std::string> found{};  ///< effects of the final model
+  bool refitted = false;             ///< parameters had to move
+  double explained = 1;              ///< share of the misfit as given that the effects found take away
+  bool camera_stands_out = false;    ///< something of the camera explains the recording
   ModelTest features{1, 1, ""}, balance{1, 1, ""};  ///< of the final model
   std::vector<Difference> left{};                   ///< by the final model
   double far_p_value = 1;  ///< of the features, below what pseudo-experiments can count too

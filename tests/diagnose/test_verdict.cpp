@@ -277,6 +277,25 @@ TEST(Verdict, WhatTheBalanceWeighedWasLookedAt) {
     EXPECT_NE(h.effects, std::vector<std::string>{"spring_cubic"}) << h.probability;
 }
 
+// What a round has looked at and found improbable stays so where there is no time for another one beside what
+// was added.
+TEST(Verdict, WhatOneRoundLookedAtIsOpenBesideWhatItAddedAlone) {
+  Diagnosis d;
+  d.hypotheses = {{{"grain_cohesion"}, 0, 0.8},
+                  {{"grain_cohesion", "grain_friction"}, 0, 0.2},
+                  {{"grain_friction"}, 0, 1e-20}};
+  d.ranking = {{.effect = "grain_cohesion", .fitted = true}, {.effect = "grain_friction"}};
+  d.not_tried = {no_round_held};
+  Findings findings;
+  findings.found = {"grain_cohesion"};
+  findings.features = {1 / 401.0, 11, ""};
+  findings.far_p_value = 1e-100;
+  settle_hypotheses(d, findings);
+  EXPECT_EQ(d.hypotheses.front().effects, (std::vector<std::string>{"grain_cohesion", "grain_friction"}));
+  for (const Hypothesis& h : d.hypotheses)
+    EXPECT_NE(h.effects, std::vector<std::string>{"grain_friction"}) << h.probability;
+}
+
 }  // namespace
 
 // Weak friction was added beside an acceleration that the data accepted (p = .03), and both errors rose.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -263,6 +264,38 @@ TEST(Layering, NoFunctionIsLongerThanItIsReadAtOnce) {
                                    << one.head << " has a part that is worth a name";
       }
   EXPECT_GT(seen, 2000u);  // of some four thousand: it finds them
+}
+
+/// Returns the statements of a source that move a member out of an object and name the whole object as
+/// another argument. Arguments are evaluated in any order, by GCC from the right: the other one may read what
+/// is gone.
+std::vector<std::string> statements_that_read_what_they_move(std::istream& source) {
+  std::string text;
+  for (std::string line; std::getline(source, line);) text += line.substr(0, line.find("//")) + ' ';
+  const std::regex moved(R"(std::move\((\w+)\.\w+\))");
+  std::vector<std::string> found;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(";{}", begin), text.size());
+    const std::string statement = text.substr(begin, end - begin);
+    for (std::sregex_iterator at(statement.begin(), statement.end(), moved), none; at != none; ++at)
+      if (std::regex_search(statement, std::regex(R"([(,]\s*)" + at->str(1) + R"(\s*[,)])")))
+        found.push_back(statement);
+    begin = end + 1;
+  }
+  return found;
+}
+
+TEST(Layering, NoCallReadsWhatItMovesAway) {
+  std::istringstream wrong("table = joined(left_out_of(d), std::move(d.table));"),
+      right("table = joined(left_out, std::move(d.table), d.missing);");
+  EXPECT_EQ(statements_that_read_what_they_move(wrong).size(), 1u);
+  EXPECT_EQ(statements_that_read_what_they_move(right).size(), 0u);
+  for (const Layer& layer : layers())
+    for (const fs::path& file : sources_of(layer.folder)) {
+      std::ifstream stream(file);
+      for (const std::string& statement : statements_that_read_what_they_move(stream))
+        ADD_FAILURE() << fs::relative(file, PROJECT_ROOT).string() << ":" << statement;
+    }
 }
 
 TEST(Layering, NoFunctionHasMoreParametersThanAreKeptInMind) {
