@@ -208,99 +208,6 @@ std::vector<BalanceHypothesis> sets_of(const SelectionProblem& p, const Projecte
   return list;
 }
 
-/// Tells whether the strength changes what noise of the positions enters the balance with, as an error of
-/// scale or mass does.
-bool scales_the_balance(const SelectionProblem& p, int term) {
-  if (term < 0) return false;
-  const std::vector<ForceSamples>& samples = p.terms[static_cast<std::size_t>(term)].samples;
-  return std::any_of(samples.begin(), samples.end(), [](const ForceSamples& run) {
-    return run.inertia_box.size() > 0 || run.inertia_com.size() > 0;
-  });
-}
-
-/// Takes off what a strength gains by making the noise smaller. Its column is made of measured positions,
-/// whose noise is that of the impulses too; what both have in common is half the slope of ln det C by the
-/// strength, and for it alone a regression would make the whole balance smaller. This is the least-squares
-/// score less its expectation under the noise (errors in variables: Carroll, Ruppert, Stefanski and
-/// Crainiceanu 2006, Measurement Error in Nonlinear Models, chapter 7).
-void take_noise_off(const SelectionProblem& p, Selection& selection) {
-  Regression& fit = selection.fit;
-  Eigen::VectorXd moved = Eigen::VectorXd::Zero(fit.strength.size());
-  Eigen::Index column = 0;
-  for (const ChosenTerm& c : selection.chosen) {
-    if (scales_the_balance(p, c.term)) {
-      constexpr double step = 0.05;  // of a typical strength
-      const auto term = static_cast<std::size_t>(c.term);
-      const double change = step * p.known[term].typical;
-      std::vector<ForceSamples> less = fitted_forces(p, selection), more = less;
-      for (std::size_t run = 0; run < more.size(); ++run) {
-        ForceSamples scale;
-        scale.inertia_box = p.terms[term].samples[run].inertia_box;
-        scale.inertia_com = p.terms[term].samples[run].inertia_com;
-        add_samples(more[run], scale, change);
-        add_samples(less[run], scale, -change);
-      }
-      const double slope = (p.problem.log_determinant(more) - p.problem.log_determinant(less)) / (2 * change);
-      moved += fit.covariance.col(column) * slope / 2;
-    }
-    column += width_of(c);
-  }
-  if (moved.isZero(0)) return;
-  fit.strength += moved;
-  fit.residual -= columns_of(p, selection.chosen) * moved;
-  fit.chi2 = fit.residual.squaredNorm();
-}
-
-/// Returns the ln of what the likelihood leaves of the prior of a set's strengths, as log_odds_of() has it of
-/// a set that is weighed with the noise of all; -infinity where a strength has the wrong sign or is out of
-/// its bounds.
-double log_share_of_prior(const SelectionProblem& p, const Selection& selection) {
-  std::vector<Eigen::Index> places;
-  std::vector<const MomentumTerm*> terms;
-  Eigen::Index column = 0;
-  for (const ChosenTerm& c : selection.chosen) {
-    if (p.is_known(c.term) && c.term > 0)
-      places.push_back(column), terms.push_back(&p.known[static_cast<std::size_t>(c.term)]);
-    column += width_of(c);
-  }
-  if (places.empty()) return 0;
-  const Eigen::MatrixXd block = selection.fit.covariance(places, places);
-  const Eigen::VectorXd size = block.diagonal().cwiseSqrt();
-  const Eigen::MatrixXd correlation =
-      size.cwiseInverse().asDiagonal() * block * size.cwiseInverse().asDiagonal();
-  const Eigen::LLT<Eigen::MatrixXd> root(correlation.inverse());
-  double sum = 0;
-  for (std::size_t a = 0; a < places.size(); ++a) {
-    const auto i = static_cast<Eigen::Index>(a);
-    const double strength = selection.fit.strength[places[a]], error = size[i] / root.matrixLLT()(i, i);
-    if ((terms[a]->never_negative && strength <= 0) || !terms[a]->possible(strength))
-      return -std::numeric_limits<double>::infinity();
-    sum += std::min(0.0, log_prior(strength, terms[a]->typical, terms[a]->never_negative) +
-                             std::log(2 * std::numbers::pi) / 2 + std::log(error)) +
-           prior_odds(p, terms[a]->odds);
-  }
-  return sum;
-}
-
-/// Weighs those in question once more, each with the noise that its own forces let in, and the parts of the
-/// first.
-std::vector<BalanceHypothesis> weighed_again(const SelectionProblem& p,
-                                             const std::vector<BalanceHypothesis>& sets) {
-  constexpr std::size_t most = 8;
-  std::vector<BalanceHypothesis> list;
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    const bool in_question = i < most && sets[i].log_odds > sets.front().log_odds - hopeless_log_odds;
-    if (!in_question && !is_part_of(sets[i].chosen, sets.front().chosen)) continue;
-    SelectionProblem own = p;
-    const Selection fit = fit_terms(own, sets[i].chosen);
-    BalanceHypothesis hypothesis = sets[i];
-    hypothesis.log_odds = log_share_of_prior(own, fit) - fit.objective / 2;
-    if (std::isfinite(hypothesis.log_odds)) list.push_back(std::move(hypothesis));
-  }
-  if (list.empty()) return sets;  // a noise that is no number (no stiffness, no frames) weighs nothing
-  return by_probability(std::move(list));
-}
-
 }  // namespace
 
 bool is_part_of(const std::vector<ChosenTerm>& part, const std::vector<ChosenTerm>& whole) {
@@ -332,12 +239,10 @@ Selection fit_terms(SelectionProblem& p, std::vector<ChosenTerm> chosen) {
   constexpr int iterations = 3;  // an assumption: noise and strengths follow each other
   for (int iteration = 0; iteration < iterations; ++iteration) {
     selection.fit = regress(p.problem.impulse(), columns_of(p, selection.chosen));
-    take_noise_off(p, selection);
     if (iteration > 0) derive_again(p, selection);
     p.problem.set_covariance(fitted_forces(p, selection));
   }
   selection.fit = regress(p.problem.impulse(), columns_of(p, selection.chosen));
-  take_noise_off(p, selection);
   selection.objective = selection.fit.chi2 + p.problem.noise_penalty();
   return selection;
 }
@@ -348,26 +253,18 @@ std::vector<BalanceHypothesis> compare_sets(const SelectionProblem& p, const std
 
 std::vector<BalanceHypothesis> with_own_noise(const SelectionProblem& p,
                                               const std::vector<BalanceHypothesis>& sets) {
-  const std::vector<BalanceHypothesis> first = weighed_again(p, sets);
-  const std::vector<ChosenTerm>&best = first.front().chosen, &promised = sets.front().chosen;
-  // With less noise of its own a set may have promised most by making the whole balance smaller; what stood
-  // behind it was out of question only beside that.
-  std::vector<ChosenTerm> taken_back;
-  for (const ChosenTerm& c : promised)
-    if (scales_the_balance(p, c.term) && !is_part_of({c}, best)) taken_back.push_back(c);
-  if (taken_back.empty()) return first;
-  std::vector<BalanceHypothesis> rest;
-  for (const BalanceHypothesis& set : sets)
-    if (std::none_of(taken_back.begin(), taken_back.end(),
-                     [&](const ChosenTerm& c) { return is_part_of({c}, set.chosen); }))
-      rest.push_back(set);
-  std::vector<BalanceHypothesis> both = first;
-  for (BalanceHypothesis& set : weighed_again(p, rest))
-    if (std::none_of(first.begin(), first.end(), [&](const BalanceHypothesis& one) {
-          return is_part_of(one.chosen, set.chosen) && is_part_of(set.chosen, one.chosen);
-        }))
-      both.push_back(std::move(set));
-  return by_probability(std::move(both));
+  constexpr std::size_t most = 8;
+  std::vector<BalanceHypothesis> list;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const bool in_question = i < most && sets[i].log_odds > sets.front().log_odds - hopeless_log_odds;
+    if (!in_question && !is_part_of(sets[i].chosen, sets.front().chosen)) continue;
+    SelectionProblem own = p;
+    const Selection fit = fit_terms(own, sets[i].chosen);
+    BalanceHypothesis hypothesis = sets[i];
+    hypothesis.log_odds += -hypothesis.gain / 2 - fit.objective / 2;
+    list.push_back(std::move(hypothesis));
+  }
+  return by_probability(std::move(list));
 }
 
 std::vector<int> terms_seen(const SelectionProblem& p) { return projected(p, {{0, 0}}).term; }

@@ -67,36 +67,25 @@ void MomentumProblem::keep_moving(double excursion) {
   set_covariance({});
 }
 
-BandFactor MomentumProblem::factor_of(std::size_t run, const ForceSamples& fitted) const {
-  Eigen::MatrixXd covariance = forms_[run].covariance(fitted, wander_);
-  // Windows that overlap by three quarters are nearly dependent; a part in 1e9 keeps the factor defined.
-  if (covariance.rows() > 0) covariance.diagonal() *= 1 + 1e-9;
-  return BandFactor(covariance);
-}
-
 void MomentumProblem::set_covariance(const std::vector<ForceSamples>& fitted) {
   factor_.clear();
-  log_determinant_ = 0;
   for (std::size_t run = 0; run < forms_.size(); ++run) {
-    ForceSamples of_run = fitted.empty() ? ForceSamples{} : fitted[source_[run]];
-    factor_.push_back(factor_of(run, of_run));
-    const bool scaled = of_run.inertia_box.size() > 0 || of_run.inertia_com.size() > 0;
-    of_run.inertia_box.resize(0), of_run.inertia_com.resize(0);
-    log_determinant_ += (scaled ? factor_of(run, of_run) : factor_.back()).log_determinant();
+    Eigen::MatrixXd covariance =
+        forms_[run].covariance(fitted.empty() ? ForceSamples{} : fitted[source_[run]], wander_);
+    // Windows that overlap by three quarters are nearly dependent; a part in 1e9 keeps the factor defined.
+    if (covariance.rows() > 0) covariance.diagonal() *= 1 + 1e-9;
+    factor_.emplace_back(covariance);
   }
-  if (!started_) log_determinant_at_start_ = log_determinant_;
+  if (!started_) log_determinant_at_start_ = noise_penalty();
   started_ = true;
   restack();
 }
 
-double MomentumProblem::log_determinant(const std::vector<ForceSamples>& fitted) const {
-  double sum = 0;
-  for (std::size_t run = 0; run < forms_.size(); ++run)
-    sum += factor_of(run, fitted[source_[run]]).log_determinant();
+double MomentumProblem::noise_penalty() const {
+  double sum = -log_determinant_at_start_;
+  for (const BandFactor& factor : factor_) sum += factor.log_determinant();
   return sum;
 }
-
-double MomentumProblem::noise_penalty() const { return log_determinant_ - log_determinant_at_start_; }
 
 Eigen::Index MomentumProblem::windows() const {
   Eigen::Index total = 0;

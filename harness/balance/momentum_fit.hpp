@@ -87,12 +87,8 @@ class MomentumProblem {
   void set_covariance(const std::vector<ForceSamples>& fitted);
 
   /// Returns what is added to chi2 to make -2 ln likelihood, to compare fits whose noise differs. It is
-  /// relative to the covariance without fitted forces. What scales masses or positions does not count: it
-  /// changes the unit of the impulse, and with it the noise, but makes no frame more or less likely.
+  /// relative to the covariance without fitted forces.
   double noise_penalty() const;
-  /// Returns the logarithm of the determinant of all runs' covariances when the forces of the fit are
-  /// `fitted` (one ForceSamples a run), masses and positions that they scale included.
-  double log_determinant(const std::vector<ForceSamples>& fitted) const;
   const Eigen::VectorXd& impulse() const { return impulse_; }              ///< whitened
   Eigen::VectorXd column(const std::vector<ForceSamples>& samples) const;  ///< whitened; one entry a run
   Eigen::VectorXd column(const PreparedTerm& term) const { return column(term.samples); }
@@ -115,7 +111,7 @@ class MomentumProblem {
   std::vector<std::size_t> source_;  ///< index of the run among those given
   std::vector<BandFactor> factor_;   ///< of each run's covariance
   std::vector<Eigen::Index> begin_;
-  double log_determinant_ = 0, log_determinant_at_start_ = 0;  ///< of the covariance; see noise_penalty()
+  double log_determinant_at_start_ = 0;
   Eigen::VectorXd impulse_;
   Wander wander_;
   bool started_ = false;
@@ -125,8 +121,6 @@ class MomentumProblem {
   double plateau_ = 0,
          plateau_error_ = 0;  ///< what the layer shows beyond the setup, per m; error 0: nothing
 
-  /// Returns the factor of a run's covariance when the forces of the fit are `fitted`.
-  BandFactor factor_of(std::size_t run, const ForceSamples& fitted) const;
   /// Puts impulses and nuisances together anew.
   void restack();
 };

@@ -214,11 +214,9 @@ void set_constants(const Setup& setup, const Physics& physics, MomentumRun& run)
   run.displacement = setup.release.displacement;
   run.effects.clear();
   for (const EffectChoice& choice : setup.effects) run.effects.emplace_back(choice.record->name);
-  const double from_the_box = 1 / (1 - physics.camera.centre_bias);
+  run.com_gain = 1 / (1 - physics.camera.centre_bias);
   // A scale of the whole picture is left out: it scales the balance too, which would take up whatever is
-  // there. So is the lens, which changes the noise by a part in a hundred.
-  run.com_gain = from_the_box / (1 + physics.camera.depth);
-  run.com_gain_of_box = 1 - from_the_box;
+  // there.
   run.plateau_gain = (1 - physics.camera.centre_bias) * (1 + physics.camera.depth);
 }
 

@@ -37,9 +37,7 @@ struct MomentumRun {
   Eigen::ArrayXd model_force_dx, model_force_dv;
   std::vector<char> usable;                  ///< frame measured or well interpolated
   std::vector<char> box_filled, com_filled;  ///< position interpolated
-  /// What a recorded x_com, and beside it a recorded x_box, are multiplied by in the true x_com, by the
-  /// setup's camera: their noise enters the balance so.
-  double com_gain = 1, com_gain_of_box = 0;
+  double com_gain = 1;                       ///< true (x_com - x_box) over recorded, by the setup's camera
   double plateau_gain =
       1;  ///< recorded (x_com - x_box) of a packed layer over true, in the middle of the track
   NoiseFound box_noise, com_noise;  ///< of the recorded series

@@ -139,7 +139,7 @@ ForceSamples samples_of_change(const MomentumRun& a, const MomentumRun& b, doubl
   s.potential = difference(b.viscous * b.x_box, a.viscous * a.x_box, by);
   s.potential_dx = constant_unless_zero(n, (b.viscous - a.viscous) / by);
   const auto on_box = [](const MomentumRun& run) {
-    return run.box_mass + run.grain_mass * run.com_gain_of_box;
+    return run.box_mass + run.grain_mass * (1 - run.com_gain);
   };
   s.inertia_box = constant_unless_zero(n, (on_box(b) - on_box(a)) / by);
   s.inertia_com = constant_unless_zero(n, (b.grain_mass * b.com_gain - a.grain_mass * a.com_gain) / by);

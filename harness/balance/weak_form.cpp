@@ -213,7 +213,7 @@ Eigen::MatrixXd WeakForm::covariance(const ForceSamples& fitted, const Wander& w
   const bool has_grains = r.grain_mass > 0;
   const Eigen::Index half = smoothing_half_width(r.interval), margin = half + 4, n = r.time.size();
   const LocalCubic cubic = local_cubic(static_cast<int>(half));
-  const double com_mass = r.grain_mass * r.com_gain, box_mass = r.box_mass + r.grain_mass * r.com_gain_of_box;
+  const double com_mass = r.grain_mass * r.com_gain, box_mass = r.box_mass + r.grain_mass * (1 - r.com_gain);
   std::vector<Stretch> box(first_.size()), com(first_.size());
   for (std::size_t w = 0; w < first_.size(); ++w) {
     const Eigen::Index at = first_[w];

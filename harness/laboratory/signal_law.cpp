@@ -94,7 +94,9 @@ double distance_of_imitation(const HiddenCase& hidden, const std::string& imitat
   };
   const Refit as_it_is = with(truth);
   options.judged_by = &as_it_is;
-  return kept(with(imitation).judged_chi2, as_it_is.judged_chi2);
+  // A signal is what the data tell, whatever is believed.
+  const Refit imitated = with(imitation);
+  return kept(imitated.judged_chi2 - imitated.disbelief, as_it_is.judged_chi2 - as_it_is.disbelief);
 }
 
 double SignalLaw::signal_at(double strength_of_it, double noise) const {

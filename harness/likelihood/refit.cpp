@@ -50,7 +50,7 @@ void judge_at(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z,
 void set_judged(const FitRound& round, std::size_t runs, const Eigen::VectorXd& z, const Refit* other,
                 Refit& result) {
   const std::vector<JudgingRule> own = round.rules_of(nullptr), asked = round.rules_of(other);
-  result.judged_chi2 = result.own_chi2 = round.objective().disbelief(z);
+  result.judged_chi2 = result.own_chi2 = result.disbelief = round.objective().disbelief(z);
   for (std::size_t r = 0; r < runs; ++r) {
     result.judged_chi2 += round.judged_chi2(r, z, asked[r]);
     result.own_chi2 += round.judged_chi2(r, z, own[r]);

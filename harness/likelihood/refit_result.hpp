@@ -75,7 +75,8 @@ struct Refit {
   /// chi2, and its sum over the lengths left out, in the covariances of RefitOptions::judged_by, so that
   /// rivals are measured with one rule.
   double judged_chi2 = 0, judged_held_out_chi2 = 0;
-  double own_chi2 = 0;  ///< as judged_chi2, by the covariances of this fit itself
+  double own_chi2 = 0;   ///< as judged_chi2, by the covariances of this fit itself
+  double disbelief = 0;  ///< what the knobs' values cost beforehand, in judged_chi2 and own_chi2 too
   /// These return the rms over the runs of what RunComparison calls so, m; each run counts once.
   double error_box() const;
   double error_centre() const;

@@ -72,9 +72,14 @@ TEST(SlowMomentum, EachForceFromOutsideIsNamedAndMeasured) {
   expect_found(audited(what), "blade_quadratic_drag", 0.1, 5.9e-4);
   what = {};
   what.extra_mass = 0.03;  // 10 g are within what scales and a marker's depth make
-  // A smaller distance of the grains is the same column but for the packed layer, which shows it as it is; it
-  // would make the whole balance smaller, its noise included.
-  expect_found(audited(what), "blade_mass", 0.03, 2.8e-3);
+  const MomentumAudit mass = audited(what);
+  // Without a packed layer at several lengths a heavier box and a smaller distance of the grains are one
+  // column.
+  ASSERT_EQ(mass.terms.size(), 1u);
+  std::vector<std::string> told = mass.terms[0].look_alikes;
+  told.push_back(mass.terms[0].effect);
+  EXPECT_NE(std::find(told.begin(), told.end(), "blade_mass"), told.end());
+  EXPECT_NE(std::find(told.begin(), told.end(), "camera_com_bias"), told.end());
 }
 
 TEST(SlowMomentum, DryFrictionIsJudgedWhereTheBoxMoves) {
@@ -376,28 +381,6 @@ TEST(MomentumRun, WithForcesOfAnotherSetupIsThatOfTheSetup) {
   for (const auto& series : {&MomentumRun::time, &MomentumRun::v_smooth, &MomentumRun::model_force,
                              &MomentumRun::model_force_dx, &MomentumRun::model_force_dv})
     EXPECT_TRUE((one.*series == other.*series).all());
-}
-
-// The centre that a camera shows as 1.2 times itself has 1/1.2 of the frames' noise: without that a depth and
-// a bias that together make all terms of the balance smaller would seem to explain it better.
-TEST(MomentumRun, AFittedErrorOfTheCameraLetsInTheNoiseOfARunReadWithIt) {
-  const Experiment experiment = pushed_box({}, 1);
-  const Measurement::Run given = measurement_of(pushed_setups(experiment), experiment).runs.front();
-  const MomentumRun as_given = momentum_run(given);
-  for (const auto& [effect, key, value] :
-       {std::tuple{"camera_depth", "depth", 0.2}, std::tuple{"camera_com_bias", "bias", 0.08}}) {
-    Measurement::Run changed = given;
-    changed.setup.effects.push_back(with_defaults(*all_effects().find(effect)));
-    changed.setup.effects.back().values[key] = value;
-    const MomentumRun read = momentum_run(changed);
-    ForceSamples fitted;
-    add_samples(fitted, samples_of_change(as_given, read, value), value);
-    const Eigen::MatrixXd of_fit = WeakForm(as_given, 0.5, 0.125).covariance(fitted),
-                          of_run = WeakForm(read, 0.5, 0.125).covariance({}),
-                          before = WeakForm(as_given, 0.5, 0.125).covariance({});
-    EXPECT_GT((of_run - before).norm(), 0.05 * before.norm()) << effect;
-    WITHIN((of_fit - of_run).norm() / of_run.norm(), 0, 1e-14, 5e-16) << effect;
-  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "program.hpp"
 
 #include <fcntl.h>
+#include <grp.h>
 #include <pty.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -40,8 +41,16 @@ int exit_code_of(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-Outcome outcome_of(const std::string& program, const std::vector<std::string>& arguments,
-                   rlim_t most_seconds) {
+constexpr uid_t nobody = 65534;
+
+/// Gives up what root may do.
+void become_nobody() {
+  if (::geteuid() != 0) return;
+  if (::setgroups(0, nullptr) != 0 || ::setgid(nobody) != 0 || ::setuid(nobody) != 0) ::_exit(126);
+}
+
+Outcome outcome_of(const std::string& program, const std::vector<std::string>& arguments, rlim_t most_seconds,
+                   bool as_nobody = false) {
   const Captured out, err;
   const pid_t child = ::fork();
   if (child == 0) {
@@ -50,6 +59,7 @@ Outcome outcome_of(const std::string& program, const std::vector<std::string>& a
     ::dup2(err.descriptor, STDERR_FILENO);
     const rlimit limit{most_seconds, most_seconds};
     ::setrlimit(RLIMIT_CPU, &limit);
+    if (as_nobody) become_nobody();
     become(program, arguments);
   }
   const int code = exit_code_of(child);
@@ -64,6 +74,10 @@ Outcome shakedown_program(const std::vector<std::string>& arguments) {
 
 Outcome shakedown_program(const std::vector<std::string>& arguments, rlim_t most_seconds) {
   return outcome_of(SHAKEDOWN, arguments, most_seconds);
+}
+
+Outcome program_of_nobody(const std::vector<std::string>& arguments) {
+  return outcome_of(SHAKEDOWN, arguments, RLIM_INFINITY, true);
 }
 
 Outcome program_beside(const std::string& name, const std::vector<std::string>& arguments) {

@@ -20,6 +20,10 @@ Outcome shakedown_program(const std::vector<std::string>& arguments);
 /// The same; what takes more than so many seconds of a core is killed (code -SIGXCPU).
 Outcome shakedown_program(const std::vector<std::string>& arguments, rlim_t most_seconds);
 
+/// The same by a user who may do nothing but read what all may read and write where all may write. Who runs
+/// the tests as himself is that user already.
+Outcome program_of_nobody(const std::vector<std::string>& arguments);
+
 /// Another program of the project, by its name: it lies beside `shakedown`.
 Outcome program_beside(const std::string& name, const std::vector<std::string>& arguments);
 

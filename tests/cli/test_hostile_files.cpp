@@ -181,3 +181,27 @@ TEST_F(HostileFiles, ARestitutionOfZeroIsARunLikeAnother) {
       {"run", setup(), "--set", "restitution.grain_grain=0", "--set", "restitution.grain_wall=0", "--json"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
 }
+
+TEST_F(HostileFiles, WhatMayNotBeReadOrWrittenIsToldAndNothingIsLeft) {
+  const std::string mine = setup(), secret = in_folder("secret.toml"), shut = in_folder("shut");
+  fs::copy_file(mine, secret);
+  fs::create_directory(shut);
+  fs::permissions(folder / "", fs::perms(0755));
+  fs::permissions(mine, fs::perms(0644));
+  fs::permissions(secret, fs::perms(0));
+  fs::permissions(shut, fs::perms(0555));
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"run", secret},
+                                             {"run", mine, "--out", shut + "/results"},
+                                             {"run", mine, "--out", shut},
+                                             {"run", mine, "--json", shut + "/run.json"},
+                                             {"add", mine, "grain_friction", "--out", shut + "/more.toml"},
+                                             {"theory", mine, "--json", shut + "/theory.json"}}) {
+    const Outcome outcome = program_of_nobody(arguments);
+    SCOPED_TRACE(testing::PrintToString(arguments));
+    if (outcome.code == 127) GTEST_SKIP() << "nobody may not reach the program here";
+    EXPECT_EQ(outcome.code, 4) << outcome.err;
+    EXPECT_NE(outcome.err.find("Permission denied"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(fs::is_empty(shut));
+  }
+}
