@@ -230,9 +230,6 @@ namespace {
 /// held, all of the table. What was fitted was looked at, in whichever of its shapes; so was what the balance
 /// weighs.
 LeftOutEffects left_out_of(const Diagnosis& d, const std::vector<std::string>& found) {
-  const auto in = [](const std::vector<std::string>& list, const std::string& name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-  };
   const auto in_ranking = [&](const std::string& effect, bool fitted) {
     return std::any_of(d.ranking.begin(), d.ranking.end(), [&](const RankedEffect& ranked) {
       return ranked.effect == effect && (ranked.fitted || !fitted);
@@ -246,11 +243,11 @@ LeftOutEffects left_out_of(const Diagnosis& d, const std::vector<std::string>& f
   for (const std::string& step : d.not_tried)
     if (!in_ranking(step, true))
       (in_ranking(step, false) ? left_out.not_fitted : left_out.not_looked_at).push_back(step);
-  if (in(d.not_tried, no_round_held))
+  if (contains(d.not_tried, no_round_held))
     for (const Hypothesis& h : d.hypotheses)
       for (const std::string& effect : h.effects)
-        if (!in_ranking(effect, true) && !in_balance(effect) && !in(left_out.not_fitted, effect) &&
-            !in(left_out.not_looked_at, effect))
+        if (!in_ranking(effect, true) && !in_balance(effect) && !contains(left_out.not_fitted, effect) &&
+            !contains(left_out.not_looked_at, effect))
           (in_ranking(effect, false) ? left_out.not_beside : left_out.not_looked_at).push_back(effect);
   left_out.found = found;
   return left_out;

@@ -138,9 +138,7 @@ void Course::judge() {
   if (!final.missing.empty() && final.missing != refitted.missing &&
       !explains(final.fit.p_value, final.fit.scatter, refitted.fit.scatter, final.fit.error_box(),
                 final.fit.floor_box())) {
-    for (const std::string& effect : final.missing)
-      if (std::find(refitted.missing.begin(), refitted.missing.end(), effect) == refitted.missing.end())
-        take_back(effect);
+    take_back_others(final.missing, refitted.missing);
     final = refitted;
     result_.ladder.push_back(step_of(step_name(final.missing) + ", the rest taken back", final.fit));
   }

@@ -67,6 +67,8 @@ class Course {
   void leave_out(const std::string& step);
   /// Takes an effect back in the table of hypotheses (taken_back()).
   void take_back(const std::string& effect);
+  /// Takes back those of the effects that are not kept.
+  void take_back_others(const std::vector<std::string>& effects, const std::vector<std::string>& kept);
   /// Returns the state with the formula's force on the grains, where the model with it on the box fails and
   /// that one is better.
   DiagnosisState with_the_force_on_its_body(const DiagnosisState& on_box);

@@ -82,14 +82,11 @@ DiagnosisState Course::search(DiagnosisState& refitted) {
 DiagnosisState Course::still_needed(DiagnosisState state, std::size_t added) {
   const std::vector<std::string> before = state.missing;
   // A pair was weighed as a whole: to know that both are needed is worth what was kept for the last fit.
-  const double limit = tools_.limit();
+  const KeptLimit limit(tools_);
   if (added > 1) tools_.limit_to(1);
   state = unless_spent("which effects are still needed", state,
                        [&] { return pruned(state, tools_, effects_of(result_.momentum), added); });
-  tools_.limit_to(limit);
-  for (const std::string& effect : before)
-    if (std::find(state.missing.begin(), state.missing.end(), effect) == state.missing.end())
-      take_back(effect);
+  take_back_others(before, state.missing);
   if (state.missing.size() < before.size()) added_last_ = 1;
   return state;
 }
@@ -131,13 +128,11 @@ DiagnosisState Course::without_untold(DiagnosisState state, const DiagnosisState
 }
 
 DiagnosisState Course::without_added(const DiagnosisState& state, const DiagnosisState& refitted) {
-  for (const std::string& effect : state.missing) {
-    if (std::find(refitted.missing.begin(), refitted.missing.end(), effect) != refitted.missing.end())
-      continue;
-    result_.notes.push_back(effect +
-                            " was taken back: the data reject the model with it as well, and no error falls");
-    take_back(effect);
-  }
+  for (const std::string& effect : state.missing)
+    if (!contains(refitted.missing, effect))
+      result_.notes.push_back(
+          effect + " was taken back: the data reject the model with it as well, and no error falls");
+  take_back_others(state.missing, refitted.missing);
   while (result_.ladder.size() > 1 && result_.ladder.back().step != step_name(refitted.missing))
     result_.ladder.pop_back();
   return refitted;
@@ -146,6 +141,11 @@ DiagnosisState Course::without_added(const DiagnosisState& state, const Diagnosi
 void Course::take_back(const std::string& effect) {
   result_.hypotheses = taken_back(result_.hypotheses, effect,
                                   prior_log_odds(1, static_cast<double>(tools_.known().searched())));
+}
+
+void Course::take_back_others(const std::vector<std::string>& effects, const std::vector<std::string>& kept) {
+  for (const std::string& effect : effects)
+    if (!contains(kept, effect)) take_back(effect);
 }
 
 void Course::leave_out(const std::string& step) {

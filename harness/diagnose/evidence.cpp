@@ -10,6 +10,10 @@
 
 namespace shakedown {
 
+bool contains(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
 double log_odds_of(const StrengthSeen& seen, double candidates) {
   constexpr double impossible = -std::numeric_limits<double>::infinity();
   if (!std::isfinite(seen.gain) || !std::isfinite(seen.value) || !std::isfinite(seen.error) ||
@@ -72,14 +76,12 @@ std::vector<Hypothesis> with_something_else_or(const LeftOutEffects& left_out, s
   const double prior = rules::something_else / (1 - rules::something_else),
                odds = probability / std::max(1 - probability, 1e-300), raised = std::max(1.0, odds / prior);
   const auto has_one_of = [](const Hypothesis& h, const std::vector<std::string>& list) {
-    return std::any_of(h.effects.begin(), h.effects.end(), [&](const std::string& effect) {
-      return std::find(list.begin(), list.end(), effect) != list.end();
-    });
+    return std::any_of(h.effects.begin(), h.effects.end(),
+                       [&](const std::string& effect) { return contains(list, effect); });
   };
   const auto has_all_found = [&](const Hypothesis& h) {
-    return std::all_of(left_out.found.begin(), left_out.found.end(), [&](const std::string& effect) {
-      return std::find(h.effects.begin(), h.effects.end(), effect) != h.effects.end();
-    });
+    return std::all_of(left_out.found.begin(), left_out.found.end(),
+                       [&](const std::string& effect) { return contains(h.effects, effect); });
   };
   double sum = 0, something_else = 0;
   for (Hypothesis& h : table) {
@@ -137,8 +139,7 @@ std::vector<Hypothesis> combined(const std::vector<Hypothesis>& a, const std::ve
     for (const Hypothesis& other : b) {
       Hypothesis h{one.effects, one.log_odds + other.log_odds, one.probability * other.probability};
       for (const std::string& effect : other.effects)
-        if (std::find(h.effects.begin(), h.effects.end(), effect) == h.effects.end())
-          h.effects.push_back(effect);
+        if (!contains(h.effects, effect)) h.effects.push_back(effect);
       add_to(both, std::move(h));
     }
   sort_by_probability(both);
@@ -172,12 +173,9 @@ double probability_of_something(const std::vector<Hypothesis>& table) {
 std::vector<std::string> ties_of(const std::vector<Hypothesis>& set) {
   std::vector<std::string> ties;
   if (set.empty()) return ties;
-  const auto in = [](const std::vector<std::string>& list, const std::string& name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-  };
   for (const Hypothesis& h : set)
     for (const std::string& effect : h.effects)
-      if (!in(set.front().effects, effect) && !in(ties, effect)) ties.push_back(effect);
+      if (!contains(set.front().effects, effect) && !contains(ties, effect)) ties.push_back(effect);
   return ties;
 }
 
@@ -185,9 +183,7 @@ TieKind kind_of(const std::vector<std::string>& ties, const std::vector<std::str
                 const std::vector<Hypothesis>& set) {
   TieKind kind;
   for (const Hypothesis& h : set) {
-    const auto has = [&](const std::string& effect) {
-      return std::find(h.effects.begin(), h.effects.end(), effect) != h.effects.end();
-    };
+    const auto has = [&](const std::string& effect) { return contains(h.effects, effect); };
     if (std::none_of(ties.begin(), ties.end(), has)) continue;
     (std::all_of(found.begin(), found.end(), has) ? kind.beside : kind.instead) = true;
   }

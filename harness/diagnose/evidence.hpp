@@ -7,6 +7,9 @@
 
 namespace shakedown {
 
+/// Tells whether the list has this name.
+bool contains(const std::vector<std::string>& list, const std::string& name);
+
 /// Holds a set of effects that may be missing beside what the model has; empty: nothing is.
 struct Hypothesis {
   std::vector<std::string> effects;

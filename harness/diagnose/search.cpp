@@ -126,11 +126,7 @@ class Round {
     if (astray_)
       nothing_gained_ = std::max(
           0.0, screen_->log_likelihood_ratio(tools_.features(state_.setup), state_.knobs(), ranking.nothing));
-    const double whole = tools_.limit(), spent = std::min(whole, tools_.share_spent());
-    tools_.limit_to(spent +
-                    (far_off_ ? share::ranking_when_far_off : share::ranking_of_a_round) * (whole - spent));
-    const Screening screening = screen_->weigh(candidates_);
-    tools_.limit_to(whole);
+    const Screening screening = screened();
     for (const ScreenedEffect& screened : screening.list)
       rivals_.push_back({.candidate = &candidates_[screened.candidate],
                          .screened = screened,
@@ -149,6 +145,15 @@ class Round {
     if (pairs_.size() > effort::most_pairs) pairs_.resize(effort::most_pairs);
   }
 
+  /// Simulates signatures, in the part of the round that they may take.
+  Screening screened() {
+    const KeptLimit whole(tools_);
+    const double spent = std::min(whole.share(), tools_.share_spent());
+    tools_.limit_to(spent + (far_off_ ? share::ranking_when_far_off : share::ranking_of_a_round) *
+                                (whole.share() - spent));
+    return screen_->weigh(candidates_);
+  }
+
   /// Fits every effect shortly, the cheap ones first, to see which are worth a fit that weighs them: about
   /// parameters that are far off no line reaches what is missing, and what a signature promises says little.
   /// While the data accept none of them the next one is worth more than a longer fit of one that they reject.
@@ -162,8 +167,9 @@ class Round {
     std::stable_sort(open.begin(), open.end(), [](const Rival* a, const Rival* b) {
       return a->candidate->plain_runs() < b->candidate->plain_runs();
     });
-    const double whole = tools_.limit(), spent = std::min(whole, tools_.share_spent());
-    const auto limit_to = [&](double share) { tools_.limit_to(spent + share * (whole - spent)); };
+    const KeptLimit whole(tools_);
+    const double spent = std::min(whole.share(), tools_.share_spent());
+    const auto limit_to = [&](double share) { tools_.limit_to(spent + share * (whole.share() - spent)); };
     limit_to(share::short_fits_while_none_holds);
     for (Rival* rival : open) try {
         fit_shortly(*rival, from_, tools_);
@@ -173,7 +179,6 @@ class Round {
       } catch (const PhysicsError&) {  // the fit that weighs it will say so
       } catch (const InputError&) {
       }
-    tools_.limit_to(whole);
     // Drop the short fits of the others: they are no answer, and a fit's state is large.
     const std::vector<Rival*> kept = in_question(rivals_);
     for (Rival& rival : rivals_)
@@ -253,15 +258,9 @@ class Round {
         // A nearly certain effect may use what is kept for the last fit.
         if (probability_among(rivals_, rival) <= rules::adds_effect && !is_alone_in_question(rivals_, rival))
           throw;
-        const double limit = tools_.limit();
+        const KeptLimit limit(tools_);
         tools_.limit_to(1);
-        try {
-          fit(effort::least);
-        } catch (...) {
-          tools_.limit_to(limit);
-          throw;
-        }
-        tools_.limit_to(limit);
+        fit(effort::least);
       }
     } catch (const BudgetSpent&) {
       if (!take_short_fit(rivals_, rival)) return leave_out(rival);

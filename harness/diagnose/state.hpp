@@ -121,6 +121,21 @@ class DiagnosisTools {
   Wander wander_;
 };
 
+/// Gives back the limit that held when it was made, however its scope is left.
+class KeptLimit {
+ public:
+  /// The tools must outlive it, and be limited.
+  explicit KeptLimit(DiagnosisTools& tools) : tools_(tools), share_(tools.limit()) {}
+  ~KeptLimit() { tools_.limit_to(share_); }
+  KeptLimit(const KeptLimit&) = delete;
+  KeptLimit& operator=(const KeptLimit&) = delete;
+  double share() const { return share_; }
+
+ private:
+  DiagnosisTools& tools_;
+  double share_;
+};
+
 /// Holds one round of the search: what was weighed, and the state with the effect that was added (none: as
 /// before).
 struct SearchRound {

@@ -8,6 +8,7 @@
 
 #include "candidates.hpp"
 #include "errors.hpp"
+#include "evidence.hpp"
 #include "key_unit.hpp"
 #include "linear_model.hpp"
 #include "setup_file.hpp"
@@ -17,10 +18,6 @@
 namespace shakedown {
 
 namespace {
-
-bool contains(const std::vector<std::string>& list, const std::string& name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
-}
 
 double place_of_value(bool inverse, double value) { return inverse ? 1 / (value * value) : value; }
 

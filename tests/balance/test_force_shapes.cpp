@@ -75,8 +75,8 @@ TEST(ForceMap, SlopesAreThoseOfTheirForces) {
   moved.x_box += step, moved.x_smooth += step;
   ForceShape shape = of_position([](double x, const ShapeValues&) { return 1 + 30 * x + 400 * x * x; });
   const ForceSamples force = shape_samples(shape, {}, run), force_beside = shape_samples(shape, {}, moved);
-  WITHIN(((force_beside.force - force.force) / step - force.force_dx).abs().maxCoeff(), 400 * step, 1e-4,
-         1e-5);
+  WITHIN(((force_beside.force - force.force) / step - force.force_dx).abs().maxCoeff(), 400 * step, 5e-9,
+         2.5e-10);
   shape.of = ShapeOf::damping_at_x;
   const ForceSamples damping = shape_samples(shape, {}, run);
   // The potential begins at the left end of the motion, so that two places of one run are compared.
@@ -84,7 +84,7 @@ TEST(ForceMap, SlopesAreThoseOfTheirForces) {
   run.x_box.minCoeff(&low), run.x_box.maxCoeff(&high);
   const double a = run.x_box[low], b = run.x_box[high];
   const auto integral = [](double x) { return x + 15 * x * x + 400.0 / 3 * x * x * x; };
-  WITHIN(damping.potential[high] - damping.potential[low], integral(b) - integral(a), 1e-6, 1e-7);
+  WITHIN(damping.potential[high] - damping.potential[low], integral(b) - integral(a), 7e-7, 3.9e-8);
   for (Eigen::Index i = 0; i < run.x_box.size(); ++i)
     EXPECT_EQ(damping.potential_dx[i], shape.value(run.x_box[i], {}));
 }
@@ -102,8 +102,8 @@ TEST(ForceMap, ACurveReachesOverWhatTheRunsShow) {
   for (const MomentumRun& run : balance.runs()) farthest = std::max(farthest, run.x_box.abs().maxCoeff());
   const ForceCurve curve = map.curve(ShapeOf::position);
   constexpr double beyond = 1.05;  // of the farthest, so that no place lies on the edge
-  WITHIN(curve.argument.front() / farthest, -beyond, 1e-14, 1e-15);
-  WITHIN(curve.argument.back() / farthest, beyond, 1e-14, 1e-15);
+  WITHIN(curve.argument.front() / farthest, -beyond, 4e-15, 2.2e-16);
+  WITHIN(curve.argument.back() / farthest, beyond, 4e-15, 2.2e-16);
 }
 
 TEST(ForceMap, WhatTheFitHasGainsNothingAndTheUnitOfAStrengthIsNoMatter) {

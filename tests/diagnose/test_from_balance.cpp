@@ -2,6 +2,8 @@
 // What the momentum balance found, as knobs of a fit.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "effects.hpp"
 #include "engines.hpp"
 #include "from_balance.hpp"
@@ -21,17 +23,23 @@ FoundTerm sine_of(double frequency) {
   return sine;
 }
 
-}  // namespace
-
-// A setup has one sine: the second one would take the place of the first, whose knobs would move nothing.
-TEST(FromBalance, TheSecondOfTwoSinesIsNoted) {
+/// The paper's damper with these terms, and what was noted.
+std::pair<DiagnosisState, std::vector<std::string>> with_terms(const std::vector<FoundTerm>& terms) {
   DiagnosisState state;
   state.setup = read_setup(std::string(PROJECT_ROOT) + "/harness/examples/L040.toml", all_effects());
   DiagnoseOptions options;
   options.known = all_effects();
   std::vector<std::string> notes;
   const std::unique_ptr<Engine> engine = engine_named("hard");
-  state = with_balance(state, {sine_of(1.4), sine_of(3)}, {}, *engine, options, notes);
+  state = with_balance(state, terms, {}, *engine, options, notes);
+  return {state, notes};
+}
+
+}  // namespace
+
+// A setup has one sine: the second one would take the place of the first, whose knobs would move nothing.
+TEST(FromBalance, TheSecondOfTwoSinesIsNoted) {
+  const auto [state, notes] = with_terms({sine_of(1.4), sine_of(3)});
   EXPECT_EQ(state.missing, std::vector<std::string>{"oscillating_acceleration"});
   EXPECT_EQ(state.found.size(), 3u);
   EXPECT_EQ(get_number(state.setup, "oscillating_acceleration.frequency", all_effects()), 1.4);
@@ -41,14 +49,7 @@ TEST(FromBalance, TheSecondOfTwoSinesIsNoted) {
 
 // A sine that is hardly known: a fit may move its phase, but not to where no setup can have it.
 TEST(FromBalance, ASineStaysWithinTheBoundsOfASetup) {
-  const FoundTerm sine = sine_of(1.4);
-  DiagnosisState state;
-  state.setup = read_setup(std::string(PROJECT_ROOT) + "/harness/examples/L040.toml", all_effects());
-  DiagnoseOptions options;
-  options.known = all_effects();
-  std::vector<std::string> notes;
-  const std::unique_ptr<Engine> engine = engine_named("hard");
-  state = with_balance(state, {sine}, {}, *engine, options, notes);
+  const DiagnosisState state = with_terms({sine_of(1.4)}).first;
   ASSERT_EQ(state.found.size(), 3u);
   for (const Knob& knob : state.found) {
     const Parameter* parameter = all_effects().find_parameter(knob.key);
