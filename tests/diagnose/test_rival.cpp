@@ -210,15 +210,33 @@ TEST(Rival, AFitTakesWhatItsShortFitSaysThatTheTimeAllows) {
 
 // An error of the camera is arithmetic on the recording: its signature is exact and its fit is not weighed.
 TEST(Rival, AFittedErrorOfTheCameraKeepsTheOddsOfItsSignature) {
-  const Candidate first = named("a"), camera = named("camera_lens");
-  std::vector<Rival> rivals{fitted(first, 1, 2600, {3, 1}), fitted(camera, 1, 2400, {1, 0})};
+  const Candidate first = named("a");
+  Candidate camera = named("camera_lens");
+  camera.knobs.front().exact = true;
+  std::vector<Rival> rivals{fitted(first, 1, 2600, {3, 1}), fitted(camera, 1, 2400, {30, 40})};
   rivals[1].log_ratio = std::nan("");
   weigh_beside_the_best(rivals, known);
   EXPECT_DOUBLE_EQ(rivals[1].log_odds, 2400);
-  // What a short fit alone has put somewhere is weighed by what it leaves.
+}
+
+// What a short fit alone has put somewhere is weighed by what it leaves.
+TEST(Rival, AShortFitThatStandsIsWeighedByWhatItLeaves) {
+  const Candidate first = named("a"), second = named("b");
+  std::vector<Rival> rivals{fitted(first, 1, 2600, {3, 1}), fitted(second, 1, 2400, {1, 0})};
+  rivals[1].log_ratio = std::nan("");
   rivals[1].weighed_by_left = true;
   weigh_beside_the_best(rivals, known);
   WITHIN(rivals[1].log_odds - rivals[0].log_odds, averaged(9), 1e-12, 5e-14);
+}
+
+// Its signature promised more than the fit of the best has; its own fit, which there was no time to weigh by
+// more, is rejected.
+TEST(Rival, AFitWithoutItsLikelihoodIsNoMoreProbableThanByWhatItLeaves) {
+  const Candidate first = named("a"), second = named("b");
+  std::vector<Rival> rivals{fitted(first, 1, 2557, {1, 1}), fitted(second, 1, 2608, {30, 40}, 0.001)};
+  rivals[1].log_ratio = std::nan("");
+  weigh_beside_the_best(rivals, known);
+  WITHIN(rivals[1].log_odds - rivals[0].log_odds, -averaged(2498), 2e-12, 1.2e-13);
 }
 
 TEST(Rival, IsFoundWhereAFitMakesItMoreProbableThanNothing) {
