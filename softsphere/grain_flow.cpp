@@ -17,7 +17,7 @@ struct Change {
   int effect = -1;
 };
 
-Change by_harmonic(const GrainForces::HarmonicVector& harmonic, double time, double step) {
+Change by_harmonic(const HarmonicVector& harmonic, double time, double step) {
   const double rate = 2 * std::numbers::pi * harmonic.frequency;
   const double phase = rate * time + harmonic.phase;
   if (rate * step < 1e-9) {

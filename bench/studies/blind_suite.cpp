@@ -117,7 +117,7 @@ class Suite {
     if (options_.share.index == 0) return;
     for (bool told = false; !fs::exists(folder_ / "plan.json"); told = true) {
       if (!told) tell("waiting for the process that draws the cases");
-      if (tools_.stop != nullptr && tools_.stop->load()) throw Interrupted("the cases were not drawn yet");
+      if (tools_.execution.stopped()) throw Interrupted("the cases were not drawn yet");
       std::this_thread::sleep_for(200ms);
     }
   }
@@ -286,7 +286,7 @@ class Suite {
   }
 
   void put_naive_answers(const Trial& trial, Json& document) const {
-    const Workshop workshop{tools_.model, tools_.known, {tools_.threads, tools_.stop}};
+    const Workshop workshop{tools_.model, tools_.known, tools_.execution};
     const NaiveAnswers naive = naive_answers(
         trial.hidden.believed,
         measurement_of(trial.hidden.believed, measured_in(trial, tools_), tools_.known), workshop);

@@ -85,8 +85,7 @@ int blind_suite(const BlindSuiteArguments& arguments) {
                    .model = model.get(),
                    .known = all_effects(),
                    .budget = arguments.budget,
-                   .threads = threads_of(arguments, share),
-                   .stop = catch_interruption(),
+                   .execution = {threads_of(arguments, share), catch_interruption()},
                    .strength_uncertainty = &strength_uncertainty,
                    .ensembles = &ensembles};
   const FaultyParts faulty(arguments.mutation, believed, tools);

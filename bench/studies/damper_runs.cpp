@@ -144,8 +144,7 @@ DamperRuns damper_runs(const Engine& engine, const Setup& setup, const RunsWante
   Average box, centre, root_energy;
   EnsembleOptions options;
   options.runs = wanted.runs;
-  options.threads = wanted.threads;
-  options.stop = wanted.stop;
+  options.execution = wanted.execution;
   options.each = [&](int, const Trajectory& trajectory, const Observables& seen) {
     if (result.runs.empty()) result.first = trajectory;
     result.runs.push_back(reading_of(setup, trajectory, seen));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Runs the paper's damper in its five lengths, with what its statements ask of each run.
 #pragma once
-#include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "engine.hpp"
+#include "execution.hpp"
 #include "observables.hpp"
 #include "statistic.hpp"
 
@@ -49,8 +49,8 @@ struct DamperRuns {
 std::string name_of(const DamperRuns& runs);
 
 struct RunsWanted {
-  int runs = 1, threads = 0;
-  const std::atomic<bool>* stop = nullptr;
+  int runs = 1;
+  Execution execution{};
 };
 
 /// Simulates the runs. Throws Interrupted.

@@ -16,13 +16,13 @@ LengthSweep sweep_lengths(const Engine& engine, const Setup& base, const std::ve
   LengthSweep sweep{base, {}};
   std::vector<std::array<std::vector<double>, 4>> seconds(lengths.size());
   const int count = static_cast<int>(lengths.size()) * wanted.runs;
-  work_in_parallel_deliver_in_order(count, wanted.threads, [&](int job) -> std::function<void()> {
+  work_in_parallel_deliver_in_order(count, wanted.execution.threads, [&](int job) -> std::function<void()> {
     const auto place = static_cast<std::size_t>(job / wanted.runs);
     Setup setup = base;
     setup.box.length = lengths[place];
     setup.run.duration = cycles_of_run / base.spring.frequency;
     setup.run.sample_rate = 200 * base.spring.frequency;
-    const Trajectory trajectory = engine.run(setup, {job % wanted.runs, {}, wanted.stop});
+    const Trajectory trajectory = engine.run(setup, {job % wanted.runs, {}, wanted.execution.stop});
     if (trajectory.interrupted) throw Interrupted("stopped while lengths were swept");
     std::array<double, 4> found{};
     for (std::size_t f = 0; f < found.size(); ++f)

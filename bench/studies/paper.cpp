@@ -46,13 +46,13 @@ class Reproduction {
     runs_.lengths = sweep_lengths(*hard_, damper(0.040), lengths, wanted(options_.quick ? 6 : 16));
     tell("frequencies and restitutions");
     sweep_about_the_optimum();
-    runs_.puzzle = solve_puzzle(
-        {options_.quick, options_.threads, options_.stop, [this](const std::string& stage) { tell(stage); }});
+    runs_.puzzle =
+        solve_puzzle({options_.quick, options_.execution, [this](const std::string& stage) { tell(stage); }});
     return std::move(runs_);
   }
 
  private:
-  RunsWanted wanted(int runs) const { return {runs, options_.threads, options_.stop}; }
+  RunsWanted wanted(int runs) const { return {runs, options_.execution}; }
 
   void tell(const std::string& stage) {
     const double steps = options_.quick ? 19 : 22;

@@ -8,6 +8,7 @@
 
 #include "chart.hpp"
 #include "damper_runs.hpp"
+#include "execution.hpp"
 #include "length_sweep.hpp"
 #include "puzzle.hpp"
 #include "statement.hpp"
@@ -16,8 +17,7 @@ namespace shakedown {
 
 struct PaperOptions {
   bool quick = false;  ///< few runs, coarse sweeps, the puzzle without its diagnosis
-  int threads = 0;
-  const std::atomic<bool>* stop = nullptr;
+  Execution execution{};
   std::function<void(const std::string& stage, double fraction)> progress{};  ///< may be empty
 };
 

@@ -34,7 +34,7 @@ int paper(const PaperArguments& arguments) {
   Paper found;
   {
     ProgressDisplay display("the paper");
-    PaperOptions options{arguments.quick, arguments.threads, catch_interruption()};
+    PaperOptions options{arguments.quick, {arguments.threads, catch_interruption()}, {}};
     options.progress = [&](const std::string& stage, double fraction) {
       display.rename(stage);
       display.show(fraction);

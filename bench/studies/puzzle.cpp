@@ -34,7 +34,7 @@ Experiment film_of_laboratory(double restitution, double friction, const std::ve
       set_number(truth, key, friction, all_effects());
   const std::unique_ptr<Engine> soft = engine_named("soft");
   return make_measurements(truth, runs_of_lengths(lengths), {},
-                           {soft.get(), all_effects(), 7, options.threads, options.stop});
+                           {soft.get(), all_effects(), 7, options.execution, {}});
 }
 
 bool is_fitted(const MeasuredRun& run) { return run.box_length < 0.05; }
@@ -45,9 +45,8 @@ Fit fitted(const Setup& start, const Experiment& experiment, const std::string& 
   for (const MeasuredRun& run : experiment.runs)
     if (is_fitted(run)) how.on.push_back(run.name);
   how.count = options.quick ? 64 : 128;
-  how.threads = options.threads;
+  how.execution = options.execution;
   how.known = all_effects();
-  how.stop = options.stop;
   return fit_parameters(start, measurement_of(start, experiment, all_effects()),
                         free_parameters(free, start, all_effects()), *engine_named("hard"), how);
 }
@@ -72,7 +71,7 @@ Experiment part_of(const Experiment& whole, bool fitted) {
 PuzzleModel unfitted(const std::string& name, const Setup& setup, const Experiment& experiment,
                      const PuzzleOptions& options) {
   const std::unique_ptr<Engine> hard = engine_named("hard");
-  const Workshop workshop{hard.get(), all_effects(), {options.threads, options.stop}};
+  const Workshop workshop{hard.get(), all_effects(), options.execution};
   RefitOptions how;
   how.count = options.quick ? 48 : 128;
   return model_of(name, refit(features_of(measurement_of(setup, part_of(experiment, false), all_effects())),
@@ -83,9 +82,8 @@ PuzzleModel unfitted(const std::string& name, const Setup& setup, const Experime
 /// Returns the diagnosis when the restitution of the drop test is held fixed and only L = 40 mm was filmed.
 Diagnosis diagnosed(const Experiment& experiment, const PuzzleOptions& options) {
   DiagnoseOptions how;
-  how.threads = options.threads;
+  how.execution = options.execution;
   how.known = all_effects();
-  how.stop = options.stop;
   how.fixed = {"restitution.grain_grain"};
   how.strength_uncertainty = &strength_uncertainty;
   return diagnose(believed(), measurement_of(believed(), part_of(experiment, true), all_effects()),

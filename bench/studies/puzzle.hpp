@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diagnosis.hpp"
+#include "execution.hpp"
 #include "fit.hpp"
 
 namespace shakedown {
@@ -41,8 +42,7 @@ struct Puzzle {
 
 struct PuzzleOptions {
   bool quick = false;
-  int threads = 0;
-  const std::atomic<bool>* stop = nullptr;
+  Execution execution{};
   std::function<void(const std::string& stage)> progress{};
 };
 

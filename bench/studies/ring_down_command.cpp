@@ -60,8 +60,7 @@ std::vector<RingDownResult> results_of(const RingDownArguments& arguments) {
   const TrialTools tools{.laboratory = laboratory.get(),
                          .model = model.get(),
                          .known = all_effects(),
-                         .threads = 1,
-                         .stop = catch_interruption(),
+                         .execution = {1, catch_interruption()},
                          .strength_uncertainty = &strength_uncertainty};
   std::vector<int> numbers = arguments.only;
   for (int number = 0; arguments.only.empty() && number < arguments.cases; ++number)
@@ -71,7 +70,7 @@ std::vector<RingDownResult> results_of(const RingDownArguments& arguments) {
   const int count = static_cast<int>(numbers.size());
   work_in_parallel_deliver_in_order(
       count, threads_or_all(arguments.threads), [&](int i) -> std::function<void()> {
-        if (tools.stop->load()) throw Interrupted("stopped before the last case");
+        if (tools.execution.stopped()) throw Interrupted("stopped before the last case");
         RingDown drawn =
             draw_ring_down(arguments.seed, numbers[static_cast<std::size_t>(i)], *model, all_effects());
         if (!arguments.cases_to.empty()) write_case(drawn, tools, arguments);

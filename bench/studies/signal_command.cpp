@@ -49,8 +49,7 @@ int signal(const SignalArguments& arguments) {
   const TrialTools tools{.laboratory = model.get(),
                          .model = model.get(),
                          .known = all_effects(),
-                         .threads = arguments.threads,
-                         .stop = catch_interruption()};
+                         .execution = {arguments.threads, catch_interruption()}};
   fmt::print("{:.2f}\n", ideal_signal(without, changed(without, hidden, all_effects()), settings, tools));
   return exit_done;
 }

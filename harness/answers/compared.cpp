@@ -238,7 +238,7 @@ Compared compared_with(const Setup& setup, const Measurement& recorded, const En
     done += n;
     if (options.progress) options.progress(std::min(1.0, static_cast<double>(done) / all));
   };
-  const Workshop workshop{&engine, all_effects(), {options.threads, options.stop, told}};
+  const Workshop workshop{&engine, all_effects(), options.execution, nullptr, {}, {told, {}}};
   compared.last = {measurement, EnsembleFit{setup, {}, {}, {}}, {}};
   EnsembleFit& ensembles = *compared.last.ensembles;
   ensembles.measured = features_with_camera(measurement, all_effects());
@@ -254,13 +254,12 @@ namespace {
 
 /// Returns what a reader may turn: the parameters and the camera, as nothing was found and nothing is
 /// suspected.
-ReportKnobs knobs_of_comparison(const LastFit& last, const Setup& setup, const Engine& engine, int threads,
-                                const std::atomic<bool>* stop) {
+ReportKnobs knobs_of_comparison(const LastFit& last, const Setup& setup, const Engine& engine,
+                                const Execution& execution) {
   if (last.swing) return knobs_of(turned_numbers(*last.swing, setup, {}, all_effects()), last, setup);
   TurnedOptions options;
   options.known = all_effects();
-  options.threads = threads;
-  options.stop = stop;
+  options.execution = execution;
   constexpr double seconds = 20;
   options.seconds = seconds;
   return knobs_of(turned_model(*last.ensembles, setup, engine, options), last, setup);
@@ -268,12 +267,12 @@ ReportKnobs knobs_of_comparison(const LastFit& last, const Setup& setup, const E
 
 }  // namespace
 
-Report report_of(const Compared& compared, const Setup& setup, const Engine& engine, int threads,
-                 const std::atomic<bool>* stop) {
+Report report_of(const Compared& compared, const Setup& setup, const Engine& engine,
+                 const Execution& execution) {
   return report_of({compared.fit, compared.momentum, compared.judgement, compared.decays},
                    compared.measurement, setup,
-                   drawn_curves(compared.measurement, nullptr, setup, engine, threads, stop),
-                   knobs_of_comparison(compared.last, setup, engine, threads, stop));
+                   drawn_curves(compared.measurement, nullptr, setup, engine, execution),
+                   knobs_of_comparison(compared.last, setup, engine, execution));
 }
 
 }  // namespace shakedown

@@ -2,13 +2,13 @@
 // Tells whether the model is acceptable for these measurements, and where it fails. Nothing is fitted but
 // camera, clock and what two codes of one physics differ by.
 #pragma once
-#include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "decay_comparison.hpp"
 #include "engine.hpp"
+#include "execution.hpp"
 #include "judgement.hpp"
 #include "last_fit.hpp"
 #include "momentum.hpp"
@@ -19,10 +19,9 @@ namespace shakedown {
 
 /// Says how much is simulated.
 struct CompareOptions {
-  int runs = 128;   ///< simulations of each different setup
-  int threads = 0;  ///< 0: one for each core; the answer does not depend on it
+  int runs = 128;  ///< simulations of each different setup
+  Execution execution{};
   std::function<void(double fraction)> progress{};  ///< may be empty
-  const std::atomic<bool>* stop = nullptr;
 };
 
 /// Holds all that a comparison says.
@@ -48,7 +47,7 @@ std::string compared_text(const Compared& compared);
 std::string compared_json(const Compared& compared);
 
 /// Returns the page; its curves and what its knobs do are simulated here. Throws Interrupted.
-Report report_of(const Compared& compared, const Setup& setup, const Engine& engine, int threads,
-                 const std::atomic<bool>* stop);
+Report report_of(const Compared& compared, const Setup& setup, const Engine& engine,
+                 const Execution& execution);
 
 }  // namespace shakedown

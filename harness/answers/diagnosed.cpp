@@ -84,8 +84,7 @@ ReportKnobs knobs_of_diagnosis(const Diagnosis& diagnosis, const Setup& user, co
   options.suspects = suspects_of(diagnosis);
   constexpr double share_of_time = 0.2, least = 20;  // beside that of the diagnosis itself; s
   options.seconds = std::max(least, share_of_time * page.seconds);
-  options.threads = page.threads;
-  options.stop = page.stop;
+  options.execution = page.execution;
   return knobs_of(turned_model(*fit.ensembles, user, engine, options), fit, diagnosis.amended);
 }
 
@@ -95,9 +94,8 @@ Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, con
                  const PageOptions& page) {
   const std::unique_ptr<Engine> engine = engine_named(diagnosis.engine);
   CurveOptions drawn;
-  drawn.threads = page.threads;
+  drawn.execution = page.execution;
   drawn.known = all_effects();
-  drawn.stop = page.stop;
   const LastFit* fit = diagnosis.last_fit.get();
   if (fit != nullptr) {
     drawn.final_of_run = setups_of(*fit, diagnosis.amended, all_effects());

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Checks what a diagnosis is asked, and writes what comes of it beside its numbers.
 #pragma once
-#include <atomic>
 #include <string>
 #include <vector>
 
 #include "diagnosis.hpp"
+#include "execution.hpp"
 #include "report.hpp"
 
 namespace shakedown {
@@ -22,9 +22,8 @@ std::string amended_setup(const Diagnosis& diagnosis);
 
 /// Says how much is simulated for a page.
 struct PageOptions {
-  int threads = 0;     ///< 0: one for each core
+  Execution execution{};
   double seconds = 0;  ///< of the diagnosis; what its knobs do has a fifth of that, and 20 s at least
-  const std::atomic<bool>* stop = nullptr;
 };
 
 /// Returns the page; its curves and what its knobs do are simulated here. `given`: the setup as the user had

@@ -6,12 +6,11 @@
 namespace shakedown {
 
 std::vector<MeasuredAgainstModel> drawn_curves(const Measurement& measurement, const Setup* given,
-                                               const Setup& final_setup, const Engine& engine, int threads,
-                                               const std::atomic<bool>* stop) {
+                                               const Setup& final_setup, const Engine& engine,
+                                               const Execution& execution) {
   CurveOptions options;
-  options.threads = threads;
+  options.execution = execution;
   options.known = all_effects();
-  options.stop = stop;
   return measured_against_model(measurement, given, final_setup, engine, options);
 }
 

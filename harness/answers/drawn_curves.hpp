@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <atomic>
 
+#include "execution.hpp"
 #include "measured_against_model.hpp"
 
 namespace shakedown {
@@ -9,7 +9,7 @@ namespace shakedown {
 /// Returns the curves of a report: each run as measured, beside the setup as `given` (null: none) and the
 /// final one. Throws Interrupted.
 std::vector<MeasuredAgainstModel> drawn_curves(const Measurement& measurement, const Setup* given,
-                                               const Setup& final_setup, const Engine& engine, int threads,
-                                               const std::atomic<bool>* stop);
+                                               const Setup& final_setup, const Engine& engine,
+                                               const Execution& execution);
 
 }  // namespace shakedown

@@ -164,10 +164,10 @@ Fit fitted_and_judged(const Setup& given, const Measurement& recorded, const Fit
 namespace {
 
 /// Returns what a reader may turn: the keys that were fitted.
-ReportKnobs knobs_of_fit(const Fit& fit, const Measurement& measurement, const Engine& engine, int threads,
-                         const std::atomic<bool>* stop) {
+ReportKnobs knobs_of_fit(const Fit& fit, const Measurement& measurement, const Engine& engine,
+                         const Execution& execution) {
   if (fit.measured.empty()) return {};
-  const Workshop workshop{&engine, all_effects(), {threads, stop}};
+  const Workshop workshop{&engine, all_effects(), execution};
   RefitOptions once;
   constexpr int count = 64;
   once.count = count, once.rounds = once.most_rounds = 1;
@@ -177,8 +177,7 @@ ReportKnobs knobs_of_fit(const Fit& fit, const Measurement& measurement, const E
       {}};
   TurnedOptions options;
   options.known = all_effects();
-  options.threads = threads;
-  options.stop = stop;
+  options.execution = execution;
   constexpr double share_of_time = 0.2, least = 20;  // beside that of the fit itself; s
   options.seconds = std::max(least, share_of_time * fit.seconds);
   return knobs_of(turned_model(*last.ensembles, fit.start, engine, options), last, fit.fitted);
@@ -187,12 +186,12 @@ ReportKnobs knobs_of_fit(const Fit& fit, const Measurement& measurement, const E
 }  // namespace
 
 Report report_of(const Fit& fit, const Setup& given, const Measurement& recorded, const Engine& engine,
-                 int threads, const std::atomic<bool>* stop) {
+                 const Execution& execution) {
   const bool empty = is_empty(given, recorded);
   const Measurement measurement =
       from_first_turns(empty ? with_setup(recorded, fit.fitted, all_effects()) : recorded, engine);
-  return report_of(fit, measurement, drawn_curves(measurement, &given, fit.fitted, engine, threads, stop),
-                   knobs_of_fit(fit, measurement, engine, threads, stop));
+  return report_of(fit, measurement, drawn_curves(measurement, &given, fit.fitted, engine, execution),
+                   knobs_of_fit(fit, measurement, engine, execution));
 }
 
 }  // namespace shakedown

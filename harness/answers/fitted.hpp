@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <atomic>
 #include <string>
 
+#include "execution.hpp"
 #include "fit.hpp"
 #include "report.hpp"
 
@@ -31,6 +31,6 @@ Fit fitted_and_judged(const Setup& setup, const Measurement& recorded, const Fit
 /// Returns the page; its curves, each run without grains from its first turn on, and what its knobs do are
 /// simulated here. Throws Interrupted.
 Report report_of(const Fit& fit, const Setup& given, const Measurement& recorded, const Engine& engine,
-                 int threads, const std::atomic<bool>* stop);
+                 const Execution& execution);
 
 }  // namespace shakedown

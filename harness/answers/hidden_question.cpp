@@ -115,7 +115,7 @@ Trial trial_of(const HiddenQuestion& question) {
 Experiment measured(const HiddenQuestion& question, const Trial& trial, const std::atomic<bool>* stop,
                     const std::function<void(double fraction)>& progress) {
   const std::unique_ptr<Engine> engine = engine_named(question.engine);
-  const Laboratory laboratory{engine.get(), all_effects(), question.seed, question.threads, stop, progress};
+  const Laboratory laboratory{engine.get(), all_effects(), question.seed, {question.threads, stop}, progress};
   Experiment experiment = make_measurements(trial.hidden.truth, trial.runs, trial.recording, laboratory);
   experiment.known = trial.known;
   experiment.title = question.title.empty() ? "granular damper, synthetic" : question.title;

@@ -11,6 +11,7 @@
 #include "experiment.hpp"
 #include "known_effects.hpp"
 #include "least_squares.hpp"
+#include "local_polynomial.hpp"
 #include "physics.hpp"
 
 namespace shakedown {
@@ -133,8 +134,7 @@ void add_model_forces(const Physics& physics, int grains, MomentumRun& run) {
     // The viscous drag is left out: its impulse needs no velocity.
     double force = box.newton(x, v, t, on_grains - run.stiffness * physics.spring_cubic * x * x * x) +
                    box.viscous.sum() * v;
-    for (const auto& h : physics.grains.harmonics)
-      force += run.grain_mass * Harmonic{h.amplitude.x(), h.frequency, h.phase, h.effect}.at(t);
+    for (const auto& h : physics.grains.harmonics) force += run.grain_mass * h.at(t).x();
     for (const FreeForce& f : physics.grains.free)
       force += grains * f.newton(x, v, t);  // each grain near the box: no better known
     return force;
@@ -187,11 +187,8 @@ Eigen::Vector4d cubic_weights(const Eigen::Vector4d& places, double at) {
 }
 
 LocalCubic local_cubic(int half) {
-  const int n = 2 * half + 1;
-  Eigen::MatrixXd powers(n, 4);
-  for (int i = 0; i < n; ++i)
-    for (int p = 0; p < powers.cols(); ++p) powers(i, p) = std::pow(static_cast<double>(i - half) / half, p);
-  const Eigen::MatrixXd fit = least_squares_weights(powers);
+  const Eigen::MatrixXd fit =
+      least_squares_weights(powers_of(Eigen::ArrayXd::LinSpaced(2 * half + 1, -1, 1), 4));
   return {fit.row(0).transpose(), fit.row(1).transpose() / half};
 }
 

@@ -37,9 +37,8 @@ DecayMeasurement measured(const LinearDecayArguments& arguments, const Engine& e
                                       arguments.runs, engine.name()));
   EnsembleOptions options;
   options.runs = arguments.runs;
-  options.threads = threads_or_all(arguments.threads);
+  options.execution = {threads_or_all(arguments.threads), catch_interruption()};
   options.progress = [&](double fraction) { display.show(fraction); };
-  options.stop = catch_interruption();
   return measure_decay(engine, length, arguments.seed, options);
 }
 

@@ -45,9 +45,11 @@ int compare(const CompareArguments& arguments) {
   {
     ProgressDisplay display(
         fmt::format("{}: comparing with {} runs of each setup", arguments.data, arguments.runs));
-    compared = compared_with(setup, recorded, *engine,
-                             {arguments.runs, arguments.threads,
-                              [&](double fraction) { display.show(fraction); }, catch_interruption()});
+    compared =
+        compared_with(setup, recorded, *engine,
+                      {arguments.runs, {arguments.threads, catch_interruption()}, [&](double fraction) {
+                         display.show(fraction);
+                       }});
   }
   const PaperValues taken(setup, given_by_measurements);
   const std::string document = taken.added_to(compared_json(compared));
@@ -57,7 +59,7 @@ int compare(const CompareArguments& arguments) {
   if (arguments.report.wanted(arguments.out))
     fmt::print(
         arguments.json.for_people(), "{}",
-        arguments.report.write(report_of(compared, setup, *engine, arguments.threads, catch_interruption()),
+        arguments.report.write(report_of(compared, setup, *engine, {arguments.threads, catch_interruption()}),
                                arguments.out));
   arguments.json.write(document);
   return compared.judgement.holds() ? exit_done : exit_model_rejected;

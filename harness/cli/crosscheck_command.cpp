@@ -80,10 +80,9 @@ std::vector<Case> cases_of(const CrosscheckArguments& arguments) {
 
 CrosscheckOptions options_of(const CrosscheckArguments& arguments) {
   CrosscheckOptions options = arguments.options;
-  options.threads = threads_or_all(options.threads);
+  options.execution = {threads_or_all(options.execution.threads), catch_interruption()};
   if (arguments.slope_margin_mm_per_s > 0) options.margins.slope = 1e-3 * arguments.slope_margin_mm_per_s;
   if (arguments.limit) options.contact_times = {3e-3, 1e-3, 3e-4, 1e-4};
-  options.stop = catch_interruption();
   return options;
 }
 
@@ -156,8 +155,8 @@ void add_ensemble_options(CLI::App& command, CrosscheckArguments& arguments) {
       ->check(CLI::Range(1, 1000000))
       ->type_name("N")
       ->capture_default_str();
-  arguments.options.threads = 0;
-  add_threads_option(command, arguments.options.threads,
+  arguments.options.execution.threads = 0;
+  add_threads_option(command, arguments.options.execution.threads,
                      "threads for the runs, 0: one a core; only wall times depend on it");
   command.add_option("--engines", arguments.options.engines, "engines, separated by commas")
       ->delimiter(',')

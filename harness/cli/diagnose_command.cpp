@@ -85,8 +85,7 @@ int diagnose_data(const DiagnoseArguments& arguments) {
     DiagnoseOptions options = usual_diagnose_options();
     options.effects = names_in(arguments.effects);
     options.budget = budget;
-    options.threads = arguments.threads;
-    options.stop = catch_interruption();
+    options.execution = {arguments.threads, catch_interruption()};
     options.seconds = arguments.seconds;
     options.fixed = names_in(arguments.fixed);
     options.progress = [&](const std::string& stage, double fraction) {
@@ -108,10 +107,11 @@ int diagnose_data(const DiagnoseArguments& arguments) {
     fmt::print(arguments.json.for_people(), "amended setup: {}\n", (folder->path() / "setup.toml").string());
   }
   if (arguments.report.wanted(arguments.out))
-    fmt::print(arguments.json.for_people(), "{}",
-               arguments.report.write(report_of(diagnosis, measurement, setup,
-                                                {arguments.threads, arguments.seconds, catch_interruption()}),
-                                      arguments.out));
+    fmt::print(
+        arguments.json.for_people(), "{}",
+        arguments.report.write(report_of(diagnosis, measurement, setup,
+                                         {{arguments.threads, catch_interruption()}, arguments.seconds}),
+                               arguments.out));
   arguments.json.write(document);
   return diagnosis.verdict == Verdict::adequate && diagnosis.judgement.holds() ? exit_done
                                                                                : exit_model_rejected;

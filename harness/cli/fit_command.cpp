@@ -49,8 +49,7 @@ int fit(const FitArguments& arguments) {
   FitOptions options = usual_fit_options();
   options.on = names_in(arguments.on);
   options.count = arguments.count;
-  options.threads = arguments.threads;
-  options.stop = catch_interruption();
+  options.execution = {arguments.threads, catch_interruption()};
   Fit found;
   {
     ProgressDisplay display(fmt::format("{}: fitting", arguments.data));
@@ -73,7 +72,7 @@ int fit(const FitArguments& arguments) {
   if (arguments.report.wanted(arguments.out))
     fmt::print(arguments.json.for_people(), "{}",
                arguments.report.write(
-                   report_of(found, setup, measurement, *engine, arguments.threads, catch_interruption()),
+                   report_of(found, setup, measurement, *engine, {arguments.threads, catch_interruption()}),
                    arguments.out));
   arguments.json.write(document);
   return found.judgement.holds() ? exit_done : exit_model_rejected;

@@ -124,9 +124,12 @@ int measure_power(const HideArguments& arguments, const Trial& trial) {
   const std::unique_ptr<Engine> laboratory = engine_named(arguments.question.engine),
                                 model = engine_named("hard");
   arguments.json.check();
-  const TrialTools tools{
-      laboratory.get(),           model.get(),          all_effects(),        arguments.budget,
-      arguments.question.threads, catch_interruption(), &strength_uncertainty};
+  const TrialTools tools{laboratory.get(),
+                         model.get(),
+                         all_effects(),
+                         arguments.budget,
+                         {arguments.question.threads, catch_interruption()},
+                         &strength_uncertainty};
   const Power power = power_of(trial, arguments.repeats, tools, [&](int done, const std::string& answer) {
     fmt::print(stderr, "{:>3} of {}: {}\n", done, arguments.repeats, answer);
   });

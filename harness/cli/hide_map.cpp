@@ -53,9 +53,8 @@ int map_strengths(const MapArguments& arguments, const HiddenQuestion& question,
   options.known = all_effects();
   for (const std::string& effect : question.effects)
     options.effects.push_back(effect.substr(0, effect.find('=')));
-  options.threads = question.threads;
+  options.execution = {question.threads, catch_interruption()};
   options.seconds = arguments.seconds;
-  options.stop = catch_interruption();
   options.journal = journal.get();
   StrengthMap map;
   try {

@@ -95,9 +95,12 @@ std::vector<Rung> climb_all(const LadderArguments& arguments, const std::vector<
   const double all = static_cast<double>(arguments.runs) *
                      static_cast<double>(measurement.runs.size() * setups.size()) * rounds;
   const Workshop workshop{
-      engine.get(), all_effects(), {arguments.threads, catch_interruption(), [&](int n) {
-                                      display.show(std::min(1.0, static_cast<double>(done += n) / all));
-                                    }}};
+      engine.get(),
+      all_effects(),
+      {arguments.threads, catch_interruption()},
+      nullptr,
+      {},
+      {[&](int n) { display.show(std::min(1.0, static_cast<double>(done += n) / all)); }, {}}};
   std::vector<Rung> rungs;
   for (std::size_t i = 0; i < setups.size(); ++i)
     rungs.push_back(climb(arguments.setups[i], setups[i], measurement, workshop, arguments));

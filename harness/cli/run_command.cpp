@@ -38,7 +38,7 @@ Provenance provenance_of(const RunArguments& arguments, const Setup& setup) {
   provenance.engine = arguments.engine;
   provenance.seed = setup.run.seed;
   provenance.runs = arguments.runs;
-  provenance.threads = threads_or_all(arguments.threads);
+  provenance.execution.threads = threads_or_all(arguments.threads);
   return provenance;
 }
 
@@ -50,9 +50,8 @@ Ensemble ensemble_of(const RunArguments& arguments, const Engine& engine, const 
                                       setup.run.duration));
   EnsembleOptions options;
   options.runs = arguments.runs;
-  options.threads = arguments.threads;
+  options.execution = {arguments.threads, stop};
   options.progress = [&](double fraction) { display.show(fraction); };
-  options.stop = stop;
   const bool shown = arguments.report.wanted(arguments.folder);
   options.log_collisions = arguments.log || (!arguments.report.file.empty() && arguments.runs == 1);
   options.each = [&, shown](int run, const Trajectory& trajectory, const Observables& observables) {

@@ -116,15 +116,15 @@ int print_estimate(const SweepArguments& arguments, const SweepPlan& plan, const
   if (std::filesystem::exists(arguments.out))
     file.add(ResultFile(arguments.out, identity, opening_of(arguments, share)).rows());
   SweepOptions options;
-  options.threads = threads_of(arguments, share);
+  options.execution = {threads_of(arguments, share), catch_interruption()};
   options.share = share;
-  options.stop = catch_interruption();
   options.announce = [](const SweepCost&) { return false; };
   const SweepOutcome outcome = run_sweep(engine, plan, file, options);
-  if (*options.stop) throw Interrupted("nothing was to be kept");
+  if (options.execution.stopped()) throw Interrupted("nothing was to be kept");
   SweepCost cost = outcome.cost;
-  cost.seconds = cost.seconds_a_run * static_cast<double>(cost.here - cost.done) / options.threads;
-  fmt::print(arguments.results.json.for_people(), "{}\n", readable_cost(cost, share, options.threads));
+  cost.seconds = cost.seconds_a_run * static_cast<double>(cost.here - cost.done) / options.execution.threads;
+  fmt::print(arguments.results.json.for_people(), "{}\n",
+             readable_cost(cost, share, options.execution.threads));
   if (outcome.failed > 0)
     fmt::print(stderr, "{} of {} runs that were tried failed; the first: {}\n", outcome.failed, outcome.added,
                outcome.first_failure);
@@ -134,7 +134,7 @@ int print_estimate(const SweepArguments& arguments, const SweepPlan& plan, const
                                                       {"runs_of_this_share", cost.here},
                                                       {"done_before", cost.done},
                                                       {"seconds_a_run", cost.seconds_a_run},
-                                                      {"threads", options.threads},
+                                                      {"threads", options.execution.threads},
                                                       {"seconds", cost.seconds}}
                                    .dump(2) +
                                "\n");
@@ -168,12 +168,11 @@ int sweep(const SweepArguments& arguments) {
                arguments.out, other);
 
   SweepOptions options;
-  options.threads = threads_of(arguments, share);
+  options.execution = {threads_of(arguments, share), catch_interruption()};
   options.share = share;
-  options.stop = catch_interruption();
   std::unique_ptr<ProgressDisplay> display;
   options.announce = [&](const SweepCost& cost) {
-    fmt::print(stderr, "{}\n", readable_cost(cost, share, options.threads));
+    fmt::print(stderr, "{}\n", readable_cost(cost, share, options.execution.threads));
     display = std::make_unique<ProgressDisplay>("sweeping");
     return true;
   };

@@ -61,7 +61,7 @@ std::optional<Friction> friction_from_a_run(const TheoryArguments& arguments, co
   const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
   EnsembleOptions options;
   options.keep_samples = true;
-  options.stop = catch_interruption();
+  options.execution.stop = catch_interruption();
   ProgressDisplay display(
       fmt::format("{}: a run of {:g} s for its third peak", arguments.setup.file, setup.run.duration));
   options.progress = [&](double fraction) { display.show(fraction); };

@@ -78,9 +78,8 @@ EngineResult result_of(const Engine& engine, const Setup& setup, const Crosschec
                        const std::function<void(double)>& progress) {
   EnsembleOptions ensemble_options;
   ensemble_options.runs = options.runs;
-  ensemble_options.threads = options.threads;
+  ensemble_options.execution = options.execution;
   ensemble_options.progress = progress;
-  ensemble_options.stop = options.stop;
   const Ensemble ensemble = run_ensemble(engine, setup, ensemble_options);
   if (ensemble.interrupted) throw Interrupted("not every run had finished, nothing was kept");
   EngineResult result{std::string(engine.name()), options.runs, {}, peaks_of_every_run(ensemble)};

@@ -7,6 +7,7 @@
 
 #include "ensemble.hpp"
 #include "equivalence.hpp"
+#include "execution.hpp"
 #include "setup.hpp"
 
 namespace shakedown {
@@ -70,9 +71,9 @@ struct CrosscheckOptions {
   std::vector<std::string> engines{"hard", "soft"};
   Margins margins;
   std::vector<double> contact_times;  ///< s, for the limit; empty: no limit
-  int runs = 8, threads = 1;
+  int runs = 8;
+  Execution execution{.threads = 1};
   std::function<void(double fraction)> progress;
-  const std::atomic<bool>* stop = nullptr;
 };
 
 struct Crosscheck {

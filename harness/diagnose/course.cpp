@@ -95,7 +95,7 @@ void Course::judge_empty_box(const MomentumOptions& whole) {
   const Engine& engine = *tools_.workshop().engine;
   Diagnosis by_waveform = result_;
   const EffectsInQuestion asked{tools_.known(), tools_.options().effects,
-                                threads_or_all(tools_.options().threads)};
+                                threads_or_all(tools_.options().execution.threads)};
   if (conclude_by_waveform(emptied(user_), recorded_, engine, asked, by_waveform) &&
       by_waveform.verdict != Verdict::unknown) {
     result_ = std::move(by_waveform);

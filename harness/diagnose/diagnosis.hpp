@@ -14,6 +14,7 @@
 #include "contact_curve.hpp"
 #include "decay_comparison.hpp"
 #include "evidence.hpp"
+#include "execution.hpp"
 #include "known_effects.hpp"
 #include "momentum.hpp"
 #include "refit.hpp"
@@ -119,9 +120,8 @@ struct DiagnoseOptions {
   std::vector<std::string> effects;  ///< only these may be added; empty: all
   std::int64_t budget = 0;           ///< simulations at most; 0: usual_budget()
   double seconds = 0;  ///< at most, with its threads to itself; up to 1.6 times that beside others; 0: none
-  int threads = 0;
+  Execution execution{};
   KnownEffects known;
-  const std::atomic<bool>* stop = nullptr;
   /// Is told the stage in words and the fraction of the budget used; may be empty.
   std::function<void(const std::string& stage, double fraction)> progress;
   std::vector<std::string> fixed{};  ///< of the restitutions and the spring's frequency: those known

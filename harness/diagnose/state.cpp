@@ -132,11 +132,10 @@ DiagnosisTools::DiagnosisTools(const Measurement& measurement, const Engine& eng
       clock_at_start_(std::clock()) {
   workshop_.engine = &engine;
   workshop_.known = options.known;
-  workshop_.execution.threads = options.threads;
-  workshop_.execution.stop = options.stop;
+  workshop_.execution = options.execution;
   workshop_.pool = &pool_;
   workshop_.store.journal = options.journal;
-  workshop_.execution.done = [this](int more) {
+  workshop_.meter.done = [this](int more) {
     runs_ += more;
     if (options_.progress && runs_ % 64 == 0) options_.progress(stage_, share_spent());
   };
@@ -154,12 +153,12 @@ double DiagnosisTools::share_of_time() const {
   constexpr double patience = 1.6;
   const double clock = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const double worked = static_cast<double>(std::clock() - clock_at_start_) / CLOCKS_PER_SEC;
-  return std::max(worked / threads_or_all(options_.threads), clock / patience) / options_.seconds;
+  return std::max(worked / threads_or_all(options_.execution.threads), clock / patience) / options_.seconds;
 }
 
 void DiagnosisTools::limit_to(double share) {
   limit_ = share;
-  workshop_.execution.ask_for = [this, share](std::int64_t more) {
+  workshop_.meter.ask_for = [this, share](std::int64_t more) {
     if (more > 0 && static_cast<double>(runs_ + more) > share * static_cast<double>(budget_))
       throw BudgetSpent("as many simulations were made as may be");
     if (share_of_time() > share) throw BudgetSpent("the time is up");
@@ -168,7 +167,7 @@ void DiagnosisTools::limit_to(double share) {
 
 void DiagnosisTools::without_limit() {
   limit_ = 1;
-  workshop_.execution.ask_for = nullptr;
+  workshop_.meter.ask_for = nullptr;
 }
 
 std::vector<MeasuredFeatures> DiagnosisTools::features(const Setup& setup) const {

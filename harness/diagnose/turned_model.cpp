@@ -35,10 +35,9 @@ class Turning {
       : fit_(fit), user_(user), engine_(engine), options_(options) {
     workshop_.engine = &engine;
     workshop_.known = options.known;
-    workshop_.execution.threads = options.threads;
-    workshop_.execution.stop = options.stop;
+    workshop_.execution = options.execution;
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.seconds);
-    workshop_.execution.ask_for = [end](std::int64_t) {
+    workshop_.meter.ask_for = [end](std::int64_t) {
       if (std::chrono::steady_clock::now() > end) throw BudgetSpent("the time is up");
     };
   }

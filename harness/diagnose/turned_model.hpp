@@ -3,10 +3,10 @@
 // slopes of the last fit, and from simulations at some places that are made for it. A page moves its curves
 // by this without simulating anything.
 #pragma once
-#include <atomic>
 #include <string>
 #include <vector>
 
+#include "execution.hpp"
 #include "turned_numbers.hpp"
 
 namespace shakedown {
@@ -19,8 +19,7 @@ struct TurnedOptions {
   int count = 24;                     ///< simulations of each different setup at each place
   int first_run = 7000000;            ///< addresses their random numbers
   double seconds = 60;                ///< for simulations, at most
-  int threads = 0;
-  const std::atomic<bool>* stop = nullptr;
+  Execution execution{};
 };
 
 /// Returns the numbers of the fit that can be turned, and what they do. `user`: the setup as given. Simulates

@@ -57,7 +57,7 @@ Statistic Ensemble::over_runs(const std::function<double(const RunResult&)>& num
 Ensemble run_ensemble(const Engine& engine, const Setup& setup, const EnsembleOptions& options) {
   EXPECT(options.runs >= 1 && options.first_run >= 0);
   const auto start = std::chrono::steady_clock::now();
-  const auto stopped = [&] { return options.stop != nullptr && options.stop->load(); };
+  const auto stopped = [&] { return options.execution.stopped(); };
   Ensemble ensemble{std::string(engine.name()), options.runs, {}, false, 0};
   ensemble.runs.reserve(static_cast<std::size_t>(options.runs));
   Progress progress(options, setup.run.duration);
@@ -67,8 +67,8 @@ Ensemble run_ensemble(const Engine& engine, const Setup& setup, const EnsembleOp
     auto result = std::make_shared<RunResult>();
     result->run = options.first_run + index;
     try {
-      result->trajectory =
-          engine.run(setup, {result->run, progress.of_run(index), options.stop, options.log_collisions});
+      result->trajectory = engine.run(
+          setup, {result->run, progress.of_run(index), options.execution.stop, options.log_collisions});
     } catch (const Interrupted&) {
       return {};
     }
@@ -80,7 +80,7 @@ Ensemble run_ensemble(const Engine& engine, const Setup& setup, const EnsembleOp
       ensemble.runs.push_back(std::move(*result));
     };
   };
-  work_in_parallel_deliver_in_order(options.runs, options.threads, work);
+  work_in_parallel_deliver_in_order(options.runs, options.execution.threads, work);
 
   ensemble.interrupted =
       static_cast<int>(ensemble.runs.size()) < options.runs || ensemble.runs[0].trajectory.interrupted;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Many runs of one setup that differ by their random numbers only.
 #pragma once
-#include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "engine.hpp"
+#include "execution.hpp"
 #include "observables.hpp"
 #include "statistic.hpp"
 
@@ -14,14 +14,12 @@ namespace shakedown {
 
 struct EnsembleOptions {
   int runs = 1;
-  int first_run = 0;            ///< number of the first run; the number addresses a run's random numbers
-  int threads = 1;              ///< 0: one for each core; the results do not depend on it
+  int first_run = 0;  ///< number of the first run; the number addresses a run's random numbers
+  Execution execution{.threads = 1};
   bool keep_samples = false;    ///< keep the sampled motion of every run in memory, not only its totals
   bool log_collisions = false;  ///< each run's Trajectory::collision_log; kept in memory as its samples are
   /// Called with the fraction of the whole that is done, one call at a time, from any thread; may be empty.
   std::function<void(double fraction)> progress;
-  /// Set to true (by a signal handler, say) to stop early.
-  const std::atomic<bool>* stop = nullptr;
   /// Receives every finished run with its samples, one at a time in ascending order of run number, from any
   /// thread; may be empty.
   std::function<void(int run, const Trajectory& trajectory, const Observables& observables)> each;

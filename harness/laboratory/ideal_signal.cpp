@@ -50,10 +50,10 @@ class Simulations {
   Runs simulated(const Setup& setup, int first, int count) const {
     std::vector<Vector> columns;
     work_in_parallel_deliver_in_order(
-        count, threads_or_all(tools_.threads), [&](int i) -> std::function<void()> {
+        count, threads_or_all(tools_.execution.threads), [&](int i) -> std::function<void()> {
           RunOptions options;
           options.run = first + i;
-          options.stop = tools_.stop;
+          options.stop = tools_.execution.stop;
           const Trajectory motion = tools_.model->run(setup, options);
           if (motion.interrupted) throw Interrupted("no signal was measured");
           return [&columns, features = features_of(motion, setup.run.duration, setup.grains.count > 0)] {

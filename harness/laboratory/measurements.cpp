@@ -201,11 +201,11 @@ Experiment make_measurements(const Setup& truth, const std::vector<PlannedRun>& 
   }
   const int count = static_cast<int>(runs.size());
   work_in_parallel_deliver_in_order(
-      count, threads_or_all(laboratory.threads), [&](int r) -> std::function<void()> {
+      count, threads_or_all(laboratory.execution.threads), [&](int r) -> std::function<void()> {
         const auto i = static_cast<std::size_t>(r);
         RunOptions options;
         options.run = r;
-        options.stop = laboratory.stop;
+        options.stop = laboratory.execution.stop;
         const Trajectory trajectory = laboratory.engine->run(setups[i], options);
         if (trajectory.interrupted) throw Interrupted("no run had finished, nothing was kept");
         const Frames frames = frames_of(recording, laboratory.seed, i, trajectory);

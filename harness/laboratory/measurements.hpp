@@ -2,7 +2,6 @@
 // Simulates a laboratory: an engine runs the damper as it truly is, a camera records it, and what comes out
 // looks like an experiment. The truth stays with the caller.
 #pragma once
-#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "engine.hpp"
+#include "execution.hpp"
 #include "experiment.hpp"
 #include "known_effects.hpp"
 
@@ -68,8 +68,7 @@ struct Laboratory {
   const Engine* engine = nullptr;
   KnownEffects known;
   std::uint64_t seed = 1;  ///< of initial states and of the camera's noise
-  int threads = 0;         ///< 0: one a core; the measurements do not depend on it
-  const std::atomic<bool>* stop = nullptr;
+  Execution execution{};
   std::function<void(double fraction)> progress{};  ///< may be empty
 };
 

@@ -27,7 +27,7 @@ struct Sight {
 Sight sight_of(const HiddenCase& hidden, std::uint64_t seed, const std::vector<PlannedRun>& runs,
                const TrialTools& tools) {
   Sight sight;
-  const Laboratory laboratory{tools.laboratory, tools.known, seed, tools.threads, tools.stop};
+  const Laboratory laboratory{tools.laboratory, tools.known, seed, tools.execution};
   sight.measurement =
       measurement_of(hidden.believed, make_measurements(hidden.truth, runs, {}, laboratory), tools.known);
   MomentumOptions options;
@@ -48,7 +48,7 @@ Refit refit_of(const Sight& sight, const Setup& believed, const std::vector<Cand
     knobs.insert(knobs.end(), effect.fitted_knobs().begin(), effect.fitted_knobs().end());
     for (Measurement::Run& run : measurement.runs) run.setup = prepared(run.setup, effect, tools.known);
   }
-  const Workshop workshop{tools.model, tools.known, {tools.threads, tools.stop}};
+  const Workshop workshop{tools.model, tools.known, tools.execution};
   const std::vector<Knob> camera = camera_knobs(believed, measurement, tools.known);
   std::copy_if(camera.begin(), camera.end(), std::back_inserter(knobs), [&](const Knob& of_camera) {
     return std::none_of(knobs.begin(), knobs.end(),

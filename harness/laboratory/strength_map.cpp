@@ -50,9 +50,8 @@ class Mapper {
                                                   std::chrono::duration<double>(options.seconds));
     workshop_.engine = &engine;
     workshop_.known = options.known;
-    workshop_.execution.threads = options.threads;
-    workshop_.execution.stop = options.stop;
-    workshop_.execution.done = [this](int runs) { map_.simulations += runs; };
+    workshop_.execution = options.execution;
+    workshop_.meter.done = [this](int runs) { map_.simulations += runs; };
     workshop_.store.journal = options.journal;
     knobs_ = straight(believed(free_parameters(setup), planned.known, options.known), 0.5);
     for (Knob& knob : camera_knobs(setup, planned, options.known)) knobs_.push_back(std::move(knob));
@@ -152,7 +151,7 @@ class Mapper {
     const auto cost = [](const Candidate& one) { return one.dear ? 2 : one.slow ? 1 : 0; };
     std::stable_sort(candidates.begin(), candidates.end(),
                      [&](const Candidate& a, const Candidate& b) { return cost(a) < cost(b); });
-    workshop_.execution.ask_for = [end = end_](std::int64_t) {
+    workshop_.meter.ask_for = [end = end_](std::int64_t) {
       if (std::chrono::steady_clock::now() > end) throw BudgetSpent("the time is up");
     };
     for (std::size_t c = 0; c < candidates.size(); ++c) {

@@ -3,7 +3,6 @@
 // diagnosis would see, against noise, wander, shutter, number of runs and what is known of the restitutions.
 // One set of simulations serves all cameras: what changes from one to another is arithmetic.
 #pragma once
-#include <atomic>
 #include <functional>
 #include <span>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "candidates.hpp"
 #include "emulator.hpp"
+#include "execution.hpp"
 #include "known_effects.hpp"
 #include "measurement.hpp"
 
@@ -57,10 +57,9 @@ struct MapOptions {
   KnownEffects known;
   std::vector<std::string> effects;  ///< these only; empty: all that a diagnosis may add
   int count = 48;                    ///< simulations of each different setup at each strength
-  int threads = 0;
-  double seconds = 600;  ///< effects not begun by then are left out and named
-  const std::atomic<bool>* stop = nullptr;
-  SimulationJournal* journal = nullptr;                                       ///< may be null
+  Execution execution{};
+  double seconds = 600;                  ///< effects not begun by then are left out and named
+  SimulationJournal* journal = nullptr;  ///< may be null
   std::function<void(const std::string& stage, double fraction)> progress{};  ///< may be empty
 };
 

@@ -11,7 +11,7 @@
 namespace shakedown {
 
 Experiment measured_in(const Trial& trial, const TrialTools& tools) {
-  const Laboratory laboratory{tools.laboratory, tools.known, trial.seed, tools.threads, tools.stop};
+  const Laboratory laboratory{tools.laboratory, tools.known, trial.seed, tools.execution};
   Experiment experiment = make_measurements(trial.hidden.truth, trial.runs, trial.recording, laboratory);
   experiment.known = trial.known;
   if (tools.damage) tools.damage(experiment);
@@ -21,9 +21,8 @@ Experiment measured_in(const Trial& trial, const TrialTools& tools) {
 Diagnosis diagnose_trial(const Trial& trial, const TrialTools& tools) {
   DiagnoseOptions options;
   options.budget = tools.budget;
-  options.threads = tools.threads;
+  options.execution = tools.execution;
   options.known = tools.known;
-  options.stop = tools.stop;
   options.strength_uncertainty = tools.strength_uncertainty;
   options.fixed = tools.fixed;
   options.ensembles = tools.ensembles;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis.hpp"
+#include "execution.hpp"
 #include "hidden_case.hpp"
 #include "known_effects.hpp"
 #include "shares.hpp"
@@ -26,8 +27,7 @@ struct TrialTools {
   const Engine* model = nullptr;       ///< the diagnosis' engine
   KnownEffects known;
   std::int64_t budget = 0;  ///< simulations of one diagnosis at most; 0: usual_budget()
-  int threads = 0;
-  const std::atomic<bool>* stop = nullptr;
+  Execution execution{};
   double (*strength_uncertainty)(std::string_view effect) = nullptr;  ///< DiagnoseOptions
   EnsembleCache* ensembles = nullptr;                ///< shared by the diagnoses; may be null
   std::vector<std::string> fixed{};                  ///< DiagnoseOptions

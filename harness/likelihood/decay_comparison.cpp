@@ -227,7 +227,7 @@ std::vector<DecayComparison> compare_decay(const Measurement& measurement, const
   work_in_parallel_deliver_in_order(
       all, threads_or_all(workshop.execution.threads), [&](int job) -> std::function<void()> {
         const auto r = static_cast<std::size_t>(job / runs);
-        if (workshop.execution.stop && *workshop.execution.stop) throw Interrupted("interrupted");
+        if (workshop.execution.stopped()) throw Interrupted("interrupted");
         Setup setup = measurement.runs[r].setup;
         setup.run.duration = std::max(0.5, frames[r].time.empty() ? 0.0 : frames[r].time.back() + 0.05);
         setup.run.sample_rate = 500;

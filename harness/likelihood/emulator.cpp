@@ -127,7 +127,7 @@ Trajectory run_surely(const Setup& setup, int run, const Workshop& workshop) {
     constexpr int reports_between = 20;  // of some 200 a run: asking costs as much as a hundred impacts
     int reports = 0;
     options.progress = [&](double) {
-      if (++reports % reports_between == 0) workshop.execution.ask(0);
+      if (++reports % reports_between == 0) workshop.ask(0);
     };
     try {
       Trajectory trajectory = workshop.engine->run(setup, options);
@@ -295,16 +295,16 @@ std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, con
   std::vector<std::vector<Simulated>> simulated(groups.size(),
                                                 std::vector<Simulated>(static_cast<std::size_t>(count)));
   const int groups_count = static_cast<int>(groups.size());
-  workshop.execution.ask(static_cast<std::int64_t>(count) * groups_count);
+  workshop.ask(static_cast<std::int64_t>(count) * groups_count);
   // The longest runs are begun first: groups in turn, so that the last ones are spread over all.
   work_in_parallel_deliver_in_order(count * groups_count, threads_or_all(workshop.execution.threads),
                                     [&](int job) -> std::function<void()> {
                                       const int row = job / groups_count;
                                       const auto g = static_cast<std::size_t>(job % groups_count);
-                                      workshop.execution.ask(0);
+                                      workshop.ask(0);
                                       simulated[g][static_cast<std::size_t>(row)] = simulate(
                                           groups[g], measured, knobs, first_run + row, sparse, workshop);
-                                      return [&] { workshop.execution.finished(1); };
+                                      return [&] { workshop.finished(1); };
                                     });
   std::vector<Emulator> emulators(measured.size());
   for (std::size_t g = 0; g < groups.size(); ++g) {

@@ -95,8 +95,8 @@ class Fitter {
           options.on.empty() || std::find(options.on.begin(), options.on.end(), run.run) != options.on.end();
       (wanted ? used_ : left_out_).push_back(run);
     }
-    workshop_ = {&engine, options.known, {options.threads, options.stop}};
-    workshop_.execution.done = [this](int more) {
+    workshop_ = {&engine, options.known, options.execution};
+    workshop_.meter.done = [this](int more) {
       fit_.runs += more;
       if (options_.progress) options_.progress(stage_, fit_.runs);
     };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact_curve.hpp"
+#include "execution.hpp"
 #include "known_effects.hpp"
 #include "refit_result.hpp"
 
@@ -17,10 +18,9 @@ namespace shakedown {
 struct FitOptions {
   std::vector<std::string> on;  ///< names of the runs to fit; empty: all
   int count = 160;              ///< simulations of each different setup in a round
-  int threads = 0;              ///< 0: one for each core
-  int first_run = 500000;       ///< addresses the random numbers of the simulations
+  Execution execution{};
+  int first_run = 500000;  ///< addresses the random numbers of the simulations
   KnownEffects known;
-  const std::atomic<bool>* stop = nullptr;
   /// Is told the stage in words and the number of simulations so far; may be empty.
   std::function<void(const std::string& stage, std::int64_t runs)> progress{};
 };

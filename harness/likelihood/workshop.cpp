@@ -5,9 +5,9 @@
 
 namespace shakedown {
 
-void Execution::ask(std::int64_t more) const {
-  if (stop && *stop) throw Interrupted("interrupted");
-  if (ask_for) ask_for(more);
+void Workshop::ask(std::int64_t more) const {
+  if (execution.stopped()) throw Interrupted("interrupted");
+  if (meter.ask_for) meter.ask_for(more);
 }
 
 }  // namespace shakedown

@@ -90,7 +90,7 @@ class Forces {
       air();
       for (const auto& share : physics_.grains.constant.shares())
         accelerate(share.strength, "", share.effect);
-      for (const GrainForces::HarmonicVector& wave : physics_.grains.harmonics)
+      for (const HarmonicVector& wave : physics_.grains.harmonics)
         accelerate(wave.amplitude, sine(wave.frequency, wave.phase), wave.effect);
       push_grains();
     }

@@ -6,10 +6,6 @@
 
 namespace shakedown {
 
-double Harmonic::at(double t) const {
-  return amplitude * std::sin(2 * std::numbers::pi * frequency * t + phase);
-}
-
 bool BoxForces::none() const {
   return viscous.sum() == 0 && dry_friction.sum() == 0 && constant.sum() == 0 && harmonics.empty() &&
          free.empty() && dahl.empty();

@@ -2,7 +2,9 @@
 // The setup with its effects written in: all that an engine reads of what acts on box and grains. SI units.
 #pragma once
 #include <array>
+#include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -17,6 +19,15 @@ enum class ContactClass { grain_grain = 0, end_wall = 1, side_wall = 2 };
 constexpr int contact_classes = 3;
 constexpr std::array<const char*, contact_classes> contact_class_names{"grain_grain", "end_wall",
                                                                        "side_wall"};
+
+/// Returns nothing of a kind: 0, or a vector of zeros, which Eigen's own default is not.
+template <class Value>
+Value none_of() {
+  if constexpr (std::is_same_v<Value, Vec3>)
+    return Vec3::Zero();
+  else
+    return {};
+}
 
 /// A strength to which several effects contribute: engines let the sum act, and the energy ledger books each
 /// contribution on the line of its own effect.
@@ -37,13 +48,7 @@ class Slot {
   const std::vector<Share>& shares() const { return shares_; }
 
  private:
-  static Value zero() {
-    if constexpr (std::is_same_v<Value, Vec3>)
-      return Vec3::Zero();
-    else
-      return {};
-  }
-  Value sum_ = zero();
+  Value sum_ = none_of<Value>();
   std::vector<Share> shares_;
 };
 
@@ -114,15 +119,18 @@ struct ContactLaw {
   double reach(ContactClass contact) const { return attraction(contact) > 0 ? attraction_range : 0; }
 };
 
-/// A sin(2 pi f t + phase).
-struct Harmonic {
-  double amplitude = 0;  ///< N or m/s^2
-  double frequency = 0;  ///< Hz
-  double phase = 0;      ///< rad
-  int effect = -1;       ///< line in Setup::effects
+/// A sin(2 pi f t + phase), a number or a vector.
+template <class Amplitude>
+struct HarmonicOf {
+  Amplitude amplitude = none_of<Amplitude>();  ///< N or m/s^2
+  double frequency = 0;                        ///< Hz
+  double phase = 0;                            ///< rad
+  int effect = -1;                             ///< line in Setup::effects
 
-  double at(double t) const;  ///< N or m/s^2
+  Amplitude at(double t) const { return amplitude * std::sin(2 * std::numbers::pi * frequency * t + phase); }
 };
+using Harmonic = HarmonicOf<double>;
+using HarmonicVector = HarmonicOf<Vec3>;
 
 /// A force on the box that is none of the closed forms; x, v, t of the box in the lab.
 struct FreeForce {
@@ -168,14 +176,9 @@ struct AirDrag {
 
 /// Accelerations of the grains between contacts.
 struct GrainForces {
-  Slot<Vec3> constant;  ///< m/s^2
-  struct HarmonicVector {
-    Vec3 amplitude = Vec3::Zero();  ///< m/s^2
-    double frequency = 0, phase = 0;
-    int effect = -1;
-  };
-  std::vector<HarmonicVector> harmonics;
-  Slot<AirDrag> drag;  ///< on each grain; the box feels the reaction
+  Slot<Vec3> constant;                    ///< m/s^2
+  std::vector<HarmonicVector> harmonics;  ///< m/s^2
+  Slot<AirDrag> drag;                     ///< on each grain; the box feels the reaction
   /// Force on a grain along x, N, as a function of the grain's own x, v and t in the lab.
   std::vector<FreeForce> free;
   /// Length of the blade whose tip the box follows on an arc, m; 0: straight. Transverse (z) acceleration of

@@ -45,14 +45,14 @@ Answer compared(const Setup& setup, const Experiment& experiment, const std::str
   const std::shared_ptr<const Question> asked = question_of(setup, experiment);
   const std::shared_ptr<const Engine> engine = shared_engine(engine_name);
   const auto work = [&](ToldProgress& told, const std::atomic<bool>* stop) {
-    const CompareOptions options{runs, threads, [&](double fraction) { told.tell("comparing", fraction); },
-                                 stop};
+    const CompareOptions options{
+        runs, {threads, stop}, [&](double fraction) { told.tell("comparing", fraction); }};
     return std::make_shared<const Compared>(
         compared_with(asked->setup, asked->measurement, *engine, options));
   };
   const std::shared_ptr<const Compared> found = released(listener, work);
   const auto report = [=](const std::atomic<bool>* stop) {
-    return report_of(*found, asked->setup, *engine, threads, stop);
+    return report_of(*found, asked->setup, *engine, {threads, stop});
   };
   return {compared_json(*found), compared_text(*found),   found->judgement.holds(),
           asked->setup,          asked->taken_from_paper, report};
@@ -76,15 +76,14 @@ Answer diagnosed(const Setup& setup, const Experiment& experiment, const Diagnos
     options.fixed = how.fixed;
     options.budget = how.budget > 0 ? how.budget : usual_budget(asked->measurement);
     options.seconds = how.seconds;
-    options.threads = how.threads;
-    options.stop = stop;
+    options.execution = {how.threads, stop};
     options.progress = [&](const std::string& stage, double fraction) { told.tell(stage, fraction); };
     return std::make_shared<const Diagnosis>(diagnose(asked->setup, asked->measurement, *engine, options));
   };
   const std::shared_ptr<const Diagnosis> found = released(listener, work);
   const int threads = how.threads;
   const auto report = [=](const std::atomic<bool>* stop) {
-    return report_of(*found, asked->measurement, asked->setup, {threads, 0, stop});
+    return report_of(*found, asked->measurement, asked->setup, {{threads, stop}, 0});
   };
   return {diagnosis_json(*found),
           diagnosis_text(*found),
@@ -110,8 +109,7 @@ Answer fitted(const Setup& setup, const Experiment& experiment, const FitAsked& 
     FitOptions options = usual_fit_options();
     options.on = how.on;
     options.count = how.runs;
-    options.threads = how.threads;
-    options.stop = stop;
+    options.execution = {how.threads, stop};
     const double about = 12.0 * how.runs;  // rounds; more when the start is far off
     options.progress = [&](const std::string& stage, std::int64_t done) {
       told.tell(stage, std::min(0.99, static_cast<double>(done) / about));
@@ -122,7 +120,7 @@ Answer fitted(const Setup& setup, const Experiment& experiment, const FitAsked& 
   const std::shared_ptr<const Fit> found = released(listener, work);
   const int threads = how.threads;
   const auto report = [=](const std::atomic<bool>* stop) {
-    return report_of(*found, asked->setup, asked->measurement, *engine, threads, stop);
+    return report_of(*found, asked->setup, asked->measurement, *engine, {threads, stop});
   };
   return {fit_json(*found), fit_text(*found),        found->judgement.holds(),
           found->fitted,    asked->taken_from_paper, report};

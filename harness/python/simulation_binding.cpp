@@ -40,12 +40,11 @@ Simulated simulated(const Setup& setup, const std::string& name, const std::stri
   const auto work = [&](ToldProgress& told, const std::atomic<bool>* stop) {
     EnsembleOptions options;
     options.runs = runs;
-    options.threads = threads;
+    options.execution = {threads, stop};
     options.keep_samples = true;
     // One run alone is shown in motion, which takes its log.
     options.log_collisions = runs == 1 && engine_name == "hard" && setup.domain != Domain::periodic;
     options.progress = [&](double fraction) { told.tell("running", fraction); };
-    options.stop = stop;
     options.each = [&](int, const Trajectory& motion, const Observables&) { curves->add(motion); };
     return std::make_shared<const Ensemble>(run_ensemble(*engine, setup, options));
   };
@@ -94,9 +93,8 @@ Answer crosschecked(const Setup& setup, const std::string& name, const std::vect
     CrosscheckOptions options;
     options.engines = engines;
     options.runs = runs;
-    options.threads = threads_or_all(threads);
+    options.execution = {threads_or_all(threads), stop};
     options.progress = [&](double fraction) { told.tell("running each engine", fraction); };
-    options.stop = stop;
     return std::vector<Crosscheck>{crosscheck(name, setup, options)};
   };
   const std::vector<Crosscheck> found = released(listener, work);

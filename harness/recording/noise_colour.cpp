@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "local_polynomial.hpp"
 #include "noise.hpp"
 #include "nothing.hpp"
 #include "robust_statistics.hpp"
@@ -51,10 +52,7 @@ std::vector<double> rough_part(const NoiseSeries& series, const Eigen::VectorXd&
 Eigen::VectorXd roughness_filter(double interval, int order) {
   const int half = std::max({4, order / 2 + 2, static_cast<int>(std::lround(0.02 / interval))}),
             n = 2 * half + 1;
-  Eigen::MatrixXd powers(n, order);
-  for (int i = 0; i < n; ++i)
-    for (int power = 0; power < order; ++power)
-      powers(i, power) = std::pow(static_cast<double>(i - half) / half, power);
+  const Eigen::MatrixXd powers = powers_of(Eigen::ArrayXd::LinSpaced(n, -1, 1), order);
   const Eigen::MatrixXd normal = powers.transpose() * powers;
   Eigen::VectorXd filter = -powers * normal.ldlt().solve(Eigen::VectorXd::Unit(order, 0));
   filter[half] += 1;

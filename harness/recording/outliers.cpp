@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "outliers.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "local_polynomial.hpp"
 #include "motion_seen.hpp"
 #include "nothing.hpp"
 #include "robust_statistics.hpp"
@@ -122,9 +122,7 @@ double misfit_to_cubic(const std::vector<double>& time, const std::vector<double
                        double value, double deviation, double interval) {
   const auto half = static_cast<std::ptrdiff_t>(std::max(5.0, std::round(0.02 / interval)));
   const double reach = static_cast<double>(half) * interval * 1.01;
-  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d right = Eigen::Vector4d::Zero();
-  int count = 0;
+  LocalPolynomial<4> cubic;
   const auto first = std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(i) - half);
   const auto last =
       std::min(static_cast<std::ptrdiff_t>(kept.size()) - 1, static_cast<std::ptrdiff_t>(i) + half);
@@ -132,14 +130,10 @@ double misfit_to_cubic(const std::vector<double>& time, const std::vector<double
     const auto at = static_cast<std::size_t>(j);
     const double u = (time[at] - time[i]) / reach;
     if (at == i || !std::isfinite(kept[at]) || std::abs(u) > 1) continue;
-    const Eigen::Vector4d row(1, u, u * u, u * u * u);
-    normal += row * row.transpose();
-    right += row * (kept[at] - value);
-    ++count;
+    cubic.add(u, kept[at] - value);
   }
-  if (count < 7) return 0;
-  const Eigen::Vector4d at_centre = normal.ldlt().solve(Eigen::Vector4d::Unit(0));
-  return std::abs(at_centre.dot(right)) / (deviation * std::sqrt(1 + at_centre[0]));
+  if (cubic.count() < 7) return 0;
+  return std::abs(cubic.coefficients()[0]) / (deviation * std::sqrt(1 + cubic.covariance()(0, 0)));
 }
 
 /// Returns how many times as far as normal noise frames of this series usually lie off, by the nine tenths

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "rough_motion.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
+#include "local_polynomial.hpp"
 #include "nothing.hpp"
 #include "robust_statistics.hpp"
 
@@ -93,23 +93,17 @@ double frequency_at_start(const RoughMotion& motion) {
 void set_delay(const std::vector<Point>& points, RoughMotion& motion) {
   const double omega = 2 * std::numbers::pi * frequency_at_start(motion);
   const double begin = points.front().time;
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  int count = 0;
+  LocalPolynomial<3> parabola;
   for (const Point& point : points) {
     const double t = omega * (point.time - begin);  // rad
     if (t > std::numbers::pi / 6) break;
-    const Eigen::Vector3d row(1, t, t * t);
-    normal += row * row.transpose();
-    right += row * (point.x - motion.centre);
-    ++count;
+    parabola.add(t, point.x - motion.centre);
   }
   constexpr int enough = 6;
-  if (count < enough) return;
-  const Eigen::Matrix3d inverse = normal.inverse();
-  const Eigen::Vector3d fit = inverse * right;
+  if (parabola.count() < enough) return;
+  const Eigen::Vector3d fit = parabola.coefficients();
   motion.start_delay = std::atan2(-fit[1], fit[0]) / omega;
-  motion.delay_error = motion.noise * std::sqrt(inverse(1, 1)) / (std::abs(fit[0]) * omega);
+  motion.delay_error = motion.noise * std::sqrt(parabola.covariance()(1, 1)) / (std::abs(fit[0]) * omega);
 }
 
 /// Returns the time until the position has left the mean of the frames before by five standard deviations,

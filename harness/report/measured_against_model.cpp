@@ -44,8 +44,7 @@ ModelMotion motion_of(Setup setup, const std::vector<double>& time, double begin
   EnsembleOptions many;
   many.runs = options.runs;
   many.first_run = options.first_run;
-  many.threads = options.threads;
-  many.stop = options.stop;
+  many.execution = options.execution;
   many.each = [&](int, const Trajectory& trajectory, const Observables&) {
     const Recording seen = recorded_by(camera, trajectory);
     for (std::size_t i = 0; i < time.size(); ++i) {
@@ -61,7 +60,7 @@ ModelMotion motion_of(Setup setup, const std::vector<double>& time, double begin
     ++motion.runs;
   };
   run_ensemble(engine, setup, many);
-  if (options.stop && *options.stop) throw Interrupted("the curves of the report were not finished");
+  if (options.execution.stopped()) throw Interrupted("the curves of the report were not finished");
   motion.box = box.curve();
   motion.centre = centre.curve();
   motion.energy = energy.curve();

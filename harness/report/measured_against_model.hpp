@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Makes curves for the eye: each measured run beside ensembles of the model, at the same moments.
 #pragma once
-#include <atomic>
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "engine.hpp"
+#include "execution.hpp"
 #include "known_effects.hpp"
 #include "measurement.hpp"
 #include "report.hpp"
@@ -45,10 +45,9 @@ struct MeasuredAgainstModel {
 struct CurveOptions {
   int runs = 24;  ///< of each ensemble
   int first_run = 0;
-  int threads = 0;
+  Execution execution{};
   double rate = 50;  ///< Hz, of the curves
   KnownEffects known;
-  const std::atomic<bool>* stop = nullptr;
   std::function<void(double fraction)> progress;
   /// The final model of each measured run; empty: `final_setup` with the run's own keys.
   std::vector<Setup> final_of_run{};

@@ -65,17 +65,19 @@ class Sweeper {
     pilot();
     SweepCost& cost = outcome_.cost;
     const std::size_t left = jobs_.size();
-    cost.seconds = cost.seconds_a_run * static_cast<double>(left) / threads_or_all(options_.threads);
+    cost.seconds =
+        cost.seconds_a_run * static_cast<double>(left) / threads_or_all(options_.execution.threads);
     const bool go_on = !options_.announce || options_.announce(cost);
     whole_ = left;
     if (go_on)
-      work_in_any_order(left, threads_or_all(options_.threads), [&](std::size_t job) { do_one(jobs_[job]); });
+      work_in_any_order(left, threads_or_all(options_.execution.threads),
+                        [&](std::size_t job) { do_one(jobs_[job]); });
     outcome_.interrupted = cost.done + outcome_.added < cost.here;
     return outcome_;
   }
 
  private:
-  bool stopped() const { return options_.stop != nullptr && *options_.stop; }
+  bool stopped() const { return options_.execution.stopped(); }
 
   /// Runs first, middle and last point of what is left: their time tells the cost.
   void pilot() {
@@ -87,7 +89,7 @@ class Sweeper {
       pilots.push_back(jobs_[*place]);
       jobs_.erase(jobs_.begin() + static_cast<std::ptrdiff_t>(*place));
     }
-    work_in_any_order(pilots.size(), threads_or_all(options_.threads),
+    work_in_any_order(pilots.size(), threads_or_all(options_.execution.threads),
                       [&](std::size_t job) { do_one(pilots[job]); });
     outcome_.cost.seconds_a_run = seconds_ / static_cast<double>(std::max<std::size_t>(1, outcome_.added));
   }
@@ -99,7 +101,7 @@ class Sweeper {
     for (std::size_t a = 0; a < plan_.axes.size(); ++a)
       row.varied.push_back(plan_.axes[a].shown(job.point->values[a]));
     try {
-      const Trajectory trajectory = engine_.run(job.point->setup, {job.run, {}, options_.stop});
+      const Trajectory trajectory = engine_.run(job.point->setup, {job.run, {}, options_.execution.stop});
       if (trajectory.interrupted) return;
       row.numbers = numbers_of_run(job.point->setup, trajectory);
     } catch (const PhysicsError& error) {

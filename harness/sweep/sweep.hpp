@@ -2,10 +2,10 @@
 // Many setups, many runs of each, on every core of every machine that a scheduler gives; results go into a
 // file as they come.
 #pragma once
-#include <atomic>
 #include <functional>
 #include <string>
 
+#include "execution.hpp"
 #include "result_file.hpp"
 #include "share.hpp"
 #include "sweep_plan.hpp"
@@ -23,13 +23,12 @@ struct SweepCost {
 };
 
 struct SweepOptions {
-  int threads = 0;  ///< 0: one for each core
+  Execution execution{};  ///< stopped early, what is finished is in the file
   JobShare share{};
   /// Told once before the bulk begins; returns whether to go on. May be empty.
   std::function<bool(const SweepCost& cost)> announce{};
   /// Fraction done of what was left; one call at a time, from any thread. May be empty.
   std::function<void(double fraction)> progress{};
-  const std::atomic<bool>* stop = nullptr;  ///< set to true to stop early; what is finished is in the file
 };
 
 struct SweepOutcome {

@@ -35,7 +35,7 @@ TEST(SlowFreeRestitution, ForetellsALengthThatItWasNotFittedTo) {
                                            all_effects());
   FitOptions options = usual_fit_options();
   options.on = {"L040", "L085"};
-  options.threads = 2;
+  options.execution.threads = 2;
   options.count = 120;  // four times the terms of the regression
   const std::string free = "restitution.grain_grain&restitution.grain_wall,spring.frequency";
   const Fit without = fitted_and_judged(believed, films, {free}, *hard, options),

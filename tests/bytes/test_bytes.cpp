@@ -64,7 +64,7 @@ void add(Hash& hash, const Trajectory& run) {
 std::uint64_t hash_of(const Case& c, int threads) {
   EnsembleOptions options;
   options.runs = 3;
-  options.threads = threads;
+  options.execution.threads = threads;
   options.keep_samples = true;
   options.log_collisions = true;
   const shakedown::Setup setup =

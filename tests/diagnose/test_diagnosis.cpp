@@ -36,7 +36,7 @@ Diagnosis diagnosis_of(const Hidden& hidden, const std::vector<std::string>& eff
   DiagnoseOptions options;
   options.effects = effects;
   options.known = all_effects();
-  options.threads = threads;
+  options.execution.threads = threads;
   options.fixed = fixed;
   options.strength_uncertainty = &strength_uncertainty;  // as the program
   const Measurement measurement = as_measured(measured(hidden), believed(hidden.duration));
@@ -60,7 +60,7 @@ TEST(SlowDiagnosis, LimitsHoldAndWhatWasNotTriedIsSaid) {
   const Measurement measurement = as_measured(measured({{"blade_viscous_damping=damping:0.05 N s/m"}}));
   DiagnoseOptions options;
   options.known = all_effects();
-  options.threads = 2;
+  options.execution.threads = 2;
   options.budget = 1200;
   const Diagnosis few = diagnose(believed(), measurement, *engine, options);
   EXPECT_LE(few.runs_simulated, options.budget);
@@ -86,7 +86,7 @@ TEST(SlowDiagnosis, WhatIsSureIsNamedThoughSimulationsRunOut) {
   DiagnoseOptions options;
   options.known = all_effects();
   options.effects = {"velocity_dependent_restitution"};
-  options.threads = 2;
+  options.execution.threads = 2;
   for (const int budget : {1600, 2600}) {  // named from 2800 on without it
     options.budget = budget;
     const Diagnosis d = diagnose(believed(), measurement, *engine, options);
@@ -162,7 +162,7 @@ TEST(SlowDiagnosis, AFormulaThatCannotBeSimulatedEndsNoDiagnosis) {
                 {0.040, 0.065}}));
   DiagnoseOptions options;
   options.known = all_effects();
-  options.threads = 2;
+  options.execution.threads = 2;
   options.budget = 1500;
   const Diagnosis d = diagnose(believed(), measurement, NoFormulas(), options);
   EXPECT_EQ(d.verdict, Verdict::unknown) << d.sentence;
@@ -322,7 +322,7 @@ TEST(SlowDiagnosis, WhatLeavesErrorsFarAboveTheNoiseIsNoExplanation) {
   DiagnoseOptions options;
   options.effects = {"blade_arc"};
   options.known = all_effects();
-  options.threads = 2;
+  options.execution.threads = 2;
   options.fixed = {"restitution.grain_grain", "restitution.grain_wall"};
   const Diagnosis d = diagnose(believed("5 s"), as_measured(experiment, believed("5 s")), *engine, options);
   EXPECT_EQ(d.verdict, Verdict::unknown) << d.sentence;

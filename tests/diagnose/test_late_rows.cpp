@@ -82,7 +82,7 @@ TEST(SlowLateRows, ARollingShutterIsNoPushAtTheRelease) {
   DiagnoseOptions options;
   options.effects = {"initial_box_velocity", "blade_arc"};
   options.known = all_effects();
-  options.threads = 2;
+  options.execution.threads = 2;
   options.strength_uncertainty = &strength_uncertainty;
   Measurement measurement = as_measured(measured(hidden));
   for (KnownValue& known :

@@ -135,7 +135,7 @@ TEST(Screen, WhatTheMiddleLevelRulesOutCostsOneLevel) {
   workshop.engine = engine.get();
   workshop.known = all_effects();
   workshop.execution.threads = 1;
-  workshop.execution.done = [&](int more) { runs += more; };
+  workshop.meter.done = [&](int more) { runs += more; };
   const std::vector<Candidate> candidates = candidates_for(setup, {"grain_air_drag"}, all_effects(), *engine);
   ASSERT_EQ(candidates.size(), 1u);
   EXPECT_EQ(candidates[0].levels.size(), 3u);

@@ -91,7 +91,7 @@ struct Refitted {
       : measurement(two_films(drag)),
         options{.effects = {"velocity_dependent_restitution", "grain_air_drag"},
                 .budget = budget,
-                .threads = 1,
+                .execution = {1},
                 .known = all_effects(),
                 .progress = {}},
         tools(measurement, engine, options) {

@@ -21,7 +21,7 @@ shakedown::Setup quick_setup() {
 EnsembleOptions runs_on(int runs, int threads) {
   EnsembleOptions options;
   options.runs = runs;
-  options.threads = threads;
+  options.execution.threads = threads;
   return options;
 }
 
@@ -84,7 +84,7 @@ TEST(Ensembles, StoppingKeepsFinishedRunsOnly) {
   engine.raise = &stop;
   engine.raising_run = 4;
   EnsembleOptions options = runs_on(10, 1);
-  options.stop = &stop;
+  options.execution.stop = &stop;
   const Ensemble ensemble = run_ensemble(engine, quick_setup(), options);
   EXPECT_TRUE(ensemble.interrupted);
   ASSERT_EQ(ensemble.runs.size(), 4u);
@@ -97,7 +97,7 @@ TEST(Ensembles, StoppingASingleRunKeepsWhatIsDone) {
   engine.raise = &stop;
   engine.raising_run = 0;
   EnsembleOptions options = runs_on(1, 1);
-  options.stop = &stop;
+  options.execution.stop = &stop;
   const Ensemble ensemble = run_ensemble(engine, quick_setup(), options);
   EXPECT_TRUE(ensemble.interrupted);
   ASSERT_EQ(ensemble.runs.size(), 1u);

@@ -100,7 +100,7 @@ TEST_F(Files, ResultsOfAnEnsemble) {
   RunResults results(OutputFolder(folder), true);
   EnsembleOptions options;
   options.runs = 3;
-  options.threads = 2;
+  options.execution.threads = 2;
   options.each = [&](int run, const Trajectory& trajectory, const Observables& seen) {
     results.add(run, trajectory, seen);
   };

@@ -102,7 +102,7 @@ TEST(TurnedModel, IsTheFitAtTheBestAndTheOtherFitAsGiven) {
   options.known = all_effects();
   options.missing = {"blade_viscous_damping"};
   options.count = 16;
-  options.threads = 1;
+  options.execution.threads = 1;
   const TurnedModel model = turned_model(fit, believed(), engine, options);
   ASSERT_EQ(model.numbers.size(), 2u);
   EXPECT_TRUE(model.left_out.empty());
@@ -130,7 +130,7 @@ TEST(TurnedModel, FollowsTheEngineWhereNothingWasSimulated) {
   options.missing = {"blade_viscous_damping"};
   options.suspects = {"blade_quadratic_drag"};
   options.count = 16;
-  options.threads = 1;
+  options.execution.threads = 1;
   const TurnedModel model = turned_model(fit, believed(), engine, options);
   double most = 0;
   for (const double share : {0.3, 0.6, 1.0})

@@ -19,7 +19,7 @@ double signal_of(const std::vector<Override>& with, IdealIgnorance ignorance = {
                  const shakedown::Setup& plain = {}) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const TrialTools tools{
-      .laboratory = engine.get(), .model = engine.get(), .known = all_effects(), .threads = 1};
+      .laboratory = engine.get(), .model = engine.get(), .known = all_effects(), .execution = {1}};
   shakedown::Setup setup = plain;
   setup.grains.count = 12;
   setup.run.duration = 3;

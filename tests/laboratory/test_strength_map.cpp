@@ -48,7 +48,7 @@ TEST(SlowStrengthMap, WorseCamerasSeeLessAndKnownRestitutionsTellLaws) {
   MapOptions options;
   options.known = all_effects();
   options.effects = {"blade_viscous_damping", "velocity_dependent_restitution"};
-  options.threads = 2;
+  options.execution.threads = 2;
   const StrengthMap map =
       strength_map(setup, planned(setup, {0.04, 0.065}, *engine), *engine,
                    {line(1), line(4), line(20), line(1, 4), line(1, 1, 0.003), line(1, 1, 0, 1e-3)}, options);
@@ -74,7 +74,7 @@ TEST(SlowStrengthMap, WhatThereIsNoTimeForIsNamed) {
   MapOptions options;
   options.known = all_effects();
   options.seconds = 1e-6;
-  options.threads = 2;
+  options.execution.threads = 2;
   const StrengthMap map = strength_map(setup, planned(setup, {0.04}, *engine), *engine, {line(1)}, options);
   EXPECT_TRUE(map.effects.empty());
   EXPECT_GT(map.left_out.size(), 10u);

@@ -116,7 +116,7 @@ TEST(DamperErrors, RepeatsShareSimulationsFromTheMeanOfTheirReleases) {
   workshop.engine = &engine;
   workshop.known = all_effects();
   workshop.execution.threads = 1;
-  workshop.execution.done = [&](int more) { runs += more; };
+  workshop.meter.done = [&](int more) { runs += more; };
   const std::vector<FeatureColumns> columns = columns_of(errors, measured, 8, 1000, workshop);
   EXPECT_EQ(runs, 3 * 8);  // without, release, mass: each once for both
   add_columns(errors, columns, all_effects(), measured);

@@ -62,7 +62,7 @@ Fit fitted(const std::string& free, std::vector<std::string> on = {"L040"}, doub
   FitOptions options;
   options.on = std::move(on);
   options.count = 64;
-  options.threads = 1;
+  options.execution.threads = 1;
   options.known = all_effects();
   return fit_parameters(start, measurement_of(start, measured(), all_effects()),
                         free_parameters(free, start, all_effects()), StandIn(), options);
@@ -105,7 +105,7 @@ TEST(Fit, WhatTheDataCannotTellIsKnownAsWellAsIsBelieved) {
   FitOptions options;
   options.on = {"L040"};
   options.count = 64;
-  options.threads = 1;
+  options.execution.threads = 1;
   options.known = all_effects();
   const Fit fit =
       fit_parameters(start, measurement_of(start, measured(), all_effects()), knobs, StandIn(), options);

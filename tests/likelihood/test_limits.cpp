@@ -68,7 +68,7 @@ TEST(Limits, HoldWithinASimulation) {
   int reports = 0, asked = 0;
   const Stalling engine(reports);
   Workshop workshop{&engine, all_effects(), {1}};
-  workshop.execution.ask_for = [&](std::int64_t more) {
+  workshop.meter.ask_for = [&](std::int64_t more) {
     if (more == 0 && ++asked > 1) throw BudgetSpent("the time is up");  // the first run begins in time
   };
   EXPECT_THROW(emulate(measured(), {}, 4, 1, workshop), BudgetSpent);

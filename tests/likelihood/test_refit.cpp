@@ -322,7 +322,7 @@ TEST(Refit, LooksBesideADoubtfulFitAndKeepsTheBetter) {
   options.most_looks = 2;
   std::int64_t runs = 0;
   Workshop counting = fits.workshop;
-  counting.execution.done = [&](int more) { runs += more; };
+  counting.meter.done = [&](int more) { runs += more; };
   const Refit kept = look_beside(fits.confirmed, fits.measured, counting, options);
   EXPECT_EQ(runs, 0);  // nobody doubts it
   EXPECT_EQ(kept.values[0].value, fits.confirmed.values[0].value);

@@ -6,6 +6,7 @@
 
 #include "interpolation.hpp"
 #include "least_squares.hpp"
+#include "local_polynomial.hpp"
 #include "running_statistic.hpp"
 #include "within.hpp"
 
@@ -33,6 +34,25 @@ TEST(RunningStatistic, IsTheStatisticOfTheValues) {
   EXPECT_EQ(found.mean, 1e9 + 4);
   EXPECT_DOUBLE_EQ(found.sd, std::sqrt(6));  // a sum of squares less the square of the sum would find none
   EXPECT_DOUBLE_EQ(found.sd, expected.sd);
+}
+
+// The same points by QR of all columns at once and by normal equations point by point: two ways to one fit.
+TEST(LocalPolynomial, IsTheLeastSquaresFitOfItsPowers) {
+  const Eigen::ArrayXd places = Eigen::ArrayXd::LinSpaced(9, -1, 1);
+  Eigen::VectorXd values(9);
+  values << 3, 1, 4, 1, 5, 9, 2, 6, 5;
+  LocalPolynomial<4> cubic;
+  for (Eigen::Index i = 0; i < places.size(); ++i) cubic.add(places[i], values[i]);
+  const Eigen::MatrixXd columns = powers_of(places, 4);
+  EXPECT_EQ(columns.col(0), Eigen::VectorXd::Ones(9));
+  EXPECT_EQ(columns.col(3), (places * places * places).matrix());
+  const Eigen::VectorXd expected = least_squares_coefficients(columns, values);
+  const Eigen::MatrixXd weights = least_squares_weights(columns);
+  EXPECT_EQ(cubic.count(), 9);
+  for (int i = 0; i < 4; ++i) {
+    WITHIN(cubic.coefficients()[i], expected[i], 1e-12, 1e-13);
+    WITHIN(cubic.covariance()(i, i), weights.row(i).squaredNorm(), 1e-12, 1e-13);
+  }
 }
 
 TEST(LeastSquares, LineWithErrorsByHand) {

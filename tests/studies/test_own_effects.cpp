@@ -37,7 +37,7 @@ Diagnosis diagnosis_of(const EffectRecord& own, const char* key, double strength
   tools.laboratory = soft.get();
   tools.model = hard.get();
   tools.known = known;
-  tools.threads = 2;
+  tools.execution.threads = 2;
   tools.budget = 16000;  // of minutes: neither needs more
   tools.strength_uncertainty = &strength_uncertainty;
   Trial trial;

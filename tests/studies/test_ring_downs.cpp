@@ -188,7 +188,7 @@ TEST(RingDowns, OneFolderIsOneProgramsAtATime) {
 TEST(SlowRingDowns, ADiagnosisThatHoldsNeverLeavesTwiceWhatAPlainFitLeaves) {
   const auto engine = engine_named("hard");
   const TrialTools tools{
-      .laboratory = engine.get(), .model = engine.get(), .known = all_effects(), .threads = 1};
+      .laboratory = engine.get(), .model = engine.get(), .known = all_effects(), .execution = {1}};
   constexpr double most_frames = 3000, cases = 8;
   int asked = 0;
   for (int number = 0; asked < cases; ++number) {

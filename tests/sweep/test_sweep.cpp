@@ -44,7 +44,7 @@ class Sweep : public testing::Test {
     return results_digest(ResultFile(folder / name).rows());
   }
   std::string undisturbed() const {
-    sweep("undisturbed.sqlite", {.threads = 1});
+    sweep("undisturbed.sqlite", {.execution = {1}});
     return digest_of("undisturbed.sqlite");
   }
   /// A process that sweeps and is killed by SIGKILL when it has added so many runs.
@@ -52,7 +52,7 @@ class Sweep : public testing::Test {
     const pid_t child = ::fork();
     if (child == 0) {
       int added = 0;
-      SweepOptions options{.threads = threads};
+      SweepOptions options{.execution = {threads}};
       options.progress = [&](double) {
         if (++added == runs) ::kill(::getpid(), SIGKILL);
       };
@@ -74,7 +74,7 @@ class Sweep : public testing::Test {
 
 TEST_F(Sweep, TwoDimensions) {
   EXPECT_EQ(plan.points.size(), 6u);
-  const SweepOutcome outcome = sweep("a.sqlite", {.threads = 2});
+  const SweepOutcome outcome = sweep("a.sqlite", {.execution = {2}});
   EXPECT_EQ(outcome.added, 18u);
   EXPECT_FALSE(outcome.interrupted);
   const std::vector<PointSummary> points = summaries_of(ResultFile(folder / "a.sqlite").rows());
@@ -91,12 +91,12 @@ TEST_F(Sweep, TwoDimensions) {
 }
 
 TEST_F(Sweep, ThreadsDoNotMatter) {
-  sweep("threads.sqlite", {.threads = 3});
+  sweep("threads.sqlite", {.execution = {3}});
   EXPECT_EQ(digest_of("threads.sqlite"), undisturbed());
 }
 
 TEST_F(Sweep, ShardsMergedEqualSerial) {
-  for (int i = 0; i < 3; ++i) sweep("shard" + std::to_string(i), {.threads = 1, .share = {i, 3, ""}});
+  for (int i = 0; i < 3; ++i) sweep("shard" + std::to_string(i), {.execution = {1}, .share = {i, 3, ""}});
   const ResultFile merged = merge_results(
       folder / "merged.sqlite", {folder / "shard2", folder / "shard0", folder / "shard1", folder / "shard0"});
   EXPECT_EQ(results_digest(merged.rows()), undisturbed());
@@ -107,7 +107,7 @@ TEST_F(Sweep, ProcessesShareAFile) {
   for (int i = 0; i < 3; ++i) {
     children.push_back(::fork());
     if (children.back() == 0) {
-      sweep("shared.sqlite", {.threads = 1, .share = {i, 3, ""}});
+      sweep("shared.sqlite", {.execution = {1}, .share = {i, 3, ""}});
       ::_exit(0);
     }
   }
@@ -127,25 +127,25 @@ TEST_F(Sweep, KilledAndResumedLosesNothingFinished) {
     EXPECT_GE(kept, 7u);  // three pilots and four
     sweep_killed_after(name, 2, threads);
     EXPECT_GE(ResultFile(folder / name).rows().size(), kept + 5);
-    const SweepOutcome outcome = sweep(name, {.threads = threads});
+    const SweepOutcome outcome = sweep(name, {.execution = {threads}});
     EXPECT_EQ(outcome.cost.done + outcome.added, 18u);
     EXPECT_EQ(digest_of(name), undisturbed());
   }
 }
 
 TEST_F(Sweep, MoreRunsAndLongerRangesGoOnWithTheSameFile) {
-  sweep("a.sqlite", {.threads = 1});
+  sweep("a.sqlite", {.execution = {1}});
   plan = plan_sweep(base,
                     parse_axes({"box.length=40:70:10 mm", "restitution.grain_grain=0.7,0.8"}, all_effects()),
                     4, *engine, all_effects());
-  const SweepOutcome outcome = sweep("a.sqlite", {.threads = 1});
+  const SweepOutcome outcome = sweep("a.sqlite", {.execution = {1}});
   EXPECT_EQ(outcome.cost.done, 18u);
   EXPECT_EQ(outcome.added, 32u - 18u);
   EXPECT_EQ(digest_of("a.sqlite"), undisturbed());
 }
 
 TEST_F(Sweep, TheEstimateComesFirstAndMayStop) {
-  SweepOptions options{.threads = 1};
+  SweepOptions options{.execution = {1}};
   SweepCost told;
   options.announce = [&](const SweepCost& cost) { return told = cost, false; };
   const SweepOutcome outcome = sweep("a.sqlite", options);
@@ -156,7 +156,7 @@ TEST_F(Sweep, TheEstimateComesFirstAndMayStop) {
 }
 
 TEST_F(Sweep, AnotherSweepIsRefused) {
-  sweep("a.sqlite", {.threads = 1});
+  sweep("a.sqlite", {.execution = {1}});
   EXPECT_THROW(file("a.sqlite", ResultFile::Opening::fresh), InputError);
   base.grains.mass *= 2;
   plan = plan_sweep(base, plan.axes, 1, *engine, all_effects());
@@ -168,7 +168,7 @@ TEST_F(Sweep, AnotherSweepIsRefused) {
 }
 
 TEST_F(Sweep, FilesThatDisagreeAreNotMerged) {
-  sweep("a.sqlite", {.threads = 1});
+  sweep("a.sqlite", {.execution = {1}});
   std::vector<ResultRow> rows = ResultFile(folder / "a.sqlite").rows();
   rows[5].numbers[0] += 1e-9;
   file("b.sqlite").add(rows);
@@ -177,7 +177,7 @@ TEST_F(Sweep, FilesThatDisagreeAreNotMerged) {
 }
 
 TEST_F(Sweep, DamagedFilesAreNamed) {
-  sweep("a.sqlite", {.threads = 1});
+  sweep("a.sqlite", {.execution = {1}});
   {
     const Database database(folder / "a.sqlite", Database::Access::write);
     database.execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE;");
