@@ -38,7 +38,7 @@ Provenance provenance_of(const RunArguments& arguments, const Setup& setup) {
   provenance.engine = arguments.engine;
   provenance.seed = setup.run.seed;
   provenance.runs = arguments.runs;
-  provenance.execution.threads = threads_or_all(arguments.threads);
+  provenance.threads = threads_or_all(arguments.threads);
   return provenance;
 }
 

@@ -53,7 +53,7 @@ TEST(SlowFreeRestitution, ForetellsALengthThatItWasNotFittedTo) {
         << curve.speed[i];
   }
   EXPECT_NE(fit_json(with).find("\"restitution_curve\""), std::string::npos);
-  const Report page = report_of(with, believed, films, *hard, 2, nullptr);
+  const Report page = report_of(with, believed, films, *hard, {2, nullptr});
   EXPECT_TRUE(std::any_of(page.sections.begin(), page.sections.end(), [](const ReportSection& section) {
     return section.title == "Restitution against closing speed" && section.plots.size() == 2;
   }));

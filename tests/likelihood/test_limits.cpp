@@ -52,14 +52,15 @@ std::vector<MeasuredFeatures> measured() {
 TEST(Limits, AreAskedAfterTheFlagThatStops) {
   std::atomic<bool> stop = false;
   int asked = 0, done = 0;
-  const Execution work{1, &stop, [&](int more) { done += more; }, [&](std::int64_t) { ++asked; }};
+  const Workshop work{nullptr, {}, {1, &stop},
+                      nullptr, {}, {[&](int more) { done += more; }, [&](std::int64_t) { ++asked; }}};
   work.ask(3);
   work.finished(2);
   stop = true;
   EXPECT_THROW(work.ask(0), Interrupted);
   EXPECT_EQ(asked, 1);
   EXPECT_EQ(done, 2);
-  const Execution unlimited;
+  const Workshop unlimited{};
   unlimited.ask(1000000);
   unlimited.finished(1);
 }

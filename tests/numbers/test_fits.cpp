@@ -50,8 +50,8 @@ TEST(LocalPolynomial, IsTheLeastSquaresFitOfItsPowers) {
   const Eigen::MatrixXd weights = least_squares_weights(columns);
   EXPECT_EQ(cubic.count(), 9);
   for (int i = 0; i < 4; ++i) {
-    WITHIN(cubic.coefficients()[i], expected[i], 1e-12, 1e-13);
-    WITHIN(cubic.covariance()(i, i), weights.row(i).squaredNorm(), 1e-12, 1e-13);
+    WITHIN(cubic.coefficients()[i], expected[i], 8e-15, 4.5e-16);
+    WITHIN(cubic.covariance()(i, i), weights.row(i).squaredNorm(), 2e-14, 1.2e-15);
   }
 }
 
