@@ -3,6 +3,8 @@
 // the project that they name is there, and the answers that they print are the program's.
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -135,12 +137,150 @@ TEST(Documents, TheSetupReferenceIsWhatTheProgramPrints) {
       << "put the output of `shakedown schema --table` there";
 }
 
+/// A figure that a document prints with the command that gives it. Command and figure stand there as they
+/// stand here, but for line breaks; of the figure the last number counts, and the error behind it.
+struct Figure {
+  const char *document, *command, *printed;
+  std::function<double(const nlohmann::json&)> read;  ///< from what the command gives with --json
+  double errors = 1;        ///< by how many of the printed errors another processor may differ
+  const char* folder = "";  ///< from which the command is called
+};
+
+/// The number at a place of the answer, times a factor.
+std::function<double(const nlohmann::json&)> at(const char* place, double factor = 1) {
+  return [=](const nlohmann::json& answer) {
+    return factor * answer.at(nlohmann::json::json_pointer(place)).get<double>();
+  };
+}
+
+/// What grains and walls have left of the energy at the release.
+double energy_left(const nlohmann::json& answer) {
+  double left = 1;
+  for (const nlohmann::json& lost : answer.at("energy_loss")) left -= lost.at("mean").get<double>();
+  return left;
+}
+
+/// With one blank for each stretch of blanks and line breaks.
+std::string in_one_line(const std::string& text) {
+  return std::regex_replace(text, std::regex(R"(\s+)"), " ");
+}
+
+struct Reading {
+  double value, error;
+};
+
+/// "16 runs: slope -8.20 +- 0.04" has -8.20 and 0.04; without an error it is known to a unit of its last
+/// digit.
+Reading reading_of(const std::string& printed) {
+  const std::regex number(R"((-?\d+(?:\.(\d+))?)(?: \+- (\d+(?:\.\d+)?))?)");
+  std::smatch last;
+  for (std::sregex_iterator one(printed.begin(), printed.end(), number), end; one != end; ++one) last = *one;
+  if (last.empty()) return {0, -1};
+  const double unit = std::pow(10.0, -static_cast<double>(last[2].length()));
+  return {std::stod(last[1]), last[3].matched ? std::stod(last[3]) : unit};
+}
+
+/// The answer of a command of the documents, asked once. What it names of the tree is there, wherever the
+/// test runs.
+const nlohmann::json& answer_to(const Figure& figure) {
+  static std::map<std::pair<std::string, std::string>, nlohmann::json> known;
+  nlohmann::json& answer = known[{figure.folder, figure.command}];
+  if (!answer.is_null()) return answer;
+  std::vector<std::string> arguments;
+  for (std::string word : words_of(figure.command)) {
+    std::erase(word, '"');
+    const fs::path in_tree = root / figure.folder / word;
+    arguments.push_back(fs::is_regular_file(in_tree) ? in_tree.string() : word);
+  }
+  arguments.erase(arguments.begin());
+  arguments.push_back("--json");
+  const Outcome outcome = shakedown_program(arguments);
+  EXPECT_EQ(outcome.code, 0) << figure.command << "\n" << outcome.err;
+  answer = nlohmann::json::parse(outcome.out, nullptr, false);
+  return answer;
+}
+
+void expect_as_printed(const Figure& figure) {
+  SCOPED_TRACE(std::string(figure.document) + ": " + figure.command + ": " + figure.printed);
+  const std::string document = in_one_line(contents(root / figure.document));
+  EXPECT_NE(document.find(figure.command), std::string::npos) << "the document has another command";
+  EXPECT_NE(document.find(figure.printed), std::string::npos) << "the document has another figure";
+  const auto [printed, error] = reading_of(figure.printed);
+  const nlohmann::json& answer = answer_to(figure);
+  ASSERT_FALSE(answer.is_discarded());
+  const double value = figure.read(answer);
+  EXPECT_TRUE(std::abs(value - printed) <= figure.errors * error) << "the command gives " << value;
+}
+
 /// The interval that the README prints behind a parameter, "0.0199 (0.0197 to 0.0201)".
 std::pair<double, double> interval_in(const std::string& text, const std::string& parameter) {
   const std::regex row(parameter + R"( +\S+ \((\S+) to (\S+)\))");
   std::smatch found;
   if (!std::regex_search(text, found, row)) return {1, 0};
   return {std::stod(found[1]), std::stod(found[2])};
+}
+
+TEST(Documents, FiguresAreReadWithTheirErrors) {
+  const Reading slope = reading_of("16 runs: slope of |peaks| -8.20 +- 0.04"),
+                share = reading_of("L065: 0.2618");
+  EXPECT_EQ(slope.value, -8.20);
+  EXPECT_EQ(slope.error, 0.04);
+  EXPECT_EQ(share.value, 0.2618);
+  EXPECT_EQ(share.error, 1e-4);
+}
+
+TEST(Documents, FiguresAreWhatTheCommandBesideThemGives) {
+  const char* const sixteen = "shakedown run harness/examples/L040.toml --runs 16";
+  for (const Figure& figure : std::vector<Figure>{
+           {"harness/README.md", sixteen, "slope of |peaks| -8.20 +- 0.04", at("/slope_mm_per_s/mean")},
+           {"harness/README.md", sixteen, "frequency 1.0479 +- 0.0001", at("/frequency_hz/mean")},
+           {"harness/README.md", sixteen, "first peak below 10 mm 12.90 +- 0.12",
+            at("/first_small_peak_s/mean")},
+           {"harness/README.md", "shakedown theory harness/examples/L065.toml", "f t_g,peak = 0.2618",
+            at("/f_t_g_peak")},
+           {"harness/setup_file/README.md",
+            "shakedown run harness/examples/L040.toml --runs 16 --set release.packing=random",
+            "98.3 +- 0.3 mm with `random`", at("/peaks_mm/1/mean")},
+           {"harness/effects/README.md", "shakedown effects grain_friction",
+            "it adds 0.01 +- 0.02 to hard minus soft at L = 40 mm",
+            at("/0/hard_soft_difference/0/added_to_plain_model_mm_per_s")},
+       })
+    expect_as_printed(figure);
+}
+
+// Each a few seconds of a core.
+TEST(SlowDocuments, FiguresAreWhatTheCommandBesideThemGives) {
+  const char* const attracting =
+      "shakedown run harness/examples/L040.toml --runs 64 --set run.duration=9s --set "
+      "grain_cohesion.force=20mN --set grain_cohesion.range=0.02mm";
+  const char* const steel =
+      "shakedown bounce drops_on_steel.csv --mass \"4.04 g\" --diameter \"10 mm\" --contact grain_grain";
+  const char* const wall =
+      "shakedown bounce drops_on_wall.csv --mass \"4.04 g\" --diameter \"10 mm\" --contact grain_wall";
+  constexpr double of_standard_errors = 4;
+  for (const Figure& figure : std::vector<Figure>{
+           {"hardsphere/README.md",
+            "shakedown run harness/examples/L040.toml --set \"run.duration=8 s\" --runs 200",
+            "from 0.1749 +- 0.0003", energy_left, of_standard_errors},
+           {"harness/README.md",
+            "shakedown run harness/examples/L065.toml --set oscillating_acceleration.amplitude.x=1m/s^2 "
+            "--set "
+            "oscillating_acceleration.frequency=1.05Hz --set run.duration=38.1s",
+            "to 1.9 m", at("/forced/amplitude_mm", 1e-3)},
+           {"harness/effects/README.md",
+            "shakedown run harness/examples/L040.toml --runs 16 --set run.duration=9s --set "
+            "spring.frequency=1.225444Hz --set grain_friction.grain_grain=0.4137 --set "
+            "grain_friction.grain_wall=0.4137 --set restitution.grain_grain=0.66088 --set "
+            "restitution.grain_wall=0.68664",
+            "L = 40 mm the slope is -8.83 +- 0.06", at("/slope_mm_per_s/mean")},
+           {"harness/effects/README.md", attracting, "| hard | -8.42 +- 0.05 | -8.32 +- 0.16",
+            at("/slope_mm_per_s/mean")},
+           {"harness/bounce/README.md", steel, "The drops say 0.9501 +- 0.0007",
+            at("/averaged_at_reference/value"), 1, "tests/data/puzzle"},
+           {"harness/bounce/README.md", wall, "and 0.9003 +- 0.0009", at("/averaged_at_reference/value"), 1,
+            "tests/data/puzzle"},
+       })
+    expect_as_printed(figure);
 }
 
 TEST(SlowDocuments, TheRecordingOfSomebodyElseGetsTheAnswerOfTheReadMe) {
