@@ -10,7 +10,7 @@ namespace shakedown {
 
 /// Tells whether all grains of every run fit into one layer across the motion. They land at once: where
 /// contacts last they push each other and the wall all together, hard spheres one after the other, and a
-/// layer of restitution 0.75 rebounds with 0.751 and 0.779 of its speed (harness/diagnose/README.md).
+/// layer may rebound with 0.751 and 0.779 of its speed (harness/diagnose/README.md).
 bool lie_in_one_layer(const Measurement& measurement);
 
 /// Says which engine was chosen, and why.
