@@ -226,7 +226,7 @@ TEST(Documents, FiguresAreReadWithTheirErrors) {
   EXPECT_EQ(slope.value, -8.20);
   EXPECT_EQ(slope.error, 0.04);
   EXPECT_EQ(share.value, 0.2618);
-  EXPECT_EQ(share.error, 1e-4);
+  EXPECT_DOUBLE_EQ(share.error, 1e-4);
 }
 
 TEST(Documents, FiguresAreWhatTheCommandBesideThemGives) {
