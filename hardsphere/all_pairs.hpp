@@ -21,7 +21,8 @@ class AllPairs {
   /// `attraction_range`: how far a square well reaches beyond contact, m (0: none).
   AllPairs(const State& state, std::array<double, 2> half_width, double attraction_range = 0);
 
-  int size() const { return static_cast<int>(size_); }
+  int size() const { return static_cast<int>(size_); }  ///< number of grains
+  /// Returns the flight that grain i is on: place, m, and velocity, m/s, at its own time, s.
   Flight3 flight(int i) const {
     const std::size_t k = static_cast<std::size_t>(i);
     return {{x_[k], y_[k], z_[k]}, {vx_[k], vy_[k], vz_[k]}, time_[k]};
@@ -83,6 +84,7 @@ class AllPairs {
     return {b.x[0] - a.x[0], b.x[1] - a.x[1], b.x[2] - a.x[2]};
   }
 
+  /// Returns the memory held for each grain, B.
   double bytes_per_grain() const { return 10 * sizeof(double) + 3 * sizeof(std::int32_t); }
   /// Returns the largest overlap of two grains met so far, m.
   double deepest_overlap() const;

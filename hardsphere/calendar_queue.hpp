@@ -53,10 +53,12 @@ class CalendarQueue {
     return cached_ == none ? Next{never, -1} : Next{time(cached_), cached_};
   }
 
+  /// Returns the earliest date; grain -1 when there is none.
   Next next() {
     return next(std::array<int, 0>{}, [](int, int) {});
   }
 
+  /// Brings the date of grain i near the processor; nothing changes.
   void prefetch(int i) const { __builtin_prefetch(&dates_[static_cast<std::size_t>(i)]); }
 
   /// Sets the length of a day for this many events a second and begins the year at `now`, s; dates may be

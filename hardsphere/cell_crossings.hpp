@@ -19,20 +19,27 @@ class CellCrossings : public ScheduledGrains {
   /// `edge`: the least width of a cell in diameters, 0: the least possible.
   CellCrossings(const State& state, const std::array<double, 3>& extent, double edge = 0);
 
+  /// Does nothing: a periodic cell has no side walls.
   void forget_side_walls() {}
+  /// Returns time, s, and grain of the earliest event: an impact, or a crossing into another cell; grain -1
+  /// when there is none.
   Next next() {
     return next_event(looks, [this](int i, int days) { prefetch(i, days); });
   }
+  /// Returns what comes first to grain i: its crossing (its partner is then leaves_neighbourhood), or its
+  /// impact.
   GrainEvent event(int i) const {
     const Place& place = place_[static_cast<std::size_t>(i)];
     if (place.crosses) return {queue_.time(i), leaves_neighbourhood, 0, Meeting::touch};
     return {place.pair_time, place.partner, place.partner_count, Meeting::touch};
   }
+  /// Find the next event of one grain, of both grains of a pair, or of all, whose flights start now.
   void predict(int i);
   void predict(int i, int j) {
     predict(i);
     predict(j);
   }
+  /// Finds the events of all, and plans the days of the calendar by them.
   void predict_all() {
     plan_all([this](int i) { predict(i); });
   }

@@ -27,11 +27,16 @@ class CellLists : public ScheduledGrains {
  public:
   CellLists(const State& state, const CellListsPlan& plan);
 
+  /// Leaves the side walls to EndWalls.
   void forget_side_walls() { half_width_ = {never, never}; }
+  /// Returns time, s, and grain of the earliest event; grain -1 when there is none.
   Next next() {
     return next_event(looks, [this](int i, int days) { prefetch(i, days); });
   }
+  /// Returns the next event of grain i as it was predicted: an impact, a side wall, or (its partner is then
+  /// leaves_neighbourhood) the end of what its list of neighbours is good for.
   GrainEvent event(int i) const;
+  /// Finds the next event of grain i, whose flight starts now.
   void predict(int i) { remember(i, next_of(i)); }
   /// Both are found before either is remembered: each is a long chain of dependent operations, and the two
   /// overlap.

@@ -41,6 +41,7 @@ class CentreCells {
   /// wide cells more) beyond, to `near`, which grows as needed; returns how many.
   std::size_t find(const Place& place, std::vector<std::int32_t>& near) const;
 
+  /// Returns the memory held, B, for the cells and all grains.
   std::size_t bytes() const {
     return first_.size() * sizeof(std::int32_t) + block_.size() * (sizeof(Block) + 2 * sizeof(std::int32_t)) +
            slot_.size() * sizeof(std::int32_t);

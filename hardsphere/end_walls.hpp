@@ -60,6 +60,7 @@ class EndWalls {
     double top_speed;         ///< m/s, a scale
     bool on_spring_alone;  ///< whatever comes, a kick strays from the arc by its jump times the time at most
   };
+  /// Returns the walls of this motion at `time`, s, which must lie on its present piece.
   template <class Motion>
   static Now now(const Motion& motion, double time) {
     return {time, motion.at(time), motion.top_acceleration(), motion.top_speed(),

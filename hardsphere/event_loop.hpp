@@ -63,7 +63,7 @@ class EventLoop {
   /// Returns a digest of the whole state: FNV-1a over the bits of all flights, spins and the box.
   std::uint64_t digest() const;
 
-  double time() const { return scene_.now; }
+  double time() const { return scene_.now; }  ///< s, up to which the events are executed
   /// Returns the motion at time(), and enters how far energy and momentum are off balance.
   Observation observe() { return accounts_.observe(held()); }
   /// Returns grains and box at time t (s), each on its present flight; lab frame.

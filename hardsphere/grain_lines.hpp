@@ -55,13 +55,15 @@ class GrainLines {
     }
   }
 
-  std::size_t size() const { return line_.size(); }
+  std::size_t size() const { return line_.size(); }  ///< number of grains
   GrainLine& operator[](std::size_t i) { return line_[i]; }
   const GrainLine& operator[](std::size_t i) const { return line_[i]; }
+  /// Returns the flight that grain i is on: place, m, and velocity, m/s, at its own time, s.
   Flight3 flight(std::size_t i) const {
     const GrainLine& line = line_[i];
     return {{line.x, line.y, line.z}, {line.vx, line.vy, line.vz}, line.time};
   }
+  /// Gives grain i this flight; its count of impacts and its place in the cell stay.
   void move_to(std::size_t i, const Flight3& flight) {
     GrainLine& line = line_[i];
     line = {flight.x[0], flight.x[1], flight.x[2], flight.v[0], flight.v[1],
@@ -90,8 +92,12 @@ class GrainLines {
     return estimated_touch_in<Lanes, Periodic>(i, self, others, size, wait);
   }
 
+  /// Returns the sums over all grains at time t, s.
   GrainSums sums(double t) const;
+  /// Returns how deep two grains that closed were seen to overlap, m, to first order in it; 0: never. With
+  /// grains of several sizes the true overlap may be less.
   double deepest_overlap() const { return -smallest_room_ / (2 * smallest_reach_); }
+  /// Returns the memory held for each grain, B.
   static constexpr double bytes_per_grain() { return sizeof(GrainLine) + 2 * sizeof(double); }
 
  private:

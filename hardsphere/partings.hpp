@@ -6,7 +6,9 @@
 
 namespace shakedown {
 
+/// Returns the three numbers as a vector.
 inline Vec3 vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+/// Adds a vector to three numbers.
 inline void add(std::array<double, 3>& to, const Vec3& what) {
   for (std::size_t axis = 0; axis < 3; ++axis) to[axis] += what[static_cast<int>(axis)];
 }

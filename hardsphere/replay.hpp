@@ -27,7 +27,7 @@ class Replay {
   /// Time of the next event; infinity at the end of the log.
   double next_time() const;
 
-  double time() const;
+  double time() const;  ///< s, up to which the events are executed
   State state() const;  ///< lab frame, at time()
 
  private:

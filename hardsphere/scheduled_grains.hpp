@@ -12,12 +12,15 @@ class ScheduledGrains {
  public:
   using Next = CalendarQueue::Next;
 
-  int size() const { return static_cast<int>(lines_.size()); }
+  int size() const { return static_cast<int>(lines_.size()); }  ///< number of grains
+  /// Returns the flight that grain i is on: place, m, and velocity, m/s, at its own time, s.
   Flight3 flight(int i) const { return lines_.flight(static_cast<std::size_t>(i)); }
+  /// Gives a grain its flight after an impact; what was predicted with it is stale.
   void set_flight(int i, const Flight3& flight) {
     move_to(i, flight);
     ++lines_[static_cast<std::size_t>(i)].count;
   }
+  /// Brings a grain to another point of the flight it is on.
   void move_to(int i, const Flight3& flight) { lines_.move_to(static_cast<std::size_t>(i), flight); }
   /// Must not be called: square wells need the table of pairs that AllPairs keeps.
   void set_bond(int, int, bool) { EXPECT(false && "wells need AllPairs"); }

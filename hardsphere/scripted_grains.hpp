@@ -25,6 +25,7 @@ class ScriptedGrains {
     }
   }
 
+  /// What each does stands in event_loop.hpp; nothing is predicted here, so set_flight() makes nothing stale.
   int size() const { return static_cast<int>(flight_.size()); }
   const Flight3& flight(int i) const { return flight_[static_cast<std::size_t>(i)]; }
   void set_flight(int i, const Flight3& flight) { flight_[static_cast<std::size_t>(i)] = flight; }
@@ -37,6 +38,7 @@ class ScriptedGrains {
   /// Returns zeros: a replay balances no energy.
   GrainSums sums(double) const { return {}; }
 
+  /// Do nothing, or return 0: the log says what happens, and nobody looks for overlaps.
   void set_bond(int, int, bool) {}
   int bonds() const { return 0; }
   void predict(int) {}
@@ -44,7 +46,7 @@ class ScriptedGrains {
   void predict_all() {}
   void forget_side_walls() {}
   double deepest_overlap() const { return 0; }
-  double bytes_per_grain() const { return sizeof(Flight3) + 2 * sizeof(double); }
+  double bytes_per_grain() const { return sizeof(Flight3) + 2 * sizeof(double); }  ///< B
 
  private:
   std::vector<Flight3> flight_;

@@ -15,6 +15,7 @@ class SmallestTree {
   }
 
   double operator[](std::size_t k) const { return numbers_[k]; }
+  /// Changes number k, below the capacity.
   void set(std::size_t k, double value) {
     numbers_[k] = value;
     used_ = std::max(used_, k + 1);

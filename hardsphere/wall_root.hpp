@@ -24,6 +24,7 @@ struct HarmonicGap {
   struct Value {
     double gap, rate;
   };
+  /// Returns the gap, m, and its rate of change, m/s, at time t, s.
   Value value(double t) const {
     const double phase = angular_frequency * t, cosine = std::cos(phase), sine = std::sin(phase);
     return {a * cosine + b * sine + c - u * t, angular_frequency * (b * cosine - a * sine) - u};

@@ -18,7 +18,7 @@ class CompensatedSum {
     carry_ += std::abs(sum_) >= std::abs(term) ? (sum_ - sum) + term : (term - sum) + sum_;
     sum_ = sum;
   }
-  double value() const { return sum_ + carry_; }
+  double value() const { return sum_ + carry_; }  ///< the sum, with what rounding has left out
 
  private:
   double sum_ = 0, carry_ = 0;

@@ -56,6 +56,7 @@ BlindDesign small_design();
 struct TwinPair {
   std::string hidden, twin;
 };
+/// Returns the rows of the table, which the program holds, in its order.
 const std::vector<TwinPair>& twin_pairs();
 constexpr double twin_signal = 8;
 

@@ -65,7 +65,8 @@ struct OpenedCase {
   std::optional<TrialJudgement>
       after_more;  ///< of a twin with the runs that decide, when it was asked with them
 
-  bool exact() const { return judgement.named; }
+  bool exact() const { return judgement.named; }  ///< it names what is hidden, and nothing else
+  /// Tells whether the first effect called missing is of the family of one that is hidden.
   bool first_suspects_family_is_right() const;
   /// Tells whether one of the answers is what is hidden: a tie that is told counts as right here.
   bool among_the_answers() const;

@@ -10,7 +10,7 @@ namespace shakedown {
 
 struct Count {
   int hits = 0, trials = 0;
-  void add(bool hit) { hits += hit, ++trials; }
+  void add(bool hit) { hits += hit, ++trials; }  ///< counts one more trial
 };
 
 class ScoreTable {

@@ -17,7 +17,7 @@ class Motion {
   /// Goes on by one step from this time, s.
   void advance(double time);
 
-  const State& state() const { return state_; }
+  const State& state() const { return state_; }  ///< after the last step, SI
   /// Returns the energy of spring, box and grains and what contacts hold, J.
   double energy() const;
   /// Return what was lost in contacts of each class and to each effect since the start, J.

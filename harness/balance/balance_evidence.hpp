@@ -52,6 +52,7 @@ struct SelectionProblem {
   /// Returns the samples of a known strength, one entry a run, at another value than that of the terms.
   std::function<std::vector<ForceSamples>(const MomentumTerm&, double strength)> derive;
 
+  /// Tells whether this place in `terms` is one of `known`; else it is a formula, or -1, a sine.
   bool is_known(int term) const { return term >= 0 && term < static_cast<int>(known.size()); }
 };
 

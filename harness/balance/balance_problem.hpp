@@ -34,8 +34,8 @@ class BalanceProblem {
   BalanceProblem(const BalanceProblem&) = delete;
   BalanceProblem& operator=(const BalanceProblem&) = delete;
 
-  const std::vector<MomentumRun>& runs() const { return runs_; }
-  double frequency() const { return frequency_; }  ///< Hz, of the empty box, as the setup says
+  const std::vector<MomentumRun>& runs() const { return runs_; }  ///< one a measured run
+  double frequency() const { return frequency_; }                 ///< Hz, of the empty box, as the setup says
   /// Returns the strengths that may be missing, the spring's first; those that leave no trace included.
   const std::vector<MomentumTerm>& terms() const { return terms_; }
   /// Returns the regression in windows of this length and hop, s. It refers to this object.

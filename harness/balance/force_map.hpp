@@ -20,7 +20,7 @@ class ForceMap {
   /// position, velocity and time. gain() and curve() need project_out() first.
   ForceMap(const MomentumProblem& problem, const std::vector<MomentumRun>& runs);
 
-  const MotionScales& scales() const { return scales_; }
+  const MotionScales& scales() const { return scales_; }  ///< of all runs together
   /// Takes fitted columns out of the map. `residual`: what their fit leaves of the whitened impulses;
   /// `orthonormal`: an orthonormal basis of theirs (orthonormal_basis()).
   void project_out(const Eigen::VectorXd& residual, const Eigen::MatrixXd& orthonormal);
@@ -35,7 +35,7 @@ class ForceMap {
   struct Grid {
     double low = 0, step = 0;
     Eigen::Index nodes = 0;
-    double at(Eigen::Index node) const { return low + step * static_cast<double>(node); }
+    double at(Eigen::Index node) const { return low + step * static_cast<double>(node); }  ///< SI
   };
   MotionScales scales_;
   std::array<Grid, shape_kinds> grid_;

@@ -25,6 +25,7 @@ namespace shakedown {
 /// variance only; NaN where it was not or could not be computed, which is never in order.
 struct BalanceFit {
   double chi2 = 0, degrees = 0, p_value = std::numeric_limits<double>::quiet_NaN();
+  /// Returns chi2 over the degrees of freedom; 0 without any.
   double chi2_per_degree() const { return degrees > 0 ? chi2 / degrees : 0; }
 };
 
@@ -32,7 +33,7 @@ struct BalanceFit {
 struct FoundTerm {
   std::string effect, parameter, unit;
   TermKind kind = TermKind::physics;
-  std::string key() const { return effect + "." + parameter; }
+  std::string key() const { return effect + "." + parameter; }  ///< "effect.parameter"
   double value = 0, low = 0, high = 0;  ///< of the parameter, SI, 95 % interval; what the setup has included
   double gain = 0;                      ///< rise of chi2 without it
   double frequency = 0, phase = 0;      ///< Hz, rad; of a sine only

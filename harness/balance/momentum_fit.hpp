@@ -71,7 +71,8 @@ class MomentumProblem {
   Eigen::Index windows() const;
   double longest() const;  ///< s, from the first window of a run to its last
 
-  std::size_t runs() const { return forms_.size(); }
+  std::size_t runs() const { return forms_.size(); }  ///< number of runs
+  /// Return the weak form and the name of a run, from 0.
   const WeakForm& form(std::size_t run) const { return forms_[run]; }
   const std::string& run_name(std::size_t run) const { return forms_[run].run().name; }
   /// Returns how many rows there are: windows, and below them what is known beforehand.

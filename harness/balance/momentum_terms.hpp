@@ -39,7 +39,7 @@ struct MomentumTerm {
   std::vector<std::pair<std::string, double>> besides{};  ///< keys that its presence needs besides, SI
   std::string shape{};  ///< key among them that the balance finds too; empty: none
 
-  std::string key() const { return effect + "." + parameter; }
+  std::string key() const { return effect + "." + parameter; }  ///< "effect.parameter"
   /// Returns the parameter at this strength beyond the setup's, within its bounds.
   double parameter_at(double strength) const;
   /// Tells whether the parameter at this strength beyond the setup's lies within its bounds; a length may be

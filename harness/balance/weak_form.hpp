@@ -36,7 +36,8 @@ class WeakForm {
   /// must outlive it.
   WeakForm(const MomentumRun& run, double length, double hop);
 
-  const MomentumRun& run() const { return *run_; }
+  const MomentumRun& run() const { return *run_; }  ///< whose weak form it is
+  /// Returns the number of windows that stay.
   Eigen::Index windows() const { return static_cast<Eigen::Index>(first_.size()); }
   double centre(Eigen::Index window) const;  ///< s
   double excursion(Eigen::Index window) const {

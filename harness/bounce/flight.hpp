@@ -15,8 +15,8 @@ namespace shakedown {
 double sphere_drag_coefficient(double reynolds);
 
 struct Ball {
-  double mass = 0, diameter = 0;  ///< kg, m; 0: not said
-  bool known() const { return mass > 0 && diameter > 0; }
+  double mass = 0, diameter = 0;                           ///< kg, m; 0: not said
+  bool known() const { return mass > 0 && diameter > 0; }  ///< whether both are said
 };
 
 /// Air of 23 C and 1010 hPa, kg/m^3 and Pa s (ICAO standard atmosphere's law for the viscosity).

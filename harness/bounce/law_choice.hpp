@@ -51,11 +51,11 @@ struct BounceAnswer {
   LawTest test;                ///< of the first
   std::vector<LawTest> tests;  ///< of each law
   std::vector<Outlier> outliers;
-  std::vector<Flights> flights;                    ///< as used
-  double slowest = 0, fastest = 0, reference = 0;  ///< m/s
-  double scatter_odds = 0, drop_scatter_odds = 0;  ///< averaged over the laws
-  double holds_above = 0.01;                       ///< p-value
-  const LawFit& best() const { return laws.front(); }
+  std::vector<Flights> flights;                        ///< as used
+  double slowest = 0, fastest = 0, reference = 0;      ///< m/s
+  double scatter_odds = 0, drop_scatter_odds = 0;      ///< averaged over the laws
+  double holds_above = 0.01;                           ///< p-value
+  const LawFit& best() const { return laws.front(); }  ///< the most probable; there must be one
   /// Tells whether the first law holds: it is no free curve, and its p-value is above `holds_above` or not
   /// known.
   bool holds() const;

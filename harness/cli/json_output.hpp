@@ -11,6 +11,7 @@ struct JsonOutput {
   std::string file;
   bool wanted = false;
 
+  /// Tells whether the document is wanted, and not in a file.
   bool to_standard_output() const { return wanted && (file.empty() || file == "-"); }
   /// Returns the stream for people: out of the way of the JSON.
   std::FILE* for_people() const { return to_standard_output() ? stderr : stdout; }

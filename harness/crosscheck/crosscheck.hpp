@@ -95,6 +95,7 @@ Crosscheck crosscheck(const std::string& name, const Setup& setup, const Crossch
 struct LineAtZero {
   double value, error, chi_squared;
 };
+/// Fits the line. `errors`: standard deviations of y, above 0; at least two points, at two different x.
 LineAtZero line_at_zero(std::span<const double> x, std::span<const double> y, std::span<const double> errors);
 
 }  // namespace shakedown

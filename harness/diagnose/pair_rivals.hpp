@@ -16,6 +16,7 @@ struct PairRival {
   double log_odds = 0;      ///< beside nothing
   bool fitted = false;      ///< and weighed by that
 
+  /// Return the names of both effects, and "first and second".
   std::vector<std::string> effects() const { return {first.candidate->effect, second.candidate->effect}; }
   std::string words() const { return first.candidate->effect + " and " + second.candidate->effect; }
 };

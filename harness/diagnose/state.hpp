@@ -49,6 +49,7 @@ class DiagnosisTools {
   DiagnosisTools(const DiagnosisTools&) = delete;
   DiagnosisTools& operator=(const DiagnosisTools&) = delete;
 
+  /// Return what the steps were given, and what simulates for all of them.
   const Measurement& measurement() const { return measurement_; }
   const DiagnoseOptions& options() const { return options_; }
   KnownEffects known() const { return options_.known; }

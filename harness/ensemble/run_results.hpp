@@ -38,7 +38,7 @@ class RunResults {
   /// Writes what is left, and puts all in the place of what an earlier run left. Throws FileError.
   void finish(const Ensemble& ensemble, const Setup& setup, const Provenance& provenance);
 
-  const OutputFolder& folder() const { return folder_; }
+  const OutputFolder& folder() const { return folder_; }  ///< where the results go
 
  private:
   void write(const std::filesystem::path& name, std::string_view contents);

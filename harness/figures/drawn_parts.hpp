@@ -10,6 +10,7 @@ struct Style {
   double width = 1;          ///< points
   std::vector<double> dash;  ///< points
 };
+/// Returns colour, width and dashes of a curve with this look.
 Style style_of(Look look);
 constexpr std::array<double, 3> ink{0.11, 0.13, 0.14}, pale{0.88, 0.88, 0.88};
 

@@ -58,9 +58,9 @@ std::string words_of(const Difference& difference);
 /// Says whether a model holds, and why.
 struct ModelJudgement {
   Standing standing = Standing::undecided;
-  bool complete = true;  ///< every test that was made gave a p-value
-  std::string reason;    ///< "rejected: momentum balance p = 1e-05"
-  bool holds() const { return standing == Standing::holds; }
+  bool complete = true;                                       ///< every test that was made gave a p-value
+  std::string reason;                                         ///< "rejected: momentum balance p = 1e-05"
+  bool holds() const { return standing == Standing::holds; }  ///< whether it is said to hold
 };
 
 /// Judges a model. fails: the balance is not in order, or the features are rejected by more than two codes of

@@ -22,7 +22,7 @@ struct SignalSettings {
 /// restitutions and frequency have been refitted without the effect.
 struct Signal {
   double by_balance = 0, by_ensembles = 0;
-  double most() const { return std::max(by_balance, by_ensembles); }
+  double most() const { return std::max(by_balance, by_ensembles); }  ///< the larger of the two
 };
 
 /// Returns the signal of the hidden case, measured with a camera of the default noise. Of a force in no list

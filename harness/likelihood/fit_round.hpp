@@ -45,8 +45,8 @@ class FitRound {
   FitRound(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
            std::vector<Emulator> emulators, const RefitOptions& options);
 
-  const Objective& objective() const { return objective_; }
-  const std::vector<Knob>& knobs() const { return knobs_; }
+  const Objective& objective() const { return objective_; }  ///< what is minimised over the knobs
+  const std::vector<Knob>& knobs() const { return knobs_; }  ///< that are fitted, as handed over
 
   /// Returns linear emulators about z, from simulations made there (`there`: regressions on nothing) and the
   /// slopes of this round, by one width of each knob.

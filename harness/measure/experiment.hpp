@@ -53,7 +53,7 @@ struct MeasuredRun {
   double box_uncertainty = std::numeric_limits<double>::quiet_NaN();
   double com_uncertainty = std::numeric_limits<double>::quiet_NaN();
 
-  bool has_com() const { return !x_com.empty(); }
+  bool has_com() const { return !x_com.empty(); }  ///< whether the grains' centre was tracked
 };
 
 /// What the positions were measured with. Only a camera has a lens, a shutter and a line of sight.

@@ -41,6 +41,8 @@ std::vector<WeighedNuisance> weighed_nuisances(const Measurement& measurement);
 struct ValueWithError {
   double value = 0, error = 0;
 };
+/// Returns the mass of this key ("box.mass") in the first run, kg. Its error is what the experiment declares,
+/// or what scales usually have; zeros without runs.
 ValueWithError known_mass(const Measurement& measurement, std::string_view key);
 
 /// Returns the spring's frequency beforehand, Hz, with the error that the clock adds; nothing where it is not
@@ -51,6 +53,7 @@ std::optional<ValueWithError> known_frequency(const Measurement& measurement);
 struct KnownWander {
   double deviation = 0, time = 0.3;
 };
+/// Returns the wander that the experiment declares (camera.wander, camera.wander_time).
 std::optional<KnownWander> known_wander(const Measurement& measurement);
 
 /// Returns the effects of the camera that the experiment knows exactly, or that its sensor cannot have, so

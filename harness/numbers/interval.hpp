@@ -8,7 +8,7 @@ namespace shakedown {
 
 struct Interval {
   double low = 0, high = 0;
-  bool contains(double value) const { return low <= value && value <= high; }
+  bool contains(double value) const { return low <= value && value <= high; }  ///< its ends included
 };
 
 /// A number with its 95 % interval, in whatever unit its owner names.

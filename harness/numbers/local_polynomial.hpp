@@ -17,6 +17,7 @@ class LocalPolynomial {
   using Vector = Eigen::Matrix<double, coefficients_, 1>;
   using Matrix = Eigen::Matrix<double, coefficients_, coefficients_>;
 
+  /// Adds a point; all places are counted from the same origin and in the same unit.
   void add(double place, double value) {
     Vector row;
     row[0] = 1;

@@ -14,7 +14,7 @@ struct SampledMotion {
   std::span<const double> position;  ///< m
   std::span<const double> velocity;  ///< m/s; empty: taken from a parabola through three positions
 
-  std::size_t size() const { return time.size(); }
+  std::size_t size() const { return time.size(); }  ///< number of samples
 };
 
 /// One cubic piece between two samples, in u = 0..1.

@@ -24,7 +24,7 @@ class DahlState {
   explicit DahlState(const std::vector<DahlFriction>& joints)
       : joints_(joints), loaded_(joints.size(), 0.0) {}
 
-  bool any() const { return !joints_.empty(); }
+  bool any() const { return !joints_.empty(); }  ///< whether there is a joint
   /// A stretch of the path ends at x (m) and another begins, towards greater x (`direction` +1), smaller
   /// (-1), or with the box at rest (0).
   void turn(double x, double direction) {

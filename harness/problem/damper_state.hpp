@@ -18,7 +18,7 @@ struct State {
   double x_box = 0;            ///< m
   double v_box = 0;            ///< m/s
   double pushed_apart = 0;     ///< m, the farthest that a measured position was moved out of an overlap
-  std::size_t size() const { return position.size(); }
+  std::size_t size() const { return position.size(); }  ///< number of grains
 };
 
 /// Returns the kinetic energy of the grains and of the box, J (translation and spin of solid spheres).

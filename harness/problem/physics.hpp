@@ -110,6 +110,7 @@ struct ContactLaw {
   double attraction_range = 0;     ///< m
   double attraction_of_walls = 1;  ///< force between a grain and a wall, of that between two grains
   int attraction_effect = -1;      ///< line in Setup::effects
+  /// Tell whether grains attract each other, and whether the walls attract them too.
   bool has_attraction() const { return attraction_force > 0 && attraction_range > 0; }
   bool walls_attract() const { return has_attraction() && attraction_of_walls > 0; }
   /// Returns the attraction in this kind of contact, N; reach() returns the gap up to which it acts, m.
@@ -127,6 +128,7 @@ struct HarmonicOf {
   double phase = 0;                            ///< rad
   int effect = -1;                             ///< line in Setup::effects
 
+  /// Returns the value at time t, s, in the unit of the amplitude.
   Amplitude at(double t) const { return amplitude * std::sin(2 * std::numbers::pi * frequency * t + phase); }
 };
 using Harmonic = HarmonicOf<double>;
@@ -171,7 +173,7 @@ struct AirDrag {
     return {linear + other.linear, quadratic + other.quadratic};
   }
   double over_speed(double speed) const { return linear + quadratic * speed; }  ///< N s/m
-  bool none() const { return linear == 0 && quadratic == 0; }
+  bool none() const { return linear == 0 && quadratic == 0; }                   ///< whether there is no drag
 };
 
 /// Accelerations of the grains between contacts.

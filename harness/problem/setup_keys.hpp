@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, 3> domain_names{"damper", "closed",
                                                        "periodic"};  ///< by value of Domain
 constexpr std::array<std::string_view, 4> packing_names{"fcc", "square", "random",
                                                         "spread"};  ///< by value of Packing
+/// Return the name that a setup file gives the value.
 inline std::string_view name_of(Domain domain) { return domain_names[static_cast<std::size_t>(domain)]; }
 inline std::string_view name_of(Packing packing) { return packing_names[static_cast<std::size_t>(packing)]; }
 /// Returns the packing of this name, which must be one of packing_names (EXPECT).
@@ -38,6 +39,7 @@ struct SetupKey {
   bool low_excluded = false;  ///< must be greater than `low`, not equal
   std::string_view sentence;
 
+  /// Return the parts of the path before and behind its dot: "box" and "mass".
   std::string_view section() const { return path.substr(0, path.find('.')); }
   std::string_view name() const { return path.substr(path.find('.') + 1); }
 };

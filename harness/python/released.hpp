@@ -16,6 +16,7 @@ namespace shakedown {
 /// How far the work is; written by any thread.
 class ToldProgress {
  public:
+  /// Notes what is being done, and which share of it is, 0 to 1.
   void tell(const std::string& stage, double fraction) {
     const std::lock_guard lock(mutex_);
     stage_ = stage, fraction_ = fraction, fresh_ = true;

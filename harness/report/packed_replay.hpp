@@ -14,6 +14,8 @@ struct PackedReplay {
   double time_unit = 2e-6;    ///< s
   double length_unit = 2e-6;  ///< m
 };
+/// Returns a replay packed: of every grain, then of the box, its times with their contacts, then its x, y and
+/// z.
 PackedReplay packed(const ReportReplay& replay);
 
 }  // namespace shakedown

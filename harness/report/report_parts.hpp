@@ -32,6 +32,7 @@ struct MoreColumn {
   std::string title;
   std::vector<std::string> cells;
 };
+/// Returns the table, a row a line of the bars. Each of `more` must have a cell for every line.
 ReportTable numbers_of(const ReportBars& bars, std::string first_column, const std::vector<MoreColumn>& more);
 
 /// Returns the larger errors and overlap of both, the sums of their rescues and refused events, and every

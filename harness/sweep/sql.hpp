@@ -17,6 +17,7 @@ class Database;
 class SqlStatement {
  public:
   SqlStatement(const Database& database, std::string_view sql);
+  /// Give a parameter its value (a text is copied) and return the statement.
   SqlStatement& bind(int parameter, std::string_view text);
   SqlStatement& bind(int parameter, double number);  ///< NaN: NULL
   SqlStatement& bind(int parameter, int number);

@@ -30,10 +30,10 @@ struct Table {
   bool decimal_comma = false;
   int header_lines = 0;  ///< lines before the first row of data
   std::vector<TableColumn> columns;
-  std::vector<int> line;              ///< of each row in the file, from 1
-  bool latin = false;                 ///< was not UTF-8; its letters were read as Latin-1
-  std::vector<Violation> violations;  ///< rows with too few or too many cells
-  std::size_t rows() const { return line.size(); }
+  std::vector<int> line;                            ///< of each row in the file, from 1
+  bool latin = false;                               ///< was not UTF-8; its letters were read as Latin-1
+  std::vector<Violation> violations;                ///< rows with too few or too many cells
+  std::size_t rows() const { return line.size(); }  ///< number of rows of data
 };
 
 /// Reads a table. Throws FileError when the file cannot be read, InputError when it is not a table of

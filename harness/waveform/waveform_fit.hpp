@@ -52,6 +52,7 @@ struct WaveformFit {
   bool possible = false;                  ///< the model can be simulated
 
   Eigen::Index first_of(std::size_t law) const;  ///< index of its first value
+  /// Returns the frequency of the spring, Hz.
   double frequency() const { return value[static_cast<Eigen::Index>(3 * residual.size())]; }
   double rms() const;  ///< m, over all frames
 };
