@@ -83,18 +83,21 @@ class CalendarQueue {
     double time = never;
     std::int32_t next = none, previous = none;  ///< of the first date of a day, `previous` is ~day
   };
+  /// Returns the number of days in a year; the list of that number holds what lies beyond.
   std::size_t days() const { return first_.size() - 1; }
 
   /// Dates without end at one moment (a grain between walls that leave it no play) would make days so short
   /// that no number counts them.
   static constexpr double shortest_day = 1e-15;  // s
 
+  /// Sets the length of a day, s, to shortest_day at least.
   void set_day_length(double length) {
     length = std::max(length, shortest_day);
     day_length_ = length;
     per_second_ = 1 / length;
   }
 
+  /// Enters date k into the list of its day, never one before today.
   void insert(std::size_t k) {
     // A date that rounding has put into the past is filed under today.
     Date& date = dates_[k];
@@ -107,6 +110,7 @@ class CalendarQueue {
     dated_[d / 64] |= std::uint64_t{1} << d % 64;
   }
 
+  /// Takes date k out of its list.
   void remove(std::size_t k) {
     const Date& date = dates_[k];
     const bool is_first = date.previous < 0;
@@ -127,6 +131,8 @@ class CalendarQueue {
     return bits == 0 ? days() : word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
   }
 
+  /// Finds the earliest date and keeps it in cached_, which stays `none` when there is none; begins years as
+  /// needed.
   template <std::size_t Looks, class Ahead>
   void find(const std::array<int, Looks>& days_ahead, Ahead&& tell) {
     for (;;) {

@@ -64,6 +64,7 @@ class CellCrossings : public ScheduledGrains {
   /// This bit of a link to a grain says that another follows it in its cell.
   static constexpr std::int32_t has_next = 1 << 30;
 
+  /// Returns the place of a cell in cell_first_.
   std::size_t index_of(const std::array<std::uint16_t, 3>& cell) const {
     return offset_[0][cell[0] + 1u] + offset_[1][cell[1] + 1u] + offset_[2][cell[2] + 1u];
   }

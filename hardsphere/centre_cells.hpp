@@ -56,12 +56,15 @@ class CentreCells {
     std::array<std::int32_t, block_size> grain;
   };
 
+  /// Returns the place of a cell in first_.
   std::size_t index_of(int x, int y, int z) const {
     return (static_cast<std::size_t>(x) * static_cast<std::size_t>(cells_[1]) + static_cast<std::size_t>(y)) *
                static_cast<std::size_t>(cells_[2]) +
            static_cast<std::size_t>(z);
   }
+  /// Puts an empty block in front of the others of a cell, and returns it.
   std::int32_t new_block(std::size_t cell);
+  /// Takes a block out of its cell, to be used again.
   void drop_block(std::int32_t block);
 
   std::array<int, 3> cells_{};

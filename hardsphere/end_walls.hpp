@@ -149,7 +149,9 @@ class EndWalls {
     std::array<Edge, 4> edge;
     std::size_t count = 0;
   };
+  /// Returns what the grain may meet next at both walls, the one with the earliest bound first.
   Edges edges_ahead(const Now& now, int grain, const Flight& flight, double room) const;
+  /// Returns the first meeting with walls that swing about `centre`, m, at `angular_frequency`, rad/s.
   Root harmonic_root(double centre, double angular_frequency, const Now& now, int grain, const Flight& flight,
                      double room) const;
   template <class Motion>

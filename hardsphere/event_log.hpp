@@ -57,6 +57,7 @@ class EventReader {
   std::int64_t entry() const { return entry_; }  ///< number of events read
 
  private:
+  /// Reads a number of 7-bit groups. Throws FileError when the log is cut short.
   std::uint64_t number();
   const CollisionLog* log_;
   std::size_t at_ = 0;

@@ -119,8 +119,11 @@ class GrainLines {
           time(flight.time) {}
     L x, y, z, vx, vy, vz, time;
   };
+  /// Returns how a vector of others moves as grain i sees it, all of them where they are when its flight
+  /// begins.
   template <class L, bool Periodic>
   Approach<L> approach(std::size_t i, const Self<L>& self, const std::int32_t* others) const;
+  /// Return what first_touch() returns: by estimates and one root, or by the roots of all that may be first.
   template <class L, bool Periodic>
   Touch estimated_touch_in(std::size_t i, const Flight3& self, const std::int32_t* others, std::size_t size,
                            double wait);

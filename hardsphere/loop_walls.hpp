@@ -88,7 +88,9 @@ class LoopWalls {
   double bytes_per_grain() const { return end_walls_.bytes_per_grain(); }
 
  private:
+  /// Returns the number of axes with side walls that move or attract.
   int sides() const { return static_cast<int>(side_walls_.size()); }
+  /// Returns the end walls at the present time of the scene.
   EndWalls::Now end_walls_now() {
     if constexpr (Scene::driven)
       return now(0);

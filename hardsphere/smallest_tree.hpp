@@ -52,6 +52,7 @@ class SmallestTree {
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   static constexpr std::size_t top_size = 256;
+  /// Return the numbers below level l, and the smallest of those below its node k.
   const AlignedVector<double>& children(std::size_t l) const { return l == 0 ? numbers_ : node_[l - 1]; }
   double of_children(std::size_t l, std::size_t k) const {
     return simd::hmin(load(children(l), k * lane_count));

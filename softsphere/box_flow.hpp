@@ -27,8 +27,11 @@ class BoxFlow {
     double joule;
     int effect;
   };
+  /// Goes on by `step`, s, on the linear spring alone: an exact rotation of x (m) and v (m/s).
   void rotate(double step, double& x, double& v);
+  /// Goes on by `step`, s, in pieces short enough for the joints, and books what the forces do.
   void advance_with_effects(double time, double step, Phase& now, Accounts& accounts);
+  /// Returns the force of spring, effects and joints on the box at time t, N; dry friction is not in it.
   double force(double t, double x, double v) const;
   void rub(double time, double step, Phase& now, Accounts& accounts);
   Phase integrate(double time, double step, Phase from, double sliding);

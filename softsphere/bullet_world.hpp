@@ -25,6 +25,7 @@ class BulletWorld {
   bool box_sleeps() const;               ///< whether Bullet has put the box to sleep
 
  private:
+  /// Copies places, velocities and spins of the grains into Bullet.
   void write_grains(const Bodies& bodies);
   struct Inside;
   std::unique_ptr<Inside> inside_;

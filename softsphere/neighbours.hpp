@@ -26,7 +26,9 @@ class Neighbours {
   std::int64_t searches() const { return searches_; }  ///< how often the tree was asked
 
  private:
+  /// Tells whether grains have moved so far that a pair within reach may be missing.
   bool stale(const Bodies& bodies) const;
+  /// Asks the tree for the pairs anew.
   void search(const Bodies& bodies);
 
   struct Tree;

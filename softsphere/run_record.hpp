@@ -33,8 +33,10 @@ class RunRecord {
   Trajectory trajectory;
 
  private:
+  /// Returns the energy of box, spring and grains, and what contacts hold, J.
   double energy(const Bodies& bodies, const StoredEnergy& stored) const;
   Ledger ledger(const Accounts& accounts, const StoredEnergy& stored) const;
+  /// Returns the momentum of box and grains along the axis, kg m/s.
   double momentum(const Bodies& bodies) const;
 
   double box_mass_;

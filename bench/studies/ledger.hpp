@@ -39,7 +39,9 @@ class SeedLedger {
   bool seen(const LedgerKey& key) const;
 
  private:
+  /// Returns the line of this key, which is added where there is none.
   LedgerLine& line(const LedgerKey& key);
+  /// Writes the file, if there is one. Throws FileError.
   void write() const;
 
   std::filesystem::path file_;

@@ -56,6 +56,7 @@ class Encounters {
     double overlap, reduced_mass, slip_mass;
   };
   void list_pairs(const State& state);
+  /// Adds the forces of all contacts of grains with walls.
   void at_walls(const State& state);
   /// Adds the force of one contact. `rate` below: m/s, by which the overlap grows.
   void meet(const State& state, const Meeting& meeting, Memory& memory);

@@ -26,10 +26,14 @@ class Motion {
   const Encounters& encounters() const { return encounters_; }
 
  private:
+  /// Moves box and grains for half a step at their velocities.
   void drift();
   void kick_grains(double time);
+  /// Changes the velocity of the box by the forces of a whole step, `time` its middle, s, and books what they
+  /// take.
   void kick_box(double time);
   void follow_arc();
+  /// Returns the force of an effect on the box that does not depend on its speed, N; 0 of one that does.
   double push_of(const BoxPush& push, double time) const;
   double drag_at(double speed) const;
   void enter_contact_work();

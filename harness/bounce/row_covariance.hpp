@@ -41,6 +41,7 @@ class RowCovariance {
   struct Factor {
     Eigen::VectorXd diagonal, next, after;  ///< L(i,i), L(i+1,i), L(i+2,i)
   };
+  /// Returns the factor L of the band part, C = L L^T, lower and with two bands below the diagonal.
   Factor factor(const RowVariances& variances) const;
   Eigen::VectorXd timing_[3], per_restitution_, other_;
   std::vector<Eigen::Index> drops_;

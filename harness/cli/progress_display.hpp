@@ -33,7 +33,9 @@ class ProgressDisplay {
 
  private:
   void announce();  ///< once
+  /// Prints a line with the time so far and the share that is done.
   void tell_how_far();
+  /// Runs in its own thread: announces after `patience`, then prints lines, each after twice the time.
   void wait(std::chrono::milliseconds patience);
 
   std::mutex mutex_;

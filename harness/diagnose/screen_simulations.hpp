@@ -78,6 +78,7 @@ class ScreenSimulations {
     FirstModel model;
   };
 
+  /// Returns the first run of the next batch; batches of up to 1000 share none.
   int next_run() { return first_run_ + 1000 * batches_++; }
 
   /// Returns the metric of these covariances (m^2, of each run), with the slopes by the widths of `about`.

@@ -41,11 +41,14 @@ class RunResults {
   const OutputFolder& folder() const { return folder_; }  ///< where the results go
 
  private:
+  /// Writes a file into the folder of what is not finished, to be put in its place later. Throws FileError.
   void write(const std::filesystem::path& name, std::string_view contents);
+  /// Writes the log of a run where it is wanted: of the first, or of every one.
   void write_collisions(int run, const CollisionLog& log);
   void write_used_setup(Setup setup);
   void put_in_place() const;
   void remove_earlier_results() const;
+  /// Removes the folder of what is not finished.
   void remove_unfinished() const;
 
   OutputFolder folder_;

@@ -41,6 +41,7 @@ class ExperimentReader {
   void report_unknown() const;
 
  private:
+  /// Returns what is known of a key of this table.
   const ExperimentKey& key_of(std::string_view key) const { return experiment_key(which_, key); }
 
   const TomlValue* table_;

@@ -39,6 +39,7 @@ class Random {
   }
 
  private:
+  /// Returns z with its bits mixed, as SplitMix64 does it.
   static std::uint64_t mix(std::uint64_t z) {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;

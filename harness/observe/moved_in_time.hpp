@@ -33,6 +33,7 @@ class LocalCubics {
     std::size_t first;    ///< in used_
     std::size_t weights;  ///< in weights_
   };
+  /// Returns slope, half the second and a sixth of the third derivative of a piece: m/s, m/s^2, m/s^3.
   Eigen::Vector3d coefficients(const Piece& piece, std::span<const double> position) const;
 
   std::vector<std::size_t> used_;  ///< samples with a position

@@ -27,7 +27,9 @@ class LammpsContacts {
   std::vector<std::string> walls_pull(int axis) const;
 
  private:
+  /// Returns the mass with which two bodies in such a contact meet, kg.
   double reduced_mass(ContactClass kind) const;
+  /// Return the words for the normal force: of the spring and dashpot, or of the law of an effect.
   std::string normal(ContactClass kind) const;
   std::string hertz(ContactClass kind) const;
 

@@ -61,6 +61,7 @@ class Residuals {
   const Eigen::VectorXd& scale() const { return scale_; }
 
  private:
+  /// Returns the number of rows for what is known of the frequency beforehand: 1 or 0.
   int believes() const { return options_.believed_error > 0 ? 1 : 0; }
   /// Returns about the root of the sum of squares of all runs' motion, in standard deviations.
   double root_of_sum_of_squares() const;

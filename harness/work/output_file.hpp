@@ -29,6 +29,7 @@ class GrowingFile {
   std::filesystem::path file_, neighbour_;
   int descriptor_ = -1;
   std::string waiting_;  // not yet handed to the system
+  /// Hands what waits to the system. Throws FileError when the disk is full.
   void hand_over();
 };
 

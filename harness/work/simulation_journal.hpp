@@ -34,6 +34,8 @@ class SimulationJournal {
   const std::filesystem::path& file() const { return file_; }
 
  private:
+  /// Reads what the file holds, and cuts off a record that was not finished. Throws FileError, and InputError
+  /// where the file has another title.
   void read(const std::string& title);
 
   std::filesystem::path file_;
