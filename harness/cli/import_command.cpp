@@ -4,12 +4,12 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "command.hpp"
 #include "import_tables.hpp"
+#include "imported.hpp"
 #include "json_output.hpp"
 #include "kept_files.hpp"
 #include "output_file.hpp"
@@ -26,21 +26,6 @@ struct ImportArguments {
   JsonOutput json;
 };
 
-std::string as_json(const ImportedTables& imported, const std::string& out) {
-  nlohmann::ordered_json document{{"schema_version", 1},
-                                  {"experiment", out},
-                                  {"columns", nlohmann::json::array()},
-                                  {"open_questions", imported.open_questions}};
-  for (const GuessedColumn& column : imported.columns)
-    document["columns"].push_back({{"role", column.role},
-                                   {"from", column.from},
-                                   {"unit", column.unit},
-                                   {"track", column.track},
-                                   {"reason", column.reason},
-                                   {"certain", column.certain}});
-  return document.dump(2) + "\n";
-}
-
 int import_files(const ImportArguments& arguments) {
   const std::filesystem::path out = arguments.out;
   if (std::filesystem::exists(out) && !arguments.replace)
@@ -54,13 +39,8 @@ int import_files(const ImportArguments& arguments) {
   const ImportedTables imported =
       import_tables({arguments.files.begin(), arguments.files.end()}, out.parent_path(), arguments.known);
   write_file(out, imported.experiment);
-  fmt::print(arguments.json.for_people(), "{}\nwrote {}\n", imported.preview, out.string());
-  if (!imported.open_questions.empty()) fmt::print(arguments.json.for_people(), "Please fill in:\n");
-  for (const std::string& question : imported.open_questions)
-    fmt::print(arguments.json.for_people(), "  {}\n", question);
-  if (imported.open_questions.empty())
-    fmt::print(arguments.json.for_people(), "Then: shakedown diagnose setup.toml --data {}\n", out.string());
-  arguments.json.write(as_json(imported, out.string()));
+  fmt::print(arguments.json.for_people(), "{}", imported_text(imported, out.string()));
+  arguments.json.write(imported_json(imported, out.string()));
   return exit_done;
 }
 

@@ -7,7 +7,6 @@
 
 #include <cstdlib>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "effects.hpp"
@@ -23,6 +22,7 @@
 #include "report_output.hpp"
 #include "setup_arguments.hpp"
 #include "sweep_report.hpp"
+#include "swept.hpp"
 
 namespace shakedown {
 
@@ -53,52 +53,21 @@ struct SweepArguments {
   bool resume = false, estimate = false;
 };
 
-std::string duration(double seconds) {
-  if (seconds < 90) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 5400) return fmt::format("{:.0f} min", seconds / 60);
-  return fmt::format("{:.1f} h", seconds / 3600);
-}
-
 /// Returns the threads of this process: a launcher starts one process a core; a sweep alone takes all cores.
 int threads_of(const SweepArguments& arguments, const JobShare& share) {
   if (arguments.threads > 0) return arguments.threads;
   return share.of > 1 && share.source != "--shard" ? 1 : threads_or_all(0);
 }
 
-std::string readable_cost(const SweepCost& cost, const JobShare& share, int threads) {
-  std::string text = fmt::format("{} points, {} runs", cost.points, cost.jobs);
-  if (share.of > 1)
-    text += fmt::format("; share {} of {} (from {}): {} runs", share.index + 1, share.of, share.source,
-                        cost.here);
-  if (cost.done > 0) text += fmt::format("; {} of them done before", cost.done);
-  if (cost.done == cost.here) return text + "; nothing is left to do";
-  return text + fmt::format("; a run takes {:.3g} s, the rest about {} on {} thread{}", cost.seconds_a_run,
-                            duration(cost.seconds), threads, threads == 1 ? "" : "s");
-}
-
-nlohmann::ordered_json json_of_sweep(const std::vector<ResultRow>& rows, const SweepIdentity& identity,
-                                     bool complete) {
-  nlohmann::ordered_json axes = nlohmann::ordered_json::array();
-  for (const SweepAxis& axis : identity.axes) axes.push_back({{"key", axis.key}, {"unit", axis.unit}});
-  return {{"schema_version", 1}, {"engine", identity.engine}, {"axes", axes},
-          {"runs", rows.size()}, {"complete", complete},      {"digest", results_digest(rows)}};
-}
-
 /// Presents what is in the file at the end, for people and as table and JSON.
 void present(const ResultFile& file, const std::string& name, const Presentation& how, bool complete,
              std::size_t jobs = 0, const PaperValues* taken = nullptr) {
-  const std::vector<ResultRow> rows = file.rows();
-  if (!how.table.empty()) write_file(how.table, summary_csv(file.identity(), summaries_of(rows)));
-  const std::string missing =
-      rows.size() < jobs ? fmt::format(" of {} so far (the digest of all comes with the last)", jobs) : "";
-  const std::string finding = finding_of(file.identity(), summaries_of(rows));
-  fmt::print(how.json.for_people(), "{}\n{}: {} runs{}, digest {}\n", finding, name, rows.size(), missing,
-             results_digest(rows));
+  const Swept found = swept(file);
+  if (!how.table.empty()) write_file(how.table, summary_csv(found.identity, found.points));
+  fmt::print(how.json.for_people(), "{}", swept_text(found, name, jobs));
   if (how.report.wanted(""))
     fmt::print(how.json.for_people(), "{}", how.report.write(report_of(file, name), ""));
-  nlohmann::ordered_json document_of = json_of_sweep(rows, file.identity(), complete);
-  document_of["finding"] = finding;
-  const std::string document = document_of.dump(2) + "\n";
+  const std::string document = swept_json(found, complete);
   how.json.write(taken != nullptr ? taken->added_to(document) : document);
 }
 
@@ -123,21 +92,11 @@ int print_estimate(const SweepArguments& arguments, const SweepPlan& plan, const
   if (options.execution.stopped()) throw Interrupted("nothing was to be kept");
   SweepCost cost = outcome.cost;
   cost.seconds = cost.seconds_a_run * static_cast<double>(cost.here - cost.done) / options.execution.threads;
-  fmt::print(arguments.results.json.for_people(), "{}\n",
-             readable_cost(cost, share, options.execution.threads));
+  fmt::print(arguments.results.json.for_people(), "{}", cost_text(cost, share, options.execution.threads));
   if (outcome.failed > 0)
     fmt::print(stderr, "{} of {} runs that were tried failed; the first: {}\n", outcome.failed, outcome.added,
                outcome.first_failure);
-  arguments.results.json.write(nlohmann::ordered_json{{"schema_version", 1},
-                                                      {"points", cost.points},
-                                                      {"runs", cost.jobs},
-                                                      {"runs_of_this_share", cost.here},
-                                                      {"done_before", cost.done},
-                                                      {"seconds_a_run", cost.seconds_a_run},
-                                                      {"threads", options.execution.threads},
-                                                      {"seconds", cost.seconds}}
-                                   .dump(2) +
-                               "\n");
+  arguments.results.json.write(cost_json(cost, options.execution.threads));
   return outcome.failed > 0 ? exit_promise_broken : exit_done;
 }
 
@@ -172,7 +131,7 @@ int sweep(const SweepArguments& arguments) {
   options.share = share;
   std::unique_ptr<ProgressDisplay> display;
   options.announce = [&](const SweepCost& cost) {
-    fmt::print(stderr, "{}\n", readable_cost(cost, share, options.execution.threads));
+    fmt::print(stderr, "{}", cost_text(cost, share, options.execution.threads));
     display = std::make_unique<ProgressDisplay>("sweeping");
     return true;
   };
