@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "effects.hpp"
 #include "engine_differences.hpp"
 #include "engines.hpp"
 #include "ensemble_options.hpp"
+#include "hidden_answer.hpp"
 #include "hidden_question.hpp"
 #include "hide_map.hpp"
 #include "interruption.hpp"
@@ -96,27 +96,11 @@ int hide(const HideArguments& arguments, const Trial& trial) {
   }
   folder.remove(earlier);
   write_case(folder.path(), truth, arguments.question, trial, experiment);
-  std::FILE* people = arguments.json.for_people();
-  fmt::print(people, "{} runs in {}\nwhat is hidden: {} (do not look before the diagnosis is made)\n",
-             experiment.runs.size(), folder.path().string(), truth.string());
-  fmt::print(people, "shakedown diagnose {0}/setup.toml --data {0}/experiment.toml\n",
-             folder.path().string());
+  fmt::print(arguments.json.for_people(), "{}", case_text(folder.path(), truth, experiment));
   const PaperValues taken(trial.hidden.believed, given_by_measurements);
-  taken.print(people);
-  std::vector<std::string> names;
-  for (const MeasuredRun& run : experiment.runs) names.push_back(run.name);
-  arguments.json.write(taken.added_to(nlohmann::ordered_json{
-      {"schema_version", 1}, {"folder", folder.path().string()}, {"truth", truth.string()}, {"runs", names}}
-                                          .dump()));
+  taken.print(arguments.json.for_people());
+  arguments.json.write(taken.added_to(case_json(folder.path(), truth, experiment)));
   return exit_done;
-}
-
-nlohmann::ordered_json json_of_share(const Share& share) {
-  return {{"hits", share.hits},
-          {"trials", share.trials},
-          {"share", share.value},
-          {"low", share.low},
-          {"high", share.high}};
 }
 
 /// Measures whether a diagnosis would see what is hidden. Nothing is written.
@@ -133,24 +117,8 @@ int measure_power(const HideArguments& arguments, const Trial& trial) {
   const Power power = power_of(trial, arguments.repeats, tools, [&](int done, const std::string& answer) {
     fmt::print(stderr, "{:>3} of {}: {}\n", done, arguments.repeats, answer);
   });
-  const std::vector<std::string> hidden = hidden_effects(trial.hidden);
-  std::string names;
-  for (const std::string& effect : hidden) names += (names.empty() ? "" : " + ") + effect;
-  fmt::print(arguments.json.for_people(),
-             "hidden: {}\n  something is found missing: {}\n  answered exactly:           {}\n  answers:\n",
-             names.empty() ? "nothing" : names, in_words(power.detected), in_words(power.named));
-  nlohmann::ordered_json answers = nlohmann::ordered_json::object();
-  for (const auto& [answer, times] : power.answers) {
-    fmt::print(arguments.json.for_people(), "    {:>3}  {}\n", times, answer);
-    answers[answer] = times;
-  }
-  arguments.json.write(nlohmann::ordered_json{{"schema_version", 1},
-                                              {"hidden", hidden},
-                                              {"detected", json_of_share(power.detected)},
-                                              {"named", json_of_share(power.named)},
-                                              {"answers", answers}}
-                           .dump(2) +
-                       "\n");
+  fmt::print(arguments.json.for_people(), "{}", power_text(trial.hidden, power));
+  arguments.json.write(power_json(trial.hidden, power));
   return exit_done;
 }
 
