@@ -17,14 +17,14 @@ namespace {
 MeasuredFeatures seen(Setup setup, double noise_box, double noise_centre, const Workshop& workshop) {
   RunOptions options;
   options.stop = workshop.execution.stop;
-  setup.run.sample_rate = 500;
+  setup.run.sample_rate = usual_frame_rate;
   const Trajectory trajectory = workshop.engine->run(setup, options);
   if (trajectory.interrupted) throw Interrupted("interrupted");
   const Recording recording = recorded_by(physics_of(setup).camera, trajectory);
   MeasuredRun run;
   run.name = "next experiment";
   run.box_length = setup.box.length;
-  run.frame_rate = 500;
+  run.frame_rate = usual_frame_rate;
   run.time = recording.time;
   run.x_box = recording.x_box;
   if (setup.grains.count > 0) run.x_com = recording.x_com;
@@ -38,7 +38,7 @@ MeasuredFeatures seen(Setup setup, double noise_box, double noise_centre, const 
   const Measurement::Run measured{std::move(run), std::move(found), setup};
   MeasuredFeatures m{measured.recorded.name, setup, plan_features(measured), {}};
   m.values = measured_features(m.plan, measured);
-  m.setup.run.duration = std::max(0.5, m.plan.end + 0.05);
+  simulate_until(m.setup, m.plan.end);
   return m;
 }
 

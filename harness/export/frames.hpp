@@ -12,7 +12,7 @@ namespace shakedown {
 struct FrameTimes {
   double from = 0;                                      ///< s
   double to = std::numeric_limits<double>::infinity();  ///< s; later than the run's end: its end
-  double rate = 500;                                    ///< Hz
+  double rate = usual_frame_rate;                       ///< Hz
   const std::atomic<bool>* stop = nullptr;              ///< set to true: no more frames, Interrupted
 
   /// Number of frames that this log has, and the time of frame k, s.

@@ -19,13 +19,13 @@ namespace shakedown {
 /// Says how the camera and its tracking program record. A camera's errors may be effects of the setup
 /// instead; both add up.
 struct RecordingSettings {
-  double box_noise = 0.2e-3;     ///< m, standard deviation of one frame (normal, white)
-  double centre_noise = 0.5e-3;  ///< m
-  double frame_rate = 500;       ///< Hz
-  double missing = 0;            ///< fraction of frames without positions
-  double outliers = 0;           ///< fraction of positions that jump
-  double jump = 20e-3;           ///< m, a jump is uniform within +- this
-  bool centre = true;            ///< false: the grains are not tracked
+  double box_noise = 0.2e-3;             ///< m, standard deviation of one frame (normal, white)
+  double centre_noise = 0.5e-3;          ///< m
+  double frame_rate = usual_frame_rate;  ///< Hz
+  double missing = 0;                    ///< fraction of frames without positions
+  double outliers = 0;                   ///< fraction of positions that jump
+  double jump = 20e-3;                   ///< m, a jump is uniform within +- this
+  bool centre = true;                    ///< false: the grains are not tracked
 
   // Errors of real cameras (Physics::Camera says what the first three do).
   double lens = 0;           ///< relative distortion 0.2 m from the optical axis

@@ -229,8 +229,7 @@ std::vector<DecayComparison> compare_decay(const Measurement& measurement, const
         const auto r = static_cast<std::size_t>(job / runs);
         if (workshop.execution.stopped()) throw Interrupted("interrupted");
         Setup setup = measurement.runs[r].setup;
-        setup.run.duration = std::max(0.5, frames[r].time.empty() ? 0.0 : frames[r].time.back() + 0.05);
-        setup.run.sample_rate = 500;
+        simulate_until(setup, frames[r].time.empty() ? 0.0 : frames[r].time.back());
         RunOptions options;
         options.run = first_run + job;
         options.stop = workshop.execution.stop;

@@ -25,8 +25,7 @@ std::vector<MeasuredFeatures> features_of(const Measurement& measurement) {
     const Observed observed = run.setup.grains.count > 0 ? Observed::all : Observed::box_only;
     MeasuredFeatures m{run.recorded.name, run.setup, plan_features(run, observed), {}};
     m.values = measured_features(m.plan, run);
-    m.setup.run.duration = std::max(0.5, m.plan.end + 0.05);
-    m.setup.run.sample_rate = 500;
+    simulate_until(m.setup, m.plan.end);
     features += m.values.size();
     measured.push_back(std::move(m));
   }

@@ -132,4 +132,10 @@ Eigen::VectorXd simulated_features(const FeaturePlan& plan, const Recording& rec
   return values;
 }
 
+void simulate_until(Setup& setup, double end) {
+  constexpr double least = 0.5;  // s
+  setup.run.duration = std::max(least, end + simulated_beyond);
+  setup.run.sample_rate = usual_frame_rate;
+}
+
 }  // namespace shakedown

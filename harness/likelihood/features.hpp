@@ -49,7 +49,14 @@ Eigen::VectorXd measured_features(const FeaturePlan& plan, const Measurement::Ru
 Eigen::VectorXd features_on_frames(const FeaturePlan& plan, const std::vector<double>& time,
                                    const std::vector<double>& box, const std::vector<double>& centre);
 
-/// Returns the features of a simulated recording (500 Hz or any constant rate), m.
+/// Returns the features of a simulated recording (of any constant rate), m.
 Eigen::VectorXd simulated_features(const FeaturePlan& plan, const Recording& recording);
+
+/// Simulations go on so long after the last time that is needed of them, s.
+constexpr double simulated_beyond = 0.05;
+
+/// Gives the setup the duration (half a second at least) and the sample rate with which it is simulated where
+/// `end`, s, is the last time that is needed.
+void simulate_until(Setup& setup, double end);
 
 }  // namespace shakedown

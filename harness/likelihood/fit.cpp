@@ -36,7 +36,7 @@ MeasuredFeatures beginning_of(const MeasuredFeatures& whole, double end) {
     values.push_back(whole.values[static_cast<Eigen::Index>(f)]);
   }
   part.plan.end = std::min(whole.plan.end, end + 0.1);
-  part.setup.run.duration = part.plan.end + 0.05;
+  part.setup.run.duration = part.plan.end + simulated_beyond;
   part.values = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   return part;
 }

@@ -23,6 +23,9 @@ constexpr double least_period_in_diameters = 3 * (1 + 1e-6);
 /// Arrangement of the grains at release (harness/setup_file/README.md, "Packings").
 enum class Packing { fcc, square, random, spread };
 
+/// Frames a second of a camera, and samples a second of a simulation, of which nothing is said, Hz.
+constexpr double usual_frame_rate = 500;
+
 struct Setup {
   Domain domain = Domain::damper;
 
@@ -72,8 +75,8 @@ struct Setup {
   } release;
 
   struct Run {
-    double duration = 22;      ///< s
-    double sample_rate = 500;  ///< Hz
+    double duration = 22;                   ///< s
+    double sample_rate = usual_frame_rate;  ///< Hz
     std::uint64_t seed = 1;
   } run;
 
