@@ -23,6 +23,9 @@ struct MotionSeen {
   double frames_per_period(double interval) const;
 };
 
+/// The box moves where its excursion exceeds this share of the whole range.
+constexpr double moving_share = 0.05;
+
 /// Reads the motion from `x` in m, NaN where missing, at `time` in s, increasing.
 MotionSeen motion_seen(const std::vector<double>& time, const std::vector<double>& x);
 

@@ -18,9 +18,6 @@ constexpr double without_a_camera = 1e-9;  // m, in positions that a simulation 
 constexpr int lowest_order = 4, highest_order = 14;
 /// A difference may keep so much motion over the noise that it keeps, which adds 2 % to the deviation.
 constexpr double leak_allowed = 0.2;
-/// The noise is told where the box's excursion exceeds this share of the whole range; at rest rounding hides
-/// it.
-constexpr double moving_share = 0.05;
 /// A step of rounding matters from this share of the noise on.
 constexpr double matters = 0.3;
 constexpr std::size_t fewest_differences = 20;  // differences that make a standard deviation
@@ -217,7 +214,7 @@ NoiseSeries noise_series(const std::vector<double>& time, const std::vector<doub
   for (std::size_t i = 1; i < time.size(); ++i) series.neighbour[i] = time[i] - time[i - 1] < 1.5 * interval;
   const MotionSeen motion = motion_seen(time, x);
   for (const double excursion : motion.excursion)
-    series.moving.push_back(excursion > moving_share * motion.range);
+    series.moving.push_back(excursion > moving_share * motion.range);  // at rest rounding hides the noise
   series.frames_per_period = motion.frames_per_period(interval);
   series.order = order_for(series, motion);
   series.by_clock = fits_the_clock(series);

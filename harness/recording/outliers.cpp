@@ -14,6 +14,9 @@ namespace shakedown {
 
 namespace {
 
+/// A frame that is farther away in time foretells nothing.
+constexpr double too_far = 0.05;  // s
+
 /// Judges frames by their neighbours: two on the left, two on the right, one of each. A landing spoils one or
 /// two of these predictions, an outlier all three.
 class OutlierJudge {
@@ -54,7 +57,7 @@ class OutlierJudge {
     for (auto j = static_cast<std::ptrdiff_t>(i) + step;
          j >= 0 && j < static_cast<std::ptrdiff_t>(kept.size()) && count < 2; j += step) {
       const auto at = static_cast<std::size_t>(j);
-      if (std::abs((*time_)[at] - (*time_)[i]) > 0.05) break;  // too far to predict
+      if (std::abs((*time_)[at] - (*time_)[i]) > too_far) break;
       if (std::isfinite(kept[at])) found[static_cast<std::size_t>(count++)] = at;
     }
     return count;
@@ -65,7 +68,6 @@ class OutlierJudge {
   static double typical_acceleration(const std::vector<double>& time, const std::vector<double>& x) {
     const double interval = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
     const std::size_t step = std::max<std::size_t>(1, static_cast<std::size_t>(0.02 / interval));
-    constexpr double moving_share = 0.05;
     const MotionSeen motion = motion_seen(time, x);
     std::vector<double> found;
     for (std::size_t i = step; i + step < x.size(); ++i) {
@@ -90,7 +92,7 @@ double misfit_to_robust_line(const std::vector<double>& time, const std::vector<
     for (auto j = static_cast<std::ptrdiff_t>(i) + direction;
          j >= 0 && j < static_cast<std::ptrdiff_t>(kept.size()) && count > 0; j += direction) {
       const auto at = static_cast<std::size_t>(j);
-      if (std::abs(time[at] - time[i]) > 0.05) break;
+      if (std::abs(time[at] - time[i]) > too_far) break;
       if (!std::isfinite(kept[at])) continue;
       t.push_back(time[at] - time[i]);
       y.push_back(kept[at] - value);
