@@ -38,9 +38,6 @@ struct DiagnosisState {
   DiagnosisState settled(KnownEffects known) const;
 };
 
-/// Names a step of the course that may be left out.
-constexpr const char* damper_weighed = "what release and masses are uncertain by";
-
 /// Holds what all steps share; counts simulations and numbers the batches of random microstates.
 class DiagnosisTools {
  public:

@@ -12,6 +12,9 @@
 
 namespace shakedown {
 
+/// Names the stage in which the columns below are simulated, as a user is told it.
+constexpr const char* damper_weighed = "what release and masses are uncertain by";
+
 /// Describes one number of the damper that is known to an error.
 struct DamperError {
   std::string key;                  ///< of the setup, "box.mass"

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "camera_features.hpp"
+#include "damper_errors.hpp"
 #include "distributions.hpp"
 #include "free_parameters.hpp"
 #include "key_unit.hpp"
@@ -28,16 +30,18 @@ constexpr double confounded = 0.95;
 /// Returns the run up to this time (s) only.
 MeasuredFeatures beginning_of(const MeasuredFeatures& whole, double end) {
   MeasuredFeatures part{whole.run, whole.setup, {}, {}};
-  std::vector<double> values;
+  std::vector<Eigen::Index> kept;
   for (std::size_t f = 0; f < whole.plan.features.size(); ++f) {
     if (whole.plan.features[f].time > end) continue;
     part.plan.features.push_back(whole.plan.features[f]);
     part.plan.readings.push_back(whole.plan.readings[f]);
-    values.push_back(whole.values[static_cast<Eigen::Index>(f)]);
+    kept.push_back(static_cast<Eigen::Index>(f));
   }
   part.plan.end = std::min(whole.plan.end, end + 0.1);
   part.setup.run.duration = part.plan.end + simulated_beyond;
-  part.values = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  part.values = whole.values(kept);
+  for (const auto& [key, change] : whole.by_camera) part.by_camera[key] = change(kept);
+  if (whole.own.cols() > 0) part.own = whole.own(kept, Eigen::all);
   return part;
 }
 
@@ -86,20 +90,24 @@ class Fitter {
  public:
   Fitter(const Setup& setup, const Measurement& measurement, std::vector<Knob> knobs, const Engine& engine,
          const FitOptions& options)
-      : setup_(setup), knobs_(std::move(knobs)), start_(knobs_), options_(options) {
+      : setup_(setup), asked_(knobs.size()), knobs_(std::move(knobs)), options_(options) {
     fit_.start = setup;
     refuse_unknown_runs(measurement, options.on);
     refuse_too_few_simulations(knobs_, options.count);
-    for (const MeasuredFeatures& run : features_of(measurement)) {
-      const bool wanted =
-          options.on.empty() || std::find(options.on.begin(), options.on.end(), run.run) != options.on.end();
-      (wanted ? used_ : left_out_).push_back(run);
-    }
     workshop_ = {&engine, options.known, options.execution};
     workshop_.meter.done = [this](int more) {
       fit_.runs += more;
       if (options_.progress) options_.progress(stage_, fit_.runs);
     };
+    std::vector<MeasuredFeatures> measured = features_with_camera(measurement, options.known);
+    free_beside(camera_knobs(setup, measurement, options.known));
+    free_what_was_weighed(measurement, measured);
+    start_ = knobs_;
+    for (MeasuredFeatures& run : measured) {
+      const bool wanted =
+          options.on.empty() || std::find(options.on.begin(), options.on.end(), run.run) != options.on.end();
+      (wanted ? used_ : left_out_).push_back(std::move(run));
+    }
   }
 
   Fit run() {
@@ -113,6 +121,32 @@ class Fitter {
   }
 
  private:
+  bool is_asked(const std::string& key) const {
+    return std::any_of(knobs_.begin(), knobs_.begin() + static_cast<std::ptrdiff_t>(asked_),
+                       [&](const Knob& knob) {
+                         const std::vector<std::string> keys = joined_keys(knob.key);
+                         return std::find(keys.begin(), keys.end(), key) != keys.end();
+                       });
+  }
+
+  /// Frees besides what is known to within an error only, as a diagnosis does: a film through a lens and a
+  /// shutter, or a box two grams heavier than was weighed, is not the model's mistake.
+  void free_beside(std::vector<Knob> known_to_an_error) {
+    for (Knob& knob : known_to_an_error)
+      if (!is_asked(knob.key)) knobs_.push_back(std::move(knob));
+  }
+
+  void free_what_was_weighed(const Measurement& measurement, std::vector<MeasuredFeatures>& measured) {
+    std::vector<DamperError> errors = damper_errors(measurement);
+    std::erase_if(errors, [&](const DamperError& error) { return is_asked(error.key); });
+    if (errors.empty()) return;
+    stage_ = damper_weighed;
+    constexpr int count = 16;  // an eleventh of the chaos is left in a column of four standard deviations
+    add_columns(errors, columns_of(errors, measured, count, round(1, 1).first_run, workshop_), options_.known,
+                measured);
+    free_beside(knobs_of(errors, setup_));
+  }
+
   RefitOptions round(int rounds, int most_rounds) {
     RefitOptions options;
     options.count = options_.count;
@@ -126,6 +160,7 @@ class Fitter {
 
   void move_to(const Refit& found) {
     for (std::size_t k = 0; k < knobs_.size(); ++k) {
+      if (knobs_[k].exact) continue;  // it stays where the recording was read
       knobs_[k].centre = found.values[k].value;
       knobs_[k].width = std::clamp(4 * found.values[k].error, 0.1 * start_[k].width, start_[k].width);
     }
@@ -151,17 +186,24 @@ class Fitter {
         emulate(used_, knobs_, options_.count, options_.first_run, workshop_);
     const ToldApart told = told_apart(used_, knobs_, emulators, model_error());
     covariance_ = told.covariance * std::max(1.0, found.scatter);
-    fit_.correlation = told.correlation;
+    const auto asked = static_cast<Eigen::Index>(asked_);
+    fit_.correlation = told.correlation.topLeftCorner(asked, asked);
     fit_.used = found.runs;
     fit_.measured = used_;
     fit_.solution = found;
     fit_.p_value = found.p_value;
     fit_.scatter = found.scatter;
     fit_.judgement = judgement_of(found.test(), {std::nan(""), std::nan(""), "not asked"}, found.left());
-    fit_.fitted = setup_at(setup_, knobs_, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs_.size())),
-                           options_.known);
+    camera_ = Eigen::VectorXd::Zero(std::ssize(knobs_));
     for (std::size_t k = 0; k < knobs_.size(); ++k)
-      fit_.parameters.push_back(parameter(k, found.values[k], told));
+      if (knobs_[k].exact) camera_[static_cast<Eigen::Index>(k)] = knobs_[k].z_of(found.values[k].value);
+    fit_.fitted = setup_;
+    for (std::size_t k = 0; k < asked_; ++k) {
+      Knob at_solution = knobs_[k];
+      at_solution.centre = found.values[k].value;
+      set_knob(fit_.fitted, at_solution, options_.known);
+    }
+    for (std::size_t k = 0; k < asked_; ++k) fit_.parameters.push_back(parameter(k, found.values[k], told));
   }
 
   FittedParameter parameter(std::size_t k, const FittedValue& value, const ToldApart& told) const {
@@ -171,7 +213,7 @@ class Fitter {
     const double error = std::max(value.error, told.error[i] * std::sqrt(std::max(1.0, fit_.scatter)));
     FittedParameter found =
         told_parameter(knob, start_[k], value.value, error, value.at_bound, options_.known);
-    for (std::size_t other = 0; other < knobs_.size(); ++other)
+    for (std::size_t other = 0; other < asked_; ++other)
       if (other != k && std::abs(told.correlation(i, static_cast<Eigen::Index>(other))) > confounded)
         add_remark(found, fmt::format("only a combination with {} is told (alone it would be known to {:.2g} "
                                       "of this interval)",
@@ -182,15 +224,20 @@ class Fitter {
   void foretell() {
     if (left_out_.empty()) return;
     stage_ = "foretelling the runs left out";
-    const std::vector<Emulator> emulators =
+    std::vector<Emulator> emulators =
         emulate(left_out_, knobs_, options_.count, options_.first_run + 50000, workshop_);
+    for (Emulator& emulator : emulators)
+      emulator.coefficients.row(0) +=
+          camera_.transpose() * emulator.coefficients.middleRows(1, camera_.size());
     for (std::size_t r = 0; r < left_out_.size(); ++r)
       fit_.left_out.push_back(foretold(left_out_[r], knobs_, emulators[r], covariance_, model_error()));
   }
 
   const Setup& setup_;
-  std::vector<Knob> knobs_;
-  const std::vector<Knob> start_;
+  const std::size_t asked_;  ///< number of knobs that the user frees; those of the camera follow
+  std::vector<Knob> knobs_;  ///< where the fit has come to
+  std::vector<Knob> start_;  ///< where it began
+  Eigen::VectorXd camera_;   ///< z of the camera's knobs at the solution, 0 of the others
   const FitOptions& options_;
   std::vector<MeasuredFeatures> used_, left_out_;
   Workshop workshop_;

@@ -35,13 +35,14 @@ ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::v
     const Emulator& emulator = emulators[r];
     const Eigen::Index half = emulator.residuals.rows() / 2;
     const Eigen::MatrixXd slopes = slopes_of(knobs, emulator) * width.asDiagonal();
-    const Eigen::LLT<Eigen::MatrixXd> weight(
-        covariance_for_means(emulator.residuals.topRows(half), measured[r].plan, model_error));
+    const Eigen::LLT<Eigen::MatrixXd> weight(with_own(
+        covariance_for_means(emulator.residuals.topRows(half), measured[r].plan, model_error), measured[r]));
     const Eigen::MatrixXd weighted = weight.solve(slopes);
     information += slopes.transpose() * weighted;
     scatter += weighted.transpose() *
-               covariance_for_means(emulator.residuals.bottomRows(emulator.residuals.rows() - half),
-                                    measured[r].plan, model_error) *
+               with_own(covariance_for_means(emulator.residuals.bottomRows(emulator.residuals.rows() - half),
+                                             measured[r].plan, model_error),
+                        measured[r]) *
                weighted;
     // Slopes are known from chaotic runs: even those of a parameter that does nothing are not zero, and their
     // squares would count as information.
@@ -73,8 +74,9 @@ ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::v
 RunComparison foretold(const MeasuredFeatures& measured, const std::vector<Knob>& knobs,
                        const Emulator& emulator, const Eigen::MatrixXd& parameters, double model_error) {
   const Eigen::MatrixXd slopes = slopes_of(knobs, emulator);
-  const Eigen::MatrixXd whole = covariance_for_means(emulator.residuals, measured.plan, model_error) +
-                                slopes * parameters * slopes.transpose();
+  const Eigen::MatrixXd whole =
+      with_own(covariance_for_means(emulator.residuals, measured.plan, model_error), measured) +
+      slopes * parameters * slopes.transpose();
   RunComparison run;
   run.run = measured.run;
   run.residual = measured.values - emulator.coefficients.row(0).transpose();

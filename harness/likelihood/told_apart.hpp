@@ -19,8 +19,9 @@ struct ToldApart {
 
 /// Estimates by weighted least squares with the covariance of one half of the simulations. The spread of the
 /// estimates is taken from the residuals of the other half (and camera noise), which the weights have not
-/// seen. `emulators` are of the measured runs with the knobs at the solution; `model_error` (m) is added to
-/// each feature as in a refit. What is believed of a knob, and its bounds, count as if they were measured.
+/// seen; what a run has of its own counts in both. `emulators` are of the measured runs with the knobs at the
+/// solution; `model_error` (m) is added to each feature as in a refit. What is believed of a knob, and its
+/// bounds, count as if they were measured.
 ToldApart told_apart(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
                      const std::vector<Emulator>& emulators, double model_error);
 
