@@ -204,6 +204,9 @@ class Fitter {
       set_knob(fit_.fitted, at_solution, options_.known);
     }
     for (std::size_t k = 0; k < asked_; ++k) fit_.parameters.push_back(parameter(k, found.values[k], told));
+    for (std::size_t k = asked_; k < knobs_.size(); ++k)
+      fit_.beside.push_back({knobs_[k].key, si_unit_of_key(knobs_[k].key, options_.known),
+                             found.values[k].value, found.values[k].error, knobs_[k].believed_error});
   }
 
   FittedParameter parameter(std::size_t k, const FittedValue& value, const ToldApart& told) const {

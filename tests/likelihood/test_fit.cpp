@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -114,6 +115,13 @@ TEST(Fit, ThroughALensAShutterAndAScaleThatAreKnownToTheirErrors) {
     EXPECT_LE(parameter.low, value) << parameter.key;
     EXPECT_GE(parameter.high, value) << parameter.key;
   }
+  const auto lens = std::find_if(fit.beside.begin(), fit.beside.end(), [](const FreedBeside& freed) {
+    return freed.key == "camera_lens.distortion";
+  });
+  ASSERT_NE(lens, fit.beside.end());
+  EXPECT_LT(std::abs(lens->value - 0.008), 3 * lens->error);
+  EXPECT_NE(fit_text(fit).find("camera_lens.distortion"), std::string::npos);
+  EXPECT_NE(fit_json(fit).find("\"camera\""), std::string::npos);
   ASSERT_EQ(fit.left_out.size(), 1u);
   EXPECT_LT(fit.left_out[0].error_box, 2 * fit.left_out[0].floor_box) << "foretold through the same camera";
 }
