@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "course.hpp"
-#include "drawn_curves.hpp"
 #include "effects.hpp"
 #include "fit_report.hpp"
 #include "free_parameters.hpp"
 #include "knobs_report.hpp"
+#include "measured_against_model.hpp"
 #include "momentum.hpp"
 #include "refit.hpp"
 #include "refit_options.hpp"
@@ -163,24 +163,41 @@ Fit fitted_and_judged(const Setup& given, const Measurement& recorded, const Fit
 
 namespace {
 
-/// Returns what a reader may turn: the keys that were fitted.
-ReportKnobs knobs_of_fit(const Fit& fit, const Measurement& measurement, const Engine& engine,
-                         const Execution& execution) {
+/// Returns the fit as its page needs it, beside the model as given; nothing of boxes without grains.
+std::optional<LastFit> last_fit_of(const Fit& fit, const Measurement& measurement, const Engine& engine,
+                                   const Execution& execution) {
   if (fit.measured.empty()) return {};
   const Workshop workshop{&engine, all_effects(), execution};
   RefitOptions once;
   constexpr int count = 64;
   once.count = count, once.rounds = once.most_rounds = 1;
-  const LastFit last{
+  return LastFit{
       measurement,
       EnsembleFit{fit.fitted, fit.measured, compare_at(fit.measured, {}, workshop, once), fit.solution},
       {}};
+}
+
+/// Returns the curves; those of the fitted model are filmed by the camera that the fit has found.
+std::vector<MeasuredAgainstModel> curves_of_fit(const Fit& fit, const std::optional<LastFit>& last,
+                                                const Measurement& measurement, const Setup& given,
+                                                const Engine& engine, const Execution& execution) {
+  CurveOptions options;
+  options.execution = execution;
+  options.known = all_effects();
+  if (last) options.final_of_run = setups_of(*last, fit.fitted, all_effects());
+  return measured_against_model(measurement, &given, fit.fitted, engine, options);
+}
+
+/// Returns what a reader may turn: the keys that were fitted, camera and weights.
+ReportKnobs knobs_of_fit(const Fit& fit, const std::optional<LastFit>& last, const Engine& engine,
+                         const Execution& execution) {
+  if (!last) return {};
   TurnedOptions options;
   options.known = all_effects();
   options.execution = execution;
   constexpr double share_of_time = 0.2, least = 20;  // beside that of the fit itself; s
   options.seconds = std::max(least, share_of_time * fit.seconds);
-  return knobs_of(turned_model(*last.ensembles, fit.start, engine, options), last, fit.fitted);
+  return knobs_of(turned_model(*last->ensembles, fit.start, engine, options), *last, fit.fitted);
 }
 
 }  // namespace
@@ -190,8 +207,9 @@ Report report_of(const Fit& fit, const Setup& given, const Measurement& recorded
   const bool empty = is_empty(given, recorded);
   const Measurement measurement =
       from_first_turns(empty ? with_setup(recorded, fit.fitted, all_effects()) : recorded, engine);
-  return report_of(fit, measurement, drawn_curves(measurement, &given, fit.fitted, engine, execution),
-                   knobs_of_fit(fit, measurement, engine, execution));
+  const std::optional<LastFit> last = last_fit_of(fit, measurement, engine, execution);
+  return report_of(fit, measurement, curves_of_fit(fit, last, measurement, given, engine, execution),
+                   knobs_of_fit(fit, last, engine, execution));
 }
 
 }  // namespace shakedown

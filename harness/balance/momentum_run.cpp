@@ -187,8 +187,7 @@ Eigen::Vector4d cubic_weights(const Eigen::Vector4d& places, double at) {
 }
 
 LocalCubic local_cubic(int half) {
-  const Eigen::MatrixXd fit =
-      least_squares_weights(powers_of(Eigen::ArrayXd::LinSpaced(2 * half + 1, -1, 1), 4));
+  const Eigen::MatrixXd fit = least_squares_weights(powers_of(even_places(half), 4));
   return {fit.row(0).transpose(), fit.row(1).transpose() / half};
 }
 

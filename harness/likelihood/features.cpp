@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "local_polynomial.hpp"
-
 namespace shakedown {
 
 namespace {
@@ -25,9 +23,12 @@ double noise_of(const FeaturePlan::Reading& reading, const NoiseFound& noise) {
 
 /// Returns the weights that give the value at `middle` (s) of a parabola through the frames (least squares).
 std::vector<double> level_weights(const std::vector<double>& time, double middle) {
+  Eigen::MatrixXd basis(static_cast<Eigen::Index>(time.size()), 3);
   const double half = std::max(1e-9, (time.back() - time.front()) / 2);
-  const Eigen::Map<const Eigen::ArrayXd> at(time.data(), static_cast<Eigen::Index>(time.size()));
-  const Eigen::MatrixXd basis = powers_of((at - middle) / half, 3);
+  for (Eigen::Index i = 0; i < basis.rows(); ++i) {
+    const double u = (time[static_cast<std::size_t>(i)] - middle) / half;
+    basis.row(i) << 1, u, u * u;
+  }
   const Eigen::Matrix3d normal = basis.transpose() * basis;
   const Eigen::VectorXd weight = basis * normal.ldlt().solve(Eigen::Vector3d(1, 0, 0));
   return {weight.data(), weight.data() + weight.size()};

@@ -90,7 +90,11 @@ class Fitter {
  public:
   Fitter(const Setup& setup, const Measurement& measurement, std::vector<Knob> knobs, const Engine& engine,
          const FitOptions& options)
-      : setup_(setup), asked_(knobs.size()), knobs_(std::move(knobs)), options_(options) {
+      : setup_(setup),
+        measurement_(measurement),
+        asked_(knobs.size()),
+        knobs_(std::move(knobs)),
+        options_(options) {
     fit_.start = setup;
     refuse_unknown_runs(measurement, options.on);
     refuse_too_few_simulations(knobs_, options.count);
@@ -99,20 +103,16 @@ class Fitter {
       fit_.runs += more;
       if (options_.progress) options_.progress(stage_, fit_.runs);
     };
-    std::vector<MeasuredFeatures> measured = features_with_camera(measurement, options.known);
-    free_beside(camera_knobs(setup, measurement, options.known));
-    free_what_was_weighed(measurement, measured);
     start_ = knobs_;
-    for (MeasuredFeatures& run : measured) {
-      const bool wanted =
-          options.on.empty() || std::find(options.on.begin(), options.on.end(), run.run) != options.on.end();
-      (wanted ? used_ : left_out_).push_back(std::move(run));
-    }
+    free_beside(camera_knobs(setup, measurement, options.known));
+    all_ = features_with_camera(measurement, options.known);
+    part();
   }
 
   Fit run() {
     const auto begin = std::chrono::steady_clock::now();
     for (const double end : first_looks) look_until(end);
+    free_what_was_weighed();
     const Refit last = fit_all();
     tell(last);
     foretell();
@@ -131,20 +131,40 @@ class Fitter {
 
   /// Frees besides what is known to within an error only, as a diagnosis does: a film through a lens and a
   /// shutter, or a box two grams heavier than was weighed, is not the model's mistake.
-  void free_beside(std::vector<Knob> known_to_an_error) {
-    for (Knob& knob : known_to_an_error)
-      if (!is_asked(knob.key)) knobs_.push_back(std::move(knob));
+  void free_beside(const std::vector<Knob>& known_to_an_error) {
+    for (const Knob& knob : known_to_an_error) {
+      if (is_asked(knob.key)) continue;
+      knobs_.push_back(knob);
+      start_.push_back(knob);
+    }
   }
 
-  void free_what_was_weighed(const Measurement& measurement, std::vector<MeasuredFeatures>& measured) {
-    std::vector<DamperError> errors = damper_errors(measurement);
+  /// Sorts the runs into those that are fitted and those that are foretold.
+  void part() {
+    used_.clear(), left_out_.clear();
+    for (const MeasuredFeatures& run : all_) {
+      const bool wanted = options_.on.empty() ||
+                          std::find(options_.on.begin(), options_.on.end(), run.run) != options_.on.end();
+      (wanted ? used_ : left_out_).push_back(run);
+    }
+  }
+
+  /// Simulates what the errors of masses and releases do, where the first looks have brought the model: at a
+  /// wrong frequency it would have another phase.
+  void free_what_was_weighed() {
+    std::vector<DamperError> errors = damper_errors(measurement_);
     std::erase_if(errors, [&](const DamperError& error) { return is_asked(error.key); });
     if (errors.empty()) return;
     stage_ = damper_weighed;
+    std::vector<MeasuredFeatures> here = all_;
+    for (MeasuredFeatures& run : here)
+      for (std::size_t k = 0; k < asked_; ++k)
+        if (!knobs_[k].exact) set_knob(run.setup, knobs_[k], options_.known);
     constexpr int count = 16;  // an eleventh of the chaos is left in a column of four standard deviations
-    add_columns(errors, columns_of(errors, measured, count, round(1, 1).first_run, workshop_), options_.known,
-                measured);
+    add_columns(errors, columns_of(errors, here, count, round(1, 1).first_run, workshop_), options_.known,
+                all_);
     free_beside(knobs_of(errors, setup_));
+    part();
   }
 
   RefitOptions round(int rounds, int most_rounds) {
@@ -237,12 +257,13 @@ class Fitter {
   }
 
   const Setup& setup_;
+  const Measurement& measurement_;
   const std::size_t asked_;  ///< number of knobs that the user frees; those of the camera follow
   std::vector<Knob> knobs_;  ///< where the fit has come to
   std::vector<Knob> start_;  ///< where it began
   Eigen::VectorXd camera_;   ///< z of the camera's knobs at the solution, 0 of the others
   const FitOptions& options_;
-  std::vector<MeasuredFeatures> used_, left_out_;
+  std::vector<MeasuredFeatures> all_, used_, left_out_;  ///< all: in the order of the measurement
   Workshop workshop_;
   Eigen::MatrixXd covariance_;  // of the estimates
   Fit fit_;

@@ -10,6 +10,9 @@ namespace shakedown {
 /// Returns the columns 1, u, u^2 ...: one row a place, one column a coefficient.
 Eigen::MatrixXd powers_of(const Eigen::ArrayXd& places, Eigen::Index coefficients);
 
+/// Returns 2 half + 1 places from -1 to 1, as far apart as frames of an even clock.
+Eigen::ArrayXd even_places(int half);
+
 /// Fits a polynomial by least squares (normal equations) to points that come one by one.
 template <int coefficients_>
 class LocalPolynomial {

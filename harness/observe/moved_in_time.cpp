@@ -8,7 +8,6 @@
 #include <map>
 
 #include "least_squares.hpp"
-#include "local_polynomial.hpp"
 
 namespace shakedown {
 
@@ -34,7 +33,9 @@ enum class Solve { by_rotations, by_normal_equations };
 Eigen::Matrix3Xd cubic_weights(const Eigen::ArrayXd& time, Solve way) {
   const Eigen::Index n = time.size(), terms = std::min<Eigen::Index>(4, n);
   const double reach = std::max(time.abs().maxCoeff(), 1e-300);
-  const Eigen::MatrixXd powers = powers_of(time / reach, terms);
+  Eigen::MatrixXd powers = Eigen::MatrixXd::Ones(n, terms);
+  for (Eigen::Index power = 1; power < terms; ++power)
+    powers.col(power) = (powers.col(power - 1).array() * time / reach).matrix();
   Eigen::MatrixXd fit;
   if (way == Solve::by_rotations) {
     fit = least_squares_weights(powers);

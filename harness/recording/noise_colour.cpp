@@ -50,9 +50,8 @@ std::vector<double> rough_part(const NoiseSeries& series, const Eigen::VectorXd&
 /// Builds the filter that takes out a local polynomial (over 40 ms, and over nine frames or what the order
 /// needs): one at the frame itself, less the weights of the fit.
 Eigen::VectorXd roughness_filter(double interval, int order) {
-  const int half = std::max({4, order / 2 + 2, static_cast<int>(std::lround(0.02 / interval))}),
-            n = 2 * half + 1;
-  const Eigen::MatrixXd powers = powers_of(Eigen::ArrayXd::LinSpaced(n, -1, 1), order);
+  const int half = std::max({4, order / 2 + 2, static_cast<int>(std::lround(0.02 / interval))});
+  const Eigen::MatrixXd powers = powers_of(even_places(half), order);
   const Eigen::MatrixXd normal = powers.transpose() * powers;
   Eigen::VectorXd filter = -powers * normal.ldlt().solve(Eigen::VectorXd::Unit(order, 0));
   filter[half] += 1;

@@ -38,14 +38,16 @@ TEST(RunningStatistic, IsTheStatisticOfTheValues) {
 
 // The same points by QR of all columns at once and by normal equations point by point: two ways to one fit.
 TEST(LocalPolynomial, IsTheLeastSquaresFitOfItsPowers) {
-  const Eigen::ArrayXd places = Eigen::ArrayXd::LinSpaced(9, -1, 1);
+  const Eigen::ArrayXd places = even_places(4);
   Eigen::VectorXd values(9);
   values << 3, 1, 4, 1, 5, 9, 2, 6, 5;
   LocalPolynomial<4> cubic;
   for (Eigen::Index i = 0; i < places.size(); ++i) cubic.add(places[i], values[i]);
   const Eigen::MatrixXd columns = powers_of(places, 4);
   EXPECT_EQ(columns.col(0), Eigen::VectorXd::Ones(9));
-  EXPECT_EQ(columns.col(3), (places * places * places).matrix());
+  EXPECT_EQ(places[0], -1);
+  EXPECT_EQ(places[5], 0.25);
+  EXPECT_EQ(columns.col(3), (places * places * places).matrix()) << "quarters have exact cubes";
   const Eigen::VectorXd expected = least_squares_coefficients(columns, values);
   const Eigen::MatrixXd weights = least_squares_weights(columns);
   EXPECT_EQ(cubic.count(), 9);
