@@ -245,14 +245,7 @@ struct Simulated {
 Simulated simulate(const Group& group, const std::vector<MeasuredFeatures>& measured,
                    const std::vector<Knob>& knobs, int run, double sparse, const Workshop& workshop) {
   Simulated simulated{scatter(knobs, group.setup.run.seed + 7919 * group.stream, run, sparse), {}};
-  // What exact knobs do is a column of the features; a run that has its own mass or camera keeps it.
-  Setup setup = group.setup;
-  for (std::size_t k = 0; k < knobs.size(); ++k) {
-    if (knobs[k].exact) continue;
-    Knob moved = knobs[k];
-    moved.centre = moved.at(simulated.z[static_cast<Eigen::Index>(k)]);
-    set_knob(setup, moved, workshop.known);
-  }
+  Setup setup = setup_at(group.setup, knobs, simulated.z, workshop.known);
   setup.run.seed += 104729 * group.stream;
   std::vector<ReadOff> read;
   for (const std::size_t m : group.members) read.push_back({measured[m].run, &measured[m].plan});

@@ -2,8 +2,8 @@
 // Polynomials through points near each other. Places are best given within +-1, where the powers differ
 // enough.
 #pragma once
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 namespace shakedown {
 
@@ -13,7 +13,8 @@ Eigen::MatrixXd powers_of(const Eigen::ArrayXd& places, Eigen::Index coefficient
 /// Returns 2 half + 1 places from -1 to 1, as far apart as frames of an even clock.
 Eigen::ArrayXd even_places(int half);
 
-/// Fits a polynomial by least squares (normal equations) to points that come one by one.
+/// Fits a polynomial by least squares (normal equations, by the closed form of a small inverse) to points
+/// that come one by one.
 template <int coefficients_>
 class LocalPolynomial {
  public:
@@ -31,9 +32,9 @@ class LocalPolynomial {
   }
   int count() const { return count_; }  ///< points so far
   /// Returns the coefficients, constant first, in the value's unit. Needs as many places as coefficients.
-  Vector coefficients() const { return normal_.ldlt().solve(right_); }
+  Vector coefficients() const { return covariance() * right_; }
   /// Returns their covariance where each value has variance 1.
-  Matrix covariance() const { return normal_.ldlt().solve(Matrix::Identity()); }
+  Matrix covariance() const { return normal_.inverse(); }
 
  private:
   Matrix normal_ = Matrix::Zero();
