@@ -10,9 +10,9 @@
 
 namespace shakedown {
 
-/// Fits the knobs (none: the setup as it is). Where simulations are refused (SimulationMeter::ask_for) once there
-/// is a solution, that solution is the answer; before, BudgetSpent passes through. `measured` may leave runs
-/// out; compare_at() then judges them.
+/// Fits the knobs (none: the setup as it is). Where simulations are refused (SimulationMeter::ask_for) once
+/// there is a solution, that solution is the answer; before, BudgetSpent passes through. `measured` may leave
+/// runs out; compare_at() then judges them.
 Refit refit(const std::vector<MeasuredFeatures>& measured, std::vector<Knob> knobs, const Workshop& workshop,
             const RefitOptions& options);
 
