@@ -237,6 +237,19 @@ std::optional<Eigen::VectorXd> place_in_box(const PooledRun& run, const std::vec
   return z;
 }
 
+/// Puts an exact knob into the setup of a run. Where it has a width its column moves the features from where
+/// the run was measured, with a number of the run's own where it has one; without a width the run is
+/// simulated at the knob's value, moved as far from its own number as the knob is from what is believed of
+/// all. A run whose column is zero knows its own number exactly.
+void set_exact_knob(Setup& setup, const Knob& knob, const MeasuredFeatures& measured, KnownEffects known) {
+  if (knob.width > 0) return;
+  const auto column = measured.by_camera.find(knob.key);
+  if (column != measured.by_camera.end() && column->second.isZero(0)) return;
+  const double own = get_number(setup, knob.key, known);
+  set_number(setup, knob.key, own == knob.believed ? knob.centre : own + (knob.centre - knob.believed),
+             known);
+}
+
 struct Simulated {
   Eigen::VectorXd z;
   std::vector<Eigen::VectorXd> features;  // of each member
@@ -245,7 +258,16 @@ struct Simulated {
 Simulated simulate(const Group& group, const std::vector<MeasuredFeatures>& measured,
                    const std::vector<Knob>& knobs, int run, double sparse, const Workshop& workshop) {
   Simulated simulated{scatter(knobs, group.setup.run.seed + 7919 * group.stream, run, sparse), {}};
-  Setup setup = setup_at(group.setup, knobs, simulated.z, workshop.known);
+  Setup setup = group.setup;
+  for (std::size_t k = 0; k < knobs.size(); ++k) {
+    if (knobs[k].exact) {
+      set_exact_knob(setup, knobs[k], measured[group.members.front()], workshop.known);
+      continue;
+    }
+    Knob moved = knobs[k];
+    moved.centre = moved.at(simulated.z[static_cast<Eigen::Index>(k)]);
+    set_knob(setup, moved, workshop.known);
+  }
   setup.run.seed += 104729 * group.stream;
   std::vector<ReadOff> read;
   for (const std::size_t m : group.members) read.push_back({measured[m].run, &measured[m].plan});

@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
+#include <mutex>
+#include <set>
 
 #include "damped_oscillation.hpp"
+#include "effects.hpp"
+#include "parameter_knobs.hpp"
 
 using namespace shakedown;
 
@@ -39,6 +43,46 @@ TEST(Emulator, LearnsFromThePoolWhatLiesInItsBox) {
   std::vector<MeasuredFeatures> other = measured;
   for (MeasuredFeatures& m : other) m.setup.grains.count = 20;
   EXPECT_EQ(emulate(other, theta, 64, 3000, workshop)[0].residuals.rows(), 64);
+}
+
+/// Notes with which masses of the box it was asked.
+class Weighing final : public Engine {
+ public:
+  std::string_view name() const override { return inner_.name(); }
+  Capability can_model(const EffectRecord& record) const override { return inner_.can_model(record); }
+  Trajectory run(const Setup& setup, const RunOptions& options) const override {
+    const std::lock_guard lock(guard_);
+    masses.insert(setup.box.mass);
+    return inner_.run(setup, options);
+  }
+  mutable std::set<double> masses;
+
+ private:
+  DampedOscillation inner_;
+  mutable std::mutex guard_;
+};
+
+// Boxes of three lengths weigh what they weigh: a fit that finds all of them 2 g heavier moves each from its
+// own mass, and not at all the one that is known exactly.
+TEST(Emulator, ARunKeepsItsOwnMassWhereTheCommonOneIsFree) {
+  const Weighing engine;
+  const Workshop workshop{&engine, all_effects(), {2}};
+  std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
+  ASSERT_GE(measured.size(), 2u);
+  const double common = believed_setup().box.mass, heavier = common + 0.05;
+  for (MeasuredFeatures& m : measured) m.by_camera["box.mass"] = m.values;
+  measured[1].setup.box.mass = heavier;
+  Knob mass = exact_knob("box.mass", common, 0.002);
+  emulate(measured, {theta[0], mass}, 16, 0, workshop);
+  EXPECT_EQ(engine.masses, (std::set<double>{common, heavier})) << "what the mass does is a column";
+  engine.masses.clear();
+  mass.centre += 0.002, mass.width = 0;  // simulations at a solution
+  emulate(measured, {theta[0], mass}, 16, 1000, workshop);
+  EXPECT_EQ(engine.masses, (std::set<double>{common + 0.002, heavier + ((common + 0.002) - common)}));
+  engine.masses.clear();
+  measured[1].by_camera["box.mass"].setZero();
+  emulate(measured, {theta[0], mass}, 16, 2000, workshop);
+  EXPECT_EQ(engine.masses, (std::set<double>{common + 0.002, heavier}));
 }
 
 /// The stand-in's data with what two errors of a camera would do to them.
