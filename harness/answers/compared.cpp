@@ -271,7 +271,8 @@ Report report_of(const Compared& compared, const Setup& setup, const Engine& eng
                  const Execution& execution) {
   return report_of({compared.fit, compared.momentum, compared.judgement, compared.decays},
                    compared.measurement, setup,
-                   drawn_curves(compared.measurement, nullptr, setup, engine, execution),
+                   drawn_curves(compared.measurement, nullptr, setup,
+                                compared.last.ensembles ? &compared.last : nullptr, engine, execution),
                    knobs_of_comparison(compared.last, setup, engine, execution));
 }
 

@@ -93,18 +93,10 @@ ReportKnobs knobs_of_diagnosis(const Diagnosis& diagnosis, const Setup& user, co
 Report report_of(const Diagnosis& diagnosis, const Measurement& measurement, const Setup& given,
                  const PageOptions& page) {
   const std::unique_ptr<Engine> engine = engine_named(diagnosis.engine);
-  CurveOptions drawn;
-  drawn.execution = page.execution;
-  drawn.known = all_effects();
   const LastFit* fit = diagnosis.last_fit.get();
-  if (fit != nullptr) {
-    drawn.final_of_run = setups_of(*fit, diagnosis.amended, all_effects());
-    drawn.from_first_frame = fit->swing.has_value();
-    if (fit->swing) drawn.runs = 1;
-  }
   const Measurement& shown = fit != nullptr ? fit->measurement : measurement;
   return report_of(diagnosis, measurement, given,
-                   measured_against_model(shown, &given, diagnosis.amended, *engine, drawn),
+                   drawn_curves(shown, &given, diagnosis.amended, fit, *engine, page.execution),
                    knobs_of_diagnosis(diagnosis, given, *engine, page));
 }
 

@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "course.hpp"
+#include "drawn_curves.hpp"
 #include "effects.hpp"
 #include "fit_report.hpp"
 #include "free_parameters.hpp"
 #include "knobs_report.hpp"
-#include "measured_against_model.hpp"
 #include "momentum.hpp"
 #include "refit.hpp"
 #include "refit_options.hpp"
@@ -177,17 +177,6 @@ std::optional<LastFit> last_fit_of(const Fit& fit, const Measurement& measuremen
       {}};
 }
 
-/// Returns the curves; those of the fitted model are filmed by the camera that the fit has found.
-std::vector<MeasuredAgainstModel> curves_of_fit(const Fit& fit, const std::optional<LastFit>& last,
-                                                const Measurement& measurement, const Setup& given,
-                                                const Engine& engine, const Execution& execution) {
-  CurveOptions options;
-  options.execution = execution;
-  options.known = all_effects();
-  if (last) options.final_of_run = setups_of(*last, fit.fitted, all_effects());
-  return measured_against_model(measurement, &given, fit.fitted, engine, options);
-}
-
 /// Returns what a reader may turn: the keys that were fitted, camera and weights.
 ReportKnobs knobs_of_fit(const Fit& fit, const std::optional<LastFit>& last, const Engine& engine,
                          const Execution& execution) {
@@ -208,7 +197,8 @@ Report report_of(const Fit& fit, const Setup& given, const Measurement& recorded
   const Measurement measurement =
       from_first_turns(empty ? with_setup(recorded, fit.fitted, all_effects()) : recorded, engine);
   const std::optional<LastFit> last = last_fit_of(fit, measurement, engine, execution);
-  return report_of(fit, measurement, curves_of_fit(fit, last, measurement, given, engine, execution),
+  return report_of(fit, measurement,
+                   drawn_curves(measurement, &given, fit.fitted, last ? &*last : nullptr, engine, execution),
                    knobs_of_fit(fit, last, engine, execution));
 }
 

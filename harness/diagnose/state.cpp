@@ -184,11 +184,10 @@ std::vector<MeasuredFeatures> DiagnosisTools::features_of(const Measurement& mea
 }
 
 std::vector<Knob> DiagnosisTools::weigh_damper(const Setup& setup) {
-  constexpr int count = 16;  // an eleventh of the chaos is left in a column of four standard deviations
   std::vector<DamperError> errors = damper_errors(measurement_);
   if (errors.empty()) return {};
   begin(damper_weighed);
-  damper_columns_ = columns_of(errors, features(setup), count, next_batch(), workshop_);
+  damper_columns_ = columns_of(errors, features(setup), simulations_of_a_column, next_batch(), workshop_);
   damper_errors_ = std::move(errors);
   return knobs_of(damper_errors_, setup);
 }

@@ -30,6 +30,10 @@ struct DamperError {
 /// those whose grains were measured in the same frame as the box (it would be moved through them) have none.
 std::vector<DamperError> damper_errors(const Measurement& measurement);
 
+/// Simulations of each setup from which a column is made: an eleventh of the chaos is left in one of four
+/// standard deviations.
+constexpr int simulations_of_a_column = 16;
+
 /// Change of the features of each run by one number of the damper, m per unit.
 using FeatureColumns = std::vector<Eigen::VectorXd>;
 /// Returns the columns of each error. The number is moved by a fiftieth of its value, but by no less than two

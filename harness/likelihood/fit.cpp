@@ -160,9 +160,9 @@ class Fitter {
     for (MeasuredFeatures& run : here)
       for (std::size_t k = 0; k < asked_; ++k)
         if (!knobs_[k].exact) set_knob(run.setup, knobs_[k], options_.known);
-    constexpr int count = 16;  // an eleventh of the chaos is left in a column of four standard deviations
-    add_columns(errors, columns_of(errors, here, count, round(1, 1).first_run, workshop_), options_.known,
-                all_);
+    const int first_run = round(1, 1).first_run;
+    add_columns(errors, columns_of(errors, here, simulations_of_a_column, first_run, workshop_),
+                options_.known, all_);
     free_beside(knobs_of(errors, setup_));
     part();
   }
@@ -236,7 +236,7 @@ class Fitter {
     const double error = std::max(value.error, told.error[i] * std::sqrt(std::max(1.0, fit_.scatter)));
     FittedParameter found =
         told_parameter(knob, start_[k], value.value, error, value.at_bound, options_.known);
-    for (std::size_t other = 0; other < asked_; ++other)
+    for (std::size_t other = 0; other < knobs_.size(); ++other)
       if (other != k && std::abs(told.correlation(i, static_cast<Eigen::Index>(other))) > confounded)
         add_remark(found, fmt::format("only a combination with {} is told (alone it would be known to {:.2g} "
                                       "of this interval)",
