@@ -88,7 +88,10 @@ class Merge {
         found_(found),
         now_(found.contacts) {}
 
-  void candidate(std::uint64_t key, int i, int j, ContactClass kind, const Geometry& geometry) {
+  /// Few pairs and grains are candidates: within the loops that look for them this would take their
+  /// registers.
+  [[gnu::noinline]] void candidate(std::uint64_t key, int i, int j, ContactClass kind,
+                                   const Geometry& geometry) {
     pass_by_until(key);
     if (old_ != end_ && old_->key == key) {
       now_.push_back(*old_++);
@@ -181,7 +184,16 @@ void wall_candidates(const ContactModel& model, const Bodies& bodies, Merge& mer
   for (std::size_t axis = 0; axis < 3; ++axis)
     near[axis] = any_at_wall(bodies, static_cast<int>(axis), centre[axis], half[axis], range);
   if (!near[0] && !near[1] && !near[2]) return;
-  for (int i = 0; i < bodies.grains; ++i)
+  const double* radius = bodies.radius.data();
+  const auto reaches = [&](int i) {
+    bool any = false;
+    for (std::size_t a = 0; a < 3; ++a)
+      any |= near[a] &&
+             std::abs(bodies.position(i, static_cast<int>(a)) - centre[a]) + radius[i] > half[a] - range;
+    return any;
+  };
+  for (int i = 0; i < bodies.grains; ++i) {
+    if (!reaches(i)) continue;
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
       if (!near[a]) continue;
@@ -195,6 +207,7 @@ void wall_candidates(const ContactModel& model, const Bodies& bodies, Merge& mer
                           wall_geometry(model, bodies, i, wall));
         }
     }
+  }
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ class HalfKick {
 
   void run(int passes, Accounts& accounts) {
     if (contacts_.empty() && !everywhere_) return;
+    if (!everywhere_) list_bodies();
     for_each_body([this](Eigen::Index body) { remember(body); });
     for (int pass = 0; pass < passes; ++pass) {
       for_each_body([this](Eigen::Index body) { clear(body); });
@@ -46,18 +47,28 @@ class HalfKick {
   }
 
  private:
-  /// Calls `action` for each body that takes part; a body may come up more than once, which the action must
-  /// bear.
+  /// Lists the bodies in contact, each once.
+  void list_bodies() {
+    space_.touched.clear();
+    const auto list = [&](int body) {
+      bool& listed = space_.listed[static_cast<std::size_t>(body)];
+      if (!listed) space_.touched.push_back(body);
+      listed = true;
+    };
+    for (const Contact& contact : contacts_) {
+      list(contact.i);
+      list(contact.j);
+    }
+    for (const int body : space_.touched) space_.listed[static_cast<std::size_t>(body)] = false;
+  }
+
+  /// Calls `action` for each body that takes part.
   template <class Action>
   void for_each_body(Action action) {
-    if (everywhere_) {
+    if (everywhere_)
       for (Eigen::Index body = 0; body <= bodies_.box(); ++body) action(body);
-      return;
-    }
-    for (const Contact& contact : contacts_) {
-      action(contact.i);
-      action(contact.j);
-    }
+    else
+      for (const int body : space_.touched) action(body);
   }
 
   void remember(Eigen::Index body) {
@@ -214,6 +225,7 @@ void make_room(const Bodies& bodies, const GrainForces& forces, KickSpace& space
   for (Bodies::Rows* part :
        {&space.velocity_before, &space.spin_before, &space.force, &space.torque, &space.drag})
     part->setZero(rows, 3);
+  space.listed = std::make_unique<bool[]>(static_cast<std::size_t>(rows));
   space.wind.setZero(rows);
   space.free.assign(forces.free.size(), Bodies::Column::Zero(rows));
 }

@@ -2,6 +2,9 @@
 // In a half kick velocities change by the forces at fixed positions, and every force's work is entered
 // exactly.
 #pragma once
+#include <memory>
+#include <vector>
+
 #include "contact.hpp"
 
 namespace shakedown {
@@ -11,6 +14,8 @@ struct KickSpace {
   Bodies::Rows velocity_before, spin_before, force, torque, drag;
   Bodies::Column wind;               ///< m/s, of each grain against the air
   std::vector<Bodies::Column> free;  ///< one column a free force
+  std::vector<int> touched;          ///< bodies in contact
+  std::unique_ptr<bool[]> listed;    ///< of each body, while they are listed
 };
 
 /// Everything that a half kick reads and changes.

@@ -26,6 +26,14 @@ struct Neighbours::Tree {
 };
 
 namespace {
+
+/// Share of the skin of the tree's pairs within which pairs are looked at in every step.
+constexpr double near_share = 0.1;
+
+/// Returns the distance of centres within which a pair is kept, m: a skin along each axis is at most sqrt(3)
+/// skins along the line of centres.
+double kept_within(double reach, double skin) { return reach * (1 + 1e-9) + std::numbers::sqrt3 * skin; }
+
 btVector3 corner(const Bodies& bodies, Eigen::Index i, double half_edge) {
   return {bodies.position(i, 0) + half_edge, bodies.position(i, 1) + half_edge,
           bodies.position(i, 2) + half_edge};
@@ -33,7 +41,7 @@ btVector3 corner(const Bodies& bodies, Eigen::Index i, double half_edge) {
 }  // namespace
 
 Neighbours::Neighbours(const Bodies& bodies, double range, double skin)
-    : tree_(std::make_unique<Tree>()), range_(range), skin_(skin) {
+    : tree_(std::make_unique<Tree>()), range_(range), skin_(skin), near_skin_(near_share * skin) {
   for (Eigen::Index i = 0; i < bodies.grains; ++i) {
     void* number = reinterpret_cast<void*>(i);  // Bullet keeps it as an opaque pointer
     tree_->proxies.push_back(tree_->broadphase.createProxy(
@@ -41,25 +49,39 @@ Neighbours::Neighbours(const Bodies& bodies, double range, double skin)
         btBroadphaseProxy::DefaultFilter, btBroadphaseProxy::AllFilter, nullptr));
   }
   search(bodies);
+  look_nearby(bodies);
 }
 
 Neighbours::~Neighbours() = default;
 
 const std::vector<Pair>& Neighbours::pairs(const Bodies& bodies) {
-  if (stale(bodies)) search(bodies);
-  return pairs_;
+  if (skin_ == 0 || moved_apart(bodies, looked_at_) >= near_skin_) look_nearby(bodies);
+  return near_;
 }
 
-bool Neighbours::stale(const Bodies& bodies) const {
-  if (skin_ == 0) return true;
-  // Boxes that did not overlap were apart by more than the skin along some axis; what matters along it is the
-  // largest difference of two displacements. Grains that travel together with the box therefore do not wear
-  // the list out.
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto moved = bodies.position.col(axis).head(bodies.grains) - searched_at_.col(axis);
-    if (bodies.grains > 1 && moved.maxCoeff() - moved.minCoeff() >= skin_) return true;
+// Boxes that did not overlap were apart by more than the skin along some axis; what matters along it is the
+// largest difference of two displacements. Grains that travel together with the box therefore do not wear the
+// list out.
+double Neighbours::moved_apart(const Bodies& bodies, const Bodies::Rows& since) {
+  double most = 0;
+  if (bodies.grains > 1)
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto moved = bodies.position.col(axis).head(bodies.grains) - since.col(axis);
+      most = std::max(most, moved.maxCoeff() - moved.minCoeff());
+    }
+  return most;
+}
+
+void Neighbours::look_nearby(const Bodies& bodies) {
+  // The tree's pairs are to last until the next look.
+  if (skin_ == 0 || moved_apart(bodies, searched_at_) + near_skin_ >= skin_) search(bodies);
+  looked_at_ = bodies.position.topRows(bodies.grains);
+  near_.clear();
+  for (const Pair& pair : pairs_) {
+    const double keep = kept_within(std::sqrt(pair.reach_squared), near_skin_);
+    if ((bodies.position_of(pair.i) - bodies.position_of(pair.j)).squaredNorm() <= keep * keep)
+      near_.push_back(pair);
   }
-  return false;
 }
 
 void Neighbours::search(const Bodies& bodies) {
@@ -81,8 +103,7 @@ void Neighbours::search(const Bodies& bodies) {
     auto j = static_cast<int>(reinterpret_cast<std::intptr_t>(found[k].m_pProxy1->m_clientObject));
     if (i > j) std::swap(i, j);
     const double reach = bodies.radius(i) + bodies.radius(j) + range_;
-    // A skin along each axis is at most sqrt(3) skins along the line of centres.
-    const double keep = reach * (1 + 1e-9) + std::numbers::sqrt3 * skin_;
+    const double keep = kept_within(reach, skin_);
     if ((bodies.position_of(i) - bodies.position_of(j)).squaredNorm() <= keep * keep)
       pairs_.push_back({i, j, reach * reach});
   }

@@ -14,28 +14,32 @@ struct Pair {
 };
 
 /// The tree holds every grain enlarged by half a skin and is asked again only when some two grains may have
-/// moved by a skin relative to each other along an axis; a skin of zero asks at every call.
+/// moved by a skin relative to each other along an axis; a skin of zero asks at every call. Of the pairs that
+/// it gave those that may touch within a tenth of the skin are looked at until some two grains may have moved
+/// by that much.
 class Neighbours {
  public:
   /// `range`: gap in m up to which grains interact.
   Neighbours(const Bodies& bodies, double range, double skin);
   ~Neighbours();
 
-  /// Returns every pair with centres within reach, and some more, sorted by (i, j).
+  /// Returns every pair with centres within reach, and some more, sorted by (i, j); valid until asked again.
   const std::vector<Pair>& pairs(const Bodies& bodies);
   std::int64_t searches() const { return searches_; }  ///< how often the tree was asked
 
  private:
-  /// Tells whether grains have moved so far that a pair within reach may be missing.
-  bool stale(const Bodies& bodies) const;
+  /// Returns by how much, m, the displacements of two grains since then differ at most along an axis.
+  static double moved_apart(const Bodies& bodies, const Bodies::Rows& since);
+  /// Takes from the tree's pairs those that may come within reach before two grains have moved by near_skin_.
+  void look_nearby(const Bodies& bodies);
   /// Asks the tree for the pairs anew.
   void search(const Bodies& bodies);
 
   struct Tree;
   std::unique_ptr<Tree> tree_;
-  double range_, skin_;
-  Bodies::Rows searched_at_;
-  std::vector<Pair> pairs_;
+  double range_, skin_, near_skin_;
+  Bodies::Rows searched_at_, looked_at_;
+  std::vector<Pair> pairs_, near_;
   std::int64_t searches_ = 0;
 };
 
