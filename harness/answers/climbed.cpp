@@ -7,14 +7,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "camera_features.hpp"
 #include "course.hpp"
 #include "effects.hpp"
 #include "known_setup.hpp"
+#include "known_to_errors.hpp"
 #include "missing_numbers.hpp"
 #include "momentum.hpp"
 #include "parameter_knobs.hpp"
 #include "refit.hpp"
+#include "release_known.hpp"
 #include "swing.hpp"
 #include "swing_judged.hpp"
 #include "validation.hpp"
@@ -30,15 +31,20 @@ std::string effects_of(const Setup& setup) {
   return names.empty() ? "plain" : names;
 }
 
-/// Judges the momentum balance at the frequency of this rung.
-MomentumAudit balance_at(const Setup& setup, const Refit& fit, const Measurement& measurement) {
+/// Judges the momentum balance at the frequency of this rung; the errors of masses are its own.
+MomentumAudit balance_at(const Setup& setup, const Refit& fit, const std::vector<Knob>& of_damper,
+                         const Measurement& measurement) {
   Setup fitted = setup;
-  for (const FittedValue& value : fit.values) set_number(fitted, value.key, value.value, all_effects());
+  for (const FittedValue& value : fit.values)
+    if (std::none_of(of_damper.begin(), of_damper.end(),
+                     [&](const Knob& knob) { return knob.key == value.key; }))
+      set_number(fitted, value.key, value.value, all_effects());
   return audit_momentum(with_setup(measurement, fitted, all_effects()), all_effects());
 }
 
-Rung climb(const SetupOfFile& one, const Measurement& measurement, const Workshop& workshop,
-           const LadderOptions& ladder) {
+/// `wander`: of the tracks, the same for all rungs.
+Rung climb(const SetupOfFile& one, const Measurement& measurement, const Wander& wander,
+           const Workshop& workshop, const LadderOptions& ladder) {
   const auto& [file, setup] = one;
   RefitOptions options;
   options.count = ladder.runs;
@@ -49,18 +55,17 @@ Rung climb(const SetupOfFile& one, const Measurement& measurement, const Worksho
   if (is_empty(setup, of_setup)) {
     const MomentumAudit balance = audit_momentum(of_setup, all_effects());
     if (std::optional<JudgedSwing> judged = judged_swing(setup, of_setup, knobs, balance, all_effects()))
-      return {file, effects_of(setup), judged->refit, balance_at(setup, judged->refit, measurement),
+      return {file, effects_of(setup), judged->refit, balance_at(setup, judged->refit, {}, measurement),
               judged->judgement};
   }
-  const Measurement beside = from_first_turns(of_setup, *workshop.engine);
-  for (Knob& knob : camera_knobs(setup, beside, all_effects())) knobs.push_back(std::move(knob));
+  const Measurement beside =
+      from_first_turns(with_measured_release(of_setup, all_effects()), *workshop.engine);
+  const KnownToErrors known = known_to_errors(setup, beside, wander, workshop);
+  for (const std::vector<Knob>& list : {known.of_camera, known.of_damper})
+    knobs.insert(knobs.end(), list.begin(), list.end());
   if (!ladder.refit) options.rounds = options.most_rounds = 1;
-  Rung rung{file,
-            effects_of(setup),
-            refit(features_with_camera(beside, all_effects()), knobs, workshop, options),
-            {},
-            {}};
-  rung.momentum = balance_at(setup, rung.fit, measurement);
+  Rung rung{file, effects_of(setup), refit(known.measured, knobs, workshop, options), {}, {}};
+  rung.momentum = balance_at(setup, rung.fit, known.of_damper, measurement);
   return rung;
 }
 
@@ -77,8 +82,9 @@ std::vector<Rung> climbed(const std::vector<SetupOfFile>& setups, const Measurem
     if (options.progress) options.progress(std::min(1.0, static_cast<double>(done) / all));
   };
   const Workshop workshop{&engine, all_effects(), options.execution, nullptr, {}, {told, {}}};
+  const Wander wander = audit_momentum(measurement, all_effects()).wander_of_tracks();
   std::vector<Rung> rungs;
-  for (const SetupOfFile& one : setups) rungs.push_back(climb(one, measurement, workshop, options));
+  for (const SetupOfFile& one : setups) rungs.push_back(climb(one, measurement, wander, workshop, options));
   return rungs;
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "camera_features.hpp"
 #include "compare_report.hpp"
 #include "course.hpp"
 #include "diagnosis.hpp"
@@ -16,6 +15,7 @@
 #include "knobs_report.hpp"
 #include "missing_numbers.hpp"
 #include "parameter_knobs.hpp"
+#include "release_known.hpp"
 #include "swing.hpp"
 #include "swing_judged.hpp"
 #include "turned_model.hpp"
@@ -223,7 +223,7 @@ bool compare_by_waveform(const Setup& setup, const Measurement& recorded, const 
 Compared compared_with(const Setup& setup, const Measurement& recorded, const Engine& engine,
                        const CompareOptions& options) {
   Compared compared;
-  compared.measurement = from_first_turns(recorded, engine);
+  compared.measurement = from_first_turns(with_measured_release(recorded, all_effects()), engine);
   compared.warnings = recorded.warnings;
   compared.notes = all_notes(recorded);
   const Measurement& measurement = compared.measurement;
@@ -241,8 +241,10 @@ Compared compared_with(const Setup& setup, const Measurement& recorded, const En
   const Workshop workshop{&engine, all_effects(), options.execution, nullptr, {}, {told, {}}};
   compared.last = {measurement, EnsembleFit{setup, {}, {}, {}}, {}};
   EnsembleFit& ensembles = *compared.last.ensembles;
-  ensembles.measured = features_with_camera(measurement, all_effects());
-  compared.fit = judged_as_given(setup, measurement, ensembles.measured, workshop, options.runs);
+  JudgedAsGiven judged =
+      judged_as_given(setup, measurement, compared.momentum.wander_of_tracks(), workshop, options.runs);
+  ensembles.measured = std::move(judged.measured);
+  compared.fit = std::move(judged.fit);
   ensembles.fit = ensembles.as_given = compared.fit;
   compared.decays = compare_decay(measurement, workshop, std::min(32, options.runs), 1);
   compared.judgement = judgement_of(

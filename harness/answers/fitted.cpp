@@ -14,6 +14,7 @@
 #include "momentum.hpp"
 #include "refit.hpp"
 #include "refit_options.hpp"
+#include "release_known.hpp"
 #include "swing.hpp"
 #include "swing_judged.hpp"
 #include "turned_model.hpp"
@@ -151,8 +152,12 @@ Fit fitted_and_judged(const Setup& given, const Measurement& recorded, const Fit
   if (is_empty(setup, recorded))
     if (std::optional<Fit> fit = by_waveform(setup, recorded, knobs, options)) return std::move(*fit);
   const Measurement measurement = from_first_turns(
-      curves_asked(asked).empty() ? recorded : with_setup(recorded, setup, all_effects()), engine);
-  Fit found = fitted_by_ensembles(setup, measurement, asked, engine, options);
+      with_measured_release(
+          curves_asked(asked).empty() ? recorded : with_setup(recorded, setup, all_effects()), all_effects()),
+      engine);
+  FitOptions with_wander = options;
+  with_wander.wander = audit_momentum(measurement, all_effects()).wander_of_tracks();
+  Fit found = fitted_by_ensembles(setup, measurement, asked, engine, with_wander);
   const MomentumAudit balance =
       audit_momentum(with_setup(measurement, found.fitted, all_effects()), all_effects());
   if (!found.used.empty())
@@ -194,8 +199,9 @@ ReportKnobs knobs_of_fit(const Fit& fit, const std::optional<LastFit>& last, con
 Report report_of(const Fit& fit, const Setup& given, const Measurement& recorded, const Engine& engine,
                  const Execution& execution) {
   const bool empty = is_empty(given, recorded);
-  const Measurement measurement =
-      from_first_turns(empty ? with_setup(recorded, fit.fitted, all_effects()) : recorded, engine);
+  const Measurement measurement = from_first_turns(empty ? with_setup(recorded, fit.fitted, all_effects())
+                                                         : with_measured_release(recorded, all_effects()),
+                                                   engine);
   const std::optional<LastFit> last = last_fit_of(fit, measurement, engine, execution);
   return report_of(fit, measurement,
                    drawn_curves(measurement, &given, fit.fitted, last ? &*last : nullptr, engine, execution),

@@ -127,6 +127,11 @@ struct MomentumAudit {
   /// Returns the noise of a frame as a model may leave it, m: white noise, and as much wander as a track can
   /// have.
   double noise() const { return std::hypot(white_noise, std::min(wander.deviation, most_wander)); }
+  /// Returns the wander of the tracks as features have it: no more than a track can wander by beside its
+  /// white noise.
+  Wander wander_of_tracks() const {
+    return {std::min(wander.deviation, most_wander_of_noise * white_noise), wander.time};
+  }
   /// Tells whether the track wanders by more than three times the white noise of its frames: that is itself
   /// an answer.
   bool wanders_much() const { return wander.deviation > most_wander_of_noise * white_noise; }

@@ -37,7 +37,9 @@ MeasuredFeatures beginning_of(const MeasuredFeatures& whole, double end) {
     part.plan.readings.push_back(whole.plan.readings[f]);
     kept.push_back(static_cast<Eigen::Index>(f));
   }
-  part.plan.end = std::min(whole.plan.end, end + 0.1);
+  double last = end + 0.1;
+  for (const FeaturePlan::Reading& reading : part.plan.readings) last = std::max(last, reading.time.back());
+  part.plan.end = std::min(whole.plan.end, last);
   part.setup.run.duration = part.plan.end + simulated_beyond;
   part.values = whole.values(kept);
   for (const auto& [key, change] : whole.by_camera) part.by_camera[key] = change(kept);
@@ -106,6 +108,7 @@ class Fitter {
     start_ = knobs_;
     free_beside(camera_knobs(setup, measurement, options.known));
     all_ = features_with_camera(measurement, options.known);
+    add_wander(options.wander, all_);
     part();
   }
 

@@ -11,6 +11,7 @@
 #include "execution.hpp"
 #include "known_effects.hpp"
 #include "refit_result.hpp"
+#include "slow_wander.hpp"
 
 namespace shakedown {
 
@@ -19,6 +20,7 @@ struct FitOptions {
   std::vector<std::string> on;  ///< names of the runs to fit; empty: all
   int count = 160;              ///< simulations of each different setup in a round
   Execution execution{};
+  Wander wander{};         ///< of the tracks
   int first_run = 500000;  ///< addresses the random numbers of the simulations
   KnownEffects known;
   /// Is told the stage in words and the number of simulations so far; may be empty.

@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "effects.hpp"
-#include "hidden_measurements.hpp"
+#include "engines.hpp"
 #include "initial_state.hpp"
+#include "measurements.hpp"
 #include "release_known.hpp"
+#include "setup_file.hpp"
 #include "within.hpp"
 
 using namespace shakedown;
@@ -15,16 +17,20 @@ using namespace shakedown;
 // The frames lie 0.8 mm beside the release that the user gives, and a fifth at least is believed. The grains
 // were measured with the box where the user had it, 0.1 mm from its wall.
 TEST(ReleaseKnown, MeasuredGrainsKeepTheirPlacesInTheBox) {
+  const std::unique_ptr<Engine> engine = engine_named("hard");
+  const shakedown::Setup believed = parse_setup("[run]\nduration = \"1 s\"\n", "believed", all_effects());
   for (const double beside : {-0.8e-3, 0.8e-3}) {
-    Experiment experiment = measured({{}, {}, {}, {0.104}, 3, "1 s"});
+    Experiment experiment = make_measurements(believed, runs_of_lengths({0.104}), {},
+                                              {engine.get(), all_effects(), 3, 1, nullptr});
     for (MeasuredRun& run : experiment.runs) {
       run.overrides.push_back(
           {"release.initial_grains", '"' + std::string(TEST_DATA) + "/init_damper_L104.csv\"", "experiment"});
       for (std::vector<double>* track : {&run.x_box, &run.x_com})
         for (double& x : *track) x += beside;
     }
-    const Measurement given = as_measured(experiment), seen = with_measured_release(given, all_effects());
-    const Measurement again = with_setup(seen, believed(), all_effects());
+    const Measurement given = measurement_of(believed, experiment, all_effects()),
+                      seen = with_measured_release(given, all_effects());
+    const Measurement again = with_setup(seen, believed, all_effects());
     const State first = initial_state(given.runs[0].setup);
     for (const shakedown::Setup& setup : {seen.runs[0].setup, again.runs[0].setup}) {
       const State state = initial_state(setup);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "known_to_errors.hpp"
+
+#include "camera_features.hpp"
+#include "damper_errors.hpp"
+
+namespace shakedown {
+
+KnownToErrors known_to_errors(const Setup& setup, const Measurement& measurement, const Wander& wander,
+                              const Workshop& workshop) {
+  constexpr int first_run = 900'000;  // random numbers of their own, beside those of the fits
+  KnownToErrors known{features_with_camera(measurement, workshop.known),
+                      camera_knobs(setup, measurement, workshop.known),
+                      {}};
+  add_wander(wander, known.measured);
+  const std::vector<DamperError> errors = damper_errors(measurement);
+  add_columns(errors, columns_of(errors, known.measured, simulations_of_a_column, first_run, workshop),
+              workshop.known, known.measured);
+  known.of_damper = knobs_of(errors, setup);
+  return known;
+}
+
+}  // namespace shakedown
