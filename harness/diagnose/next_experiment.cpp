@@ -35,7 +35,8 @@ MeasuredFeatures seen(Setup setup, double noise_box, double noise_centre, const 
   found.com.standard_deviation = noise_centre;
   found.x_box = run.x_box;
   found.x_com = run.x_com;
-  const Measurement::Run measured{std::move(run), std::move(found), setup};
+  Measurement::Run measured{std::move(run), std::move(found), setup};
+  set_scales(measured);
   MeasuredFeatures m{measured.recorded.name, setup, plan_features(measured), {}};
   m.values = measured_features(m.plan, measured);
   simulate_until(m.setup, m.plan.end);

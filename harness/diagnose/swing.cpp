@@ -197,7 +197,9 @@ Measurement from_first_turns(const Measurement& measurement, const Engine& engin
     if (is_swing(run) && frames_of(run).time.size() >= least)
       start_at(fit_within(run, engine, periods), experiment.runs.back(), setups.back());
   }
-  return measurement_of(setups, std::move(experiment));
+  Measurement started = measurement_of(setups, std::move(experiment));
+  for (std::size_t r = 0; r < started.runs.size(); ++r) started.runs[r].keep_scales_of(measurement.runs[r]);
+  return started;
 }
 
 }  // namespace shakedown

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "features.hpp"
 #include "hideable.hpp"
 #include "in_order.hpp"
 #include "setup_file.hpp"
@@ -18,13 +19,16 @@ namespace {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-constexpr double bin = 0.1;  // s: shorter than a tenth of a period of any damper that is filmed
 constexpr int samples_a_bin = 10;
+
+/// Returns the width of a bin of a planned setup, s.
+double bin_of(const Setup& planned) { return samples_a_bin / planned.run.sample_rate; }
 
 /// Returns means over bins of the box, then of the grains' centre, m; as many of every run of a setup,
 /// whichever sample is its last.
-Vector features_of(const Trajectory& motion, double duration, bool grains) {
-  const auto bins = static_cast<Eigen::Index>(std::floor(duration / bin + 1e-9));
+Vector features_of(const Trajectory& motion, const Setup& setup) {
+  const bool grains = setup.grains.count > 0;
+  const auto bins = static_cast<Eigen::Index>(std::floor(setup.run.duration / bin_of(setup) + 1e-9));
   Vector features = Vector::Zero(grains ? 2 * bins : bins);
   for (Eigen::Index b = 0; b < bins; ++b)
     for (int i = 0; i < samples_a_bin; ++i) {
@@ -45,7 +49,9 @@ struct Runs {
 
 class Simulations {
  public:
-  Simulations(const IdealSettings& settings, const TrialTools& tools) : settings_(settings), tools_(tools) {}
+  /// `frequency`: of the spring as it is believed to be, Hz, for one width of all bins.
+  Simulations(const IdealSettings& settings, const TrialTools& tools, double frequency)
+      : settings_(settings), tools_(tools), sample_rate_(samples_a_bin * frequency / bin_of_a_period) {}
 
   Runs simulated(const Setup& setup, int first, int count) const {
     std::vector<Vector> columns;
@@ -56,9 +62,7 @@ class Simulations {
           options.stop = tools_.execution.stop;
           const Trajectory motion = tools_.model->run(setup, options);
           if (motion.interrupted) throw Interrupted("no signal was measured");
-          return [&columns, features = features_of(motion, setup.run.duration, setup.grains.count > 0)] {
-            columns.push_back(features);
-          };
+          return [&columns, features = features_of(motion, setup)] { columns.push_back(features); };
         });
     Runs runs{Matrix(columns.front().size(), count)};
     for (int i = 0; i < count; ++i) runs.all.col(i) = columns[static_cast<std::size_t>(i)];
@@ -70,17 +74,18 @@ class Simulations {
   Setup planned(const Setup& setup, const PlannedRun& run) const {
     Setup planned = changed(setup, run.overrides, tools_.known);
     planned.run.seed = settings_.seed;
-    planned.run.sample_rate = samples_a_bin / bin;
+    planned.run.sample_rate = sample_rate_;
     return planned;
   }
 
  private:
   const IdealSettings& settings_;
   const TrialTools& tools_;
+  double sample_rate_;  // 1/s
 };
 
 /// Returns the variance of the camera's noise in each bin, m^2.
-Vector noise_of(const RecordingSettings& camera, Eigen::Index features, bool grains) {
+Vector noise_of(const RecordingSettings& camera, Eigen::Index features, bool grains, double bin) {
   const double frames = std::max(1.0, camera.frame_rate * bin * (1 - camera.missing));
   Vector noise = Vector::Constant(features, camera.box_noise * camera.box_noise / frames);
   if (grains) noise.tail(features / 2).setConstant(camera.centre_noise * camera.centre_noise / frames);
@@ -120,7 +125,7 @@ struct Block {
   Matrix unknown_to_all, unknown_of_run;   ///< columns, each times its standard deviation
 };
 
-Matrix columns_of_run(const Vector& mean, bool grains, const IdealIgnorance& ignorance) {
+Matrix columns_of_run(const Vector& mean, bool grains, const IdealIgnorance& ignorance, double bin) {
   const Eigen::Index bins = grains ? mean.size() / 2 : mean.size();
   Matrix columns(mean.size(), 2);
   for (Eigen::Index i = 0; i < mean.size(); ++i) {
@@ -152,13 +157,13 @@ Block block_of(const Setup& without, const std::vector<Setup>& with, const Ideal
     block.signatures[static_cast<std::size_t>(half)] = signatures;
     spread[static_cast<std::size_t>(half)] = sample_covariance(residuals, 1 + changes);
   }
-  const Vector noise = noise_of(settings.recording, mean.size(), grains);
+  const Vector noise = noise_of(settings.recording, mean.size(), grains, bin_of(without));
   for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
     block.covariance[half] = likely_covariance(spread[half], spread[1 - half], noise);
     block.plain_covariance[half] = spread[half];
     block.plain_covariance[half].diagonal() += noise;
   }
-  block.unknown_of_run = columns_of_run(mean, grains, settings.ignorance);
+  block.unknown_of_run = columns_of_run(mean, grains, settings.ignorance, bin_of(without));
   // A law may not reach as far on one side.
   const auto mean_at = [&](const char* key, double value) -> std::optional<Vector> {
     try {
@@ -228,7 +233,7 @@ Matrix seen(const std::vector<Block>& blocks, std::size_t finds, std::size_t see
 
 std::vector<std::vector<double>> ideal_products(const Setup& without, const std::vector<Setup>& with,
                                                 const IdealSettings& settings, const TrialTools& tools) {
-  const Simulations simulations(settings, tools);
+  const Simulations simulations(settings, tools, without.spring.frequency);
   std::vector<Block> blocks;
   for (std::size_t i = 0; i < settings.runs.size(); ++i) {
     // Repeats of a run have the same signatures and spread.

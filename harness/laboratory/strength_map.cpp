@@ -187,7 +187,7 @@ class Mapper {
       }
       const int batch = first_run + 10000 + 1000 * (10 * number + static_cast<int>(levels.size()));
       const std::vector<Emulator> there = emulate(with, {}, count, batch, workshop_);
-      SimulatedLevel one{level.strength, {}, 1.0 / count + 1.0 / of_nothing};
+      SimulatedLevel one{candidate.strength_of(level.value), {}, 1.0 / count + 1.0 / of_nothing};
       for (std::size_t r = 0; r < there.size(); ++r)
         one.change.push_back((there[r].coefficients.row(0) - nothing_[r].coefficients.row(0)).transpose());
       levels.push_back(std::move(one));

@@ -34,21 +34,29 @@ std::vector<double> level_weights(const std::vector<double>& time, double middle
   return {weight.data(), weight.data() + weight.size()};
 }
 
-/// Returns until when a run tells something, s: one second after the last frame farther than `rest` from
-/// where the box ends up, or farther than one and a half times as far as it still swings there, but not than
-/// 5 `rest` (a layer pressed on one wall by a steady force swings on without loss).
-double end_of_motion(const MeasuredRun& run, const std::vector<double>& x_box, double rest) {
+/// Returns until when a run tells something, s: one and a quarter periods after the last frame farther than
+/// `rest` from where the box ends up, or farther than one and a half times as far as it still swings there,
+/// but not than 5 `rest` (a layer pressed on one wall by a steady force swings on without loss).
+double end_of_motion(const Measurement::Run& measurement) {
+  constexpr double of_the_release = 4e-3 / 0.1075, periods_after = 1.23, periods_at_the_end = 2.46;
+  const MeasuredRun& run = measurement.recorded;
+  const std::vector<double>& x_box = measurement.audit.x_box;
+  const double rest = of_the_release * measurement.excursion;
   std::vector<double> late;
   for (std::size_t i = 0; i < run.time.size(); ++i)
-    if (run.time[i] > run.time.back() - 2 && std::isfinite(x_box[i])) late.push_back(x_box[i]);
+    if (run.time[i] > run.time.back() - periods_at_the_end * measurement.period && std::isfinite(x_box[i]))
+      late.push_back(x_box[i]);
   if (late.empty()) return 0;
   const auto [lowest, highest] = std::minmax_element(late.begin(), late.end());
   const double middle = (*lowest + *highest) / 2, swing = (*highest - *lowest) / 2;
   double end = 0;
   for (std::size_t i = 0; i < run.time.size(); ++i)
     if (std::abs(x_box[i] - middle) > std::max(rest, std::min(1.5 * swing, 5 * rest))) end = run.time[i];
-  return std::min(end + 1.0, run.time.back());
+  return std::min(end + periods_after * measurement.period, run.time.back());
 }
+
+/// Of one observable: a film of five hundred periods is looked at in bins of a seventh of one.
+constexpr double most_bins = 600;
 
 struct Bins {
   double width = 0;  ///< s, of equal bins from time 0 to plan.end
@@ -75,14 +83,14 @@ void add_features(Observable observable, const std::vector<double>& time, const 
 
 }  // namespace
 
-FeaturePlan plan_features(const Measurement::Run& measurement, Observed observed, double rest, double bin) {
+FeaturePlan plan_features(const Measurement::Run& measurement, Observed observed) {
   const MeasuredRun& run = measurement.recorded;
   const RunAudit& audit = measurement.audit;
   FeaturePlan plan;
-  plan.end = measurement.shaken ? run.time.back() : end_of_motion(run, audit.x_box, rest);
+  plan.end = measurement.shaken ? run.time.back() : end_of_motion(measurement);
   const double interval = audit.frame_interval > 0 ? audit.frame_interval : 1 / run.frame_rate;
   // Slow cameras get wider bins, so that a bin has frames enough for a parabola.
-  const double width = std::max(bin, 8 * interval);
+  const double width = std::max({bin_of_a_period * measurement.period, 8 * interval, plan.end / most_bins});
   const Bins bins{width, static_cast<std::size_t>(width / interval)};
   add_features(Observable::box, run.time, audit.x_box, audit.box, bins, plan);
   if (run.has_com() && observed == Observed::all)

@@ -34,12 +34,15 @@ struct FeaturePlan {
   std::vector<Reading> readings;
 };
 
-/// Returns the bins of a run from time 0 on, `bin` s wide or eight frames where these take longer. They end
-/// one second after the last frame that lies farther from where the box ends up than `rest` (m), or than 1.5
-/// times its swing there where that is more (5 `rest` at most); those of a damper that is shaken end with the
-/// film. Bins with too few frames are left out.
-FeaturePlan plan_features(const Measurement::Run& measurement, Observed observed = Observed::all,
-                          double rest = 4e-3, double bin = 0.1);
+/// Width of the bins of a run, of its period: 0.1 s of the paper's damper. A parabola follows the box there.
+constexpr double bin_of_a_period = 0.123;
+
+/// Returns the bins of a run from time 0 on, bin_of_a_period wide, or eight frames or a six hundredth of the
+/// run where these take longer.
+/// They end one and a quarter periods after the last frame that lies farther from where the box ends up than
+/// 3.7 % of its release, or than 1.5 times its swing there where that is more (five times as much at most);
+/// those of a damper that is shaken end with the film. Bins with too few frames are left out.
+FeaturePlan plan_features(const Measurement::Run& measurement, Observed observed = Observed::all);
 
 /// Returns the features of the measured run itself, m.
 Eigen::VectorXd measured_features(const FeaturePlan& plan, const Measurement::Run& measurement);

@@ -74,6 +74,12 @@ Measurement measurement_of(const Setup& setup, Experiment experiment, KnownEffec
   return measurement_of(setups, std::move(experiment));
 }
 
+void set_scales(Measurement::Run& run) {
+  const double frequency = run.setup.spring.frequency, release = std::abs(run.setup.release.displacement);
+  if (frequency > 0) run.period = 1 / frequency;
+  if (release > 0) run.excursion = release;
+}
+
 Measurement measurement_of(const std::vector<Setup>& setups, Experiment experiment) {
   EXPECT(setups.size() == experiment.runs.size());
   Measurement measurement{std::move(experiment.title),
@@ -90,6 +96,7 @@ Measurement measurement_of(const std::vector<Setup>& setups, Experiment experime
     RunAudit audit = audit_run(experiment.runs[r]);
     measurement.runs.push_back(
         {std::move(experiment.runs[r]), std::move(audit), setups[r], is_shaken(setups[r])});
+    set_scales(measurement.runs.back());
   }
   for (Measurement::Run& run : measurement.runs)
     recorded.push_back(&run.recorded), audits.push_back(&run.audit);

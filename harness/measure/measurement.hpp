@@ -24,8 +24,15 @@ struct Measurement {
     MeasuredRun recorded;
     RunAudit audit;
     Setup setup;  ///< the user's, with the run's own keys
-    bool shaken =
-        false;  ///< the setup it was read with drives it to the end, so it is compared over its whole length
+    /// The setup it was read with drives it to the end, so it is compared over its whole length.
+    bool shaken = false;
+    /// Period of the spring, s, and release, m, of the setup it was read with: scales that stay while models
+    /// are compared. At first those of the paper's damper.
+    double period = 1 / 1.23, excursion = 0.1075;
+    /// Takes these scales, and whether it is shaken, from a run of the same experiment.
+    void keep_scales_of(const Run& other) {
+      shaken = other.shaken, period = other.period, excursion = other.excursion;
+    }
   };
   std::string title, file;
   std::vector<std::string> notes;     ///< what was assumed in reading, in words
@@ -42,6 +49,9 @@ std::vector<std::string> all_notes(const Measurement& measurement);
 /// Returns the setup of one run: the user's, with the run's own keys. Throws InputError that names the run's
 /// line for a key that does not exist or does not fit.
 Setup setup_of_run(const Setup& setup, const MeasuredRun& run, KnownEffects known);
+
+/// Gives a run the scales of its setup.
+void set_scales(Measurement::Run& run);
 
 /// Audits the frames, and gives each run its setup, with what is known put in. Throws as setup_of_run does.
 Measurement measurement_of(const Setup& setup, Experiment experiment, KnownEffects known);

@@ -66,6 +66,24 @@ TEST(Features, SimulationsAreReadAtTheMeasuredFrames) {
   EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-14);
 }
 
+// A damper that is twice as fast, filmed twice as fast, is looked at in the same frames.
+TEST(Features, GoWithTheDampersPeriodAndRelease) {
+  const Measurement::Run run = with_audit(parabolic_run(250, 5));
+  Measurement::Run fast = run;
+  for (double& t : fast.recorded.time) t /= 2;
+  fast.recorded.frame_rate *= 2, fast.audit.frame_interval /= 2, fast.period /= 2;
+  const FeaturePlan plan = plan_features(run), of_fast = plan_features(fast);
+  ASSERT_GT(plan.features.size(), 10u);
+  ASSERT_EQ(of_fast.features.size(), plan.features.size());
+  for (std::size_t f = 0; f < plan.features.size(); ++f) {
+    WITHIN(2 * of_fast.features[f].time, plan.features[f].time, 1e-14, 1e-15);
+    EXPECT_EQ(of_fast.readings[f].time.size(), plan.readings[f].time.size());
+  }
+  Measurement::Run far = run;  // what is rest beside a release ten times as far
+  far.excursion *= 10;
+  EXPECT_LE(plan_features(far).end, plan.end);
+}
+
 TEST(Features, NoiseOfABinFallsWithItsFrames) {
   const FeaturePlan plan = plan_features(with_audit(parabolic_run(500, 0)));
   // The level of a parabola at the middle of n even frames has 9/4 of the variance of a mean.
