@@ -36,7 +36,7 @@ struct DiagnoseArguments {
   SetupArguments setup;
   JsonOutput json;
   ReportOutput report;
-  std::string data, out, effects, fixed;
+  std::string data, out, effects, fixed, engine = "hard";
   std::int64_t budget = 0;
   double seconds = 300;
   int threads = 0;
@@ -73,7 +73,7 @@ int diagnose_data(const DiagnoseArguments& arguments) {
     folder = std::make_unique<OutputFolder>(arguments.out, OutputFolder::Use::alone);
     expect_writable(folder->path() / "setup.toml");
   }
-  const std::unique_ptr<Engine> engine = engine_named("hard");
+  const std::unique_ptr<Engine> engine = engine_named(arguments.engine);
   const std::int64_t budget = arguments.budget > 0 ? arguments.budget : usual_budget(measurement);
   const std::unique_ptr<SimulationJournal> journal =
       journal_in(folder.get(), "diagnosis", experiment, arguments.resume);
@@ -127,6 +127,12 @@ Command add_diagnose_command(CLI::App& program) {
   command.add_option("--out", arguments->out, "write the amended setup and the diagnosis into this folder")
       ->type_name("DIR");
   command.add_option("--effects", arguments->effects, "only these may be added")->type_name("a,b,...");
+  command
+      .add_option("--engine", arguments->engine,
+                  "hard, or soft for contacts that last (soft.contact_time of the setup), five times dearer")
+      ->check(CLI::IsMember({"hard", "soft"}))
+      ->type_name("NAME")
+      ->capture_default_str();
   command
       .add_option("--fixed", arguments->fixed,
                   "not refitted, because known otherwise: restitution.grain_grain, restitution.grain_wall, "

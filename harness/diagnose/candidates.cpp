@@ -40,13 +40,15 @@ Knob knob_of(const EffectRecord& record, const SearchedStrength& strength, const
 }
 
 /// Sets levels and possible strengths. A polynomial through the levels is trusted up to twice the strongest;
-/// where there are levels of both signs, of each.
-void set_levels(Candidate& candidate, const SearchedStrength& strength, double absent) {
+/// where there are levels of both signs, of each. `makes_room`: the parameter that it replaces a part of is
+/// free, and moves beside it.
+void set_levels(Candidate& candidate, const SearchedStrength& strength, double absent, bool makes_room) {
   constexpr double trusted = 2;
   double lowest = 0, highest = 0;
   for (const double level : strength.levels) {
-    const double value = value_at_level(strength, level, absent);
-    candidate.levels.push_back({value, candidate.strength_of(value)});
+    const double value = makes_room ? std::clamp(absent + level, strength.low, strength.high)
+                                    : value_at_level(strength, level, absent);
+    candidate.levels.push_back({value, makes_room ? level : candidate.strength_of(value)});
     lowest = std::min(lowest, candidate.levels.back().strength);
     highest = std::max(highest, candidate.levels.back().strength);
   }
@@ -57,15 +59,17 @@ void set_levels(Candidate& candidate, const SearchedStrength& strength, double a
                    });
   if (lowest == 0) lowest = -highest;
   if (highest == 0) highest = -lowest;
+  const double range = strength.high - strength.low;
   const auto [low, high] =
-      std::minmax({candidate.strength_of(strength.low), candidate.strength_of(strength.high)});
+      makes_room ? std::minmax({-range, range})
+                 : std::minmax({candidate.strength_of(strength.low), candidate.strength_of(strength.high)});
   candidate.strengths = {candidate.prior.typical, std::max(low, trusted * lowest),
                          std::min(high, trusted * highest)};
   if (strength.even) candidate.strengths.low = std::max(candidate.strengths.low, 0.0);
 }
 
 Candidate candidate_of(const EffectRecord& record, const Search& search, const SearchedStrength& strength,
-                       const Setup& setup) {
+                       const Setup& setup, bool makes_room) {
   Candidate candidate;
   candidate.effect = record.name;
   candidate.dear = search.cost == Search::Cost::dear;
@@ -80,7 +84,7 @@ Candidate candidate_of(const EffectRecord& record, const Search& search, const S
   candidate.prior.one_sided =
       strength.inverse || strength.even || (strength.low >= 0 && strength.absent_key.empty());
   candidate.prior.odds = search.odds;
-  set_levels(candidate, strength, absent_value(record, strength, setup));
+  set_levels(candidate, strength, absent_value(record, strength, setup), makes_room);
   return candidate;
 }
 
@@ -152,8 +156,13 @@ bool is_present(const Setup& setup, const EffectRecord& record, const SearchedSt
                      [&](const std::string& key) { return get_number(setup, key, known) != absent; });
 }
 
-std::vector<Candidate> all_candidates(const Setup& setup, KnownEffects known, const Engine& engine) {
+std::vector<Candidate> all_candidates(const Setup& setup, KnownEffects known, const Engine& engine,
+                                      const std::vector<Knob>& free) {
   std::vector<Candidate> list;
+  const auto is_free = [&](std::string_view key) {
+    return std::any_of(free.begin(), free.end(),
+                       [&](const Knob& knob) { return knob.key == key && !knob.exact; });
+  };
   for (const EffectRecord* record : known) {
     const Search search = search_of(*record);
     // The balance finds sines.
@@ -164,7 +173,8 @@ std::vector<Candidate> all_candidates(const Setup& setup, KnownEffects known, co
       if (is_present(setup, *record, strength, known)) continue;
       const auto index = static_cast<std::size_t>(&strength - search.strengths.data());
       for (const Search& shaped : shapes_of(*record, search)) {
-        Candidate candidate = candidate_of(*record, shaped, shaped.strengths[index], setup);
+        Candidate candidate =
+            candidate_of(*record, shaped, shaped.strengths[index], setup, is_free(strength.absent_key));
         if (possible_in(setup, candidate, known)) list.push_back(std::move(candidate));
       }
     }
@@ -207,8 +217,9 @@ bool is_modelled(const Engine& engine, const EffectRecord& record) {
 }
 
 std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std::string>& only,
-                                      KnownEffects known, const Engine& engine) {
-  std::vector<Candidate> list = all_candidates(setup, known, engine);
+                                      KnownEffects known, const Engine& engine,
+                                      const std::vector<Knob>& free) {
+  std::vector<Candidate> list = all_candidates(setup, known, engine, free);
   std::erase_if(list, [&](const Candidate& candidate) {
     return !only.empty() && std::find(only.begin(), only.end(), candidate.effect) == only.end();
   });

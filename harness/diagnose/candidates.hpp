@@ -24,7 +24,8 @@ struct Candidate {
   std::vector<Knob> when_tried{};  ///< of a length: what its fit may vary
 
   /// Says where its signature is simulated: value of the parameter, SI, and strength from the effect's
-  /// absence (of a length the curvature, 1/m^2).
+  /// absence (of a length the curvature, 1/m^2). Where the parameter's bounds allow less from where it is
+  /// absent and that is free, that is to make room: the wall's restitution beside that of the side walls.
   struct Level {
     double value = 0, strength = 0;
   };
@@ -45,9 +46,11 @@ struct Candidate {
 
 /// Returns every effect that `engine` models and that a diagnosis may add, given the setup's present values.
 /// Left out are strengths that the setup has already, and effects that claim a part of the model that another
-/// of the setup's effects has replaced. `only`: these alone (empty: all).
+/// of the setup's effects has replaced. `only`: these alone (empty: all). `free`: knobs that are fitted
+/// beside them; of these the one that an effect replaces a part of makes room for its levels.
 std::vector<Candidate> candidates_for(const Setup& setup, const std::vector<std::string>& only,
-                                      KnownEffects known, const Engine& engine);
+                                      KnownEffects known, const Engine& engine,
+                                      const std::vector<Knob>& free = {});
 
 /// Tells whether ensembles try each value of its shapes, as candidates of their own.
 bool has_shapes(const EffectRecord& record);

@@ -180,7 +180,7 @@ void advise_by_simulation(const DiagnosisState& final, DiagnosisTools& tools, Di
     return;
   tools.begin("which experiment would decide");
   FittedModel found = fitted_model(d.amended, final.fit);
-  found.setup.hard = final.setup.hard;
+  found.setup.hard = final.setup.hard, found.setup.soft = final.setup.soft;
   const RunAudit& camera = tools.measurement().runs.front().audit;
   const int count = final.dear ? 32 : 64;
   std::vector<Advice> list;
@@ -327,7 +327,7 @@ void conclude(const Setup& user, const DiagnosisState& given, const DiagnosisSta
               DiagnosisTools& tools, Diagnosis& d) {
   d.missing = final.missing;
   d.amended = final.setup;
-  d.amended.hard = user.hard;
+  d.amended.hard = user.hard, d.amended.soft = user.soft;
   d.last_fit = std::make_shared<const LastFit>(LastFit{
       tools.measurement(), EnsembleFit{final.setup, tools.features(final.setup), given.fit, final.fit}, {}});
   d.explained = 1 - final.fit.chi2 / given.fit.chi2;

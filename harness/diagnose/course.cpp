@@ -26,9 +26,12 @@ namespace shakedown {
 
 namespace {
 
-/// Makes the exact engine less exact: ensembles see no difference up to here, and low restitutions and drag
-/// on grains cost several times less.
+/// Makes the engines less exact: ensembles see no difference up to here, and low restitutions, drag on grains
+/// and contacts that last cost several times less. Of 66 grains in boxes of 53 and 110 mm the first eight
+/// peaks of 24 runs with 50, 20, 12 and 8 steps a contact are the same to 0.2 mm, their spread.
 Setup quick(Setup setup) {
+  constexpr double steps_per_contact = 10;
+  setup.soft.steps_per_contact = std::min(setup.soft.steps_per_contact, steps_per_contact);
   constexpr double elastic_speed = 1e-2, kick_interval = 1e-2;  // m/s, s
   setup.hard.pair_elastic_speed = std::max(setup.hard.pair_elastic_speed, elastic_speed);
   setup.hard.kick_interval = std::max(setup.hard.kick_interval, kick_interval);
@@ -61,9 +64,7 @@ Diagnosis Course::run() {
     judge_empty_box(balance);
   } else {
     result_.momentum = audit_momentum(recorded_, tools_.known(), balance);
-    const MomentumAudit& found = result_.momentum;
-    tools_.set_wander(
-        {std::min(found.wander.deviation, most_wander_of_noise * found.white_noise), found.wander.time});
+    tools_.set_wander(result_.momentum.wander_of_tracks());
     judge();
   }
   compare_forced_runs();
@@ -197,7 +198,7 @@ DiagnosisState Course::with_engine(DiagnosisState state) {
   if (choice.lasting_contacts) tools_.workshop().engine = lasting.get();
   first_periods_ = choice.fit;
   if (!choice.note.empty()) result_.notes.push_back(choice.note);
-  state.dear = tools_.workshop().engine == lasting.get();
+  state.dear = lasting != nullptr && tools_.workshop().engine->name() == lasting->name();
   return state;
 }
 

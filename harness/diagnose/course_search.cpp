@@ -54,8 +54,11 @@ DiagnosisState Course::search(DiagnosisState& refitted) {
     if (!searched && state.fit.p_value <= rules::doubtful && !is_sure(round)) {
       const double before = state.fit.scatter * state.fit.degrees;
       state = beside(refitted);
-      if (round.added && state.fit.scatter * state.fit.degrees < before - rules::emulator_noise) try {
-          round = search_round(state, tools_, result_.momentum.seen);
+      // Where it lies in another valley now, what was seen about the first one says little.
+      if (state.fit.scatter * state.fit.degrees < before - rules::emulator_noise) try {
+          SearchRound again = search_round(state, tools_, result_.momentum.seen);
+          // One for which there was no time tells less than the first.
+          if (again.added || again.not_tried.size() <= round.not_tried.size()) round = std::move(again);
         } catch (const BudgetSpent&) {  // what was found beside the poorer fit stands
         }
     }

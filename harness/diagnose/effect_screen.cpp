@@ -50,6 +50,12 @@ bool is_left_open(const ScreenedEffect& effect, double most, double searched) {
          could_be + prior_log_odds(effect.seen.odds, searched) > doubted;
 }
 
+/// Tells whether the noise of the simulations is what keeps it from being said to be there, or not.
+bool is_undecided(const ScreenedEffect& effect, double searched) {
+  const double log_odds = effect.log_evidence + prior_log_odds(effect.seen.odds, searched);
+  return effect.share_seen < effort::well_seen && log_odds < -std::log(rules::doubtful);
+}
+
 }  // namespace
 
 EffectScreen::EffectScreen(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted,
@@ -116,15 +122,20 @@ void EffectScreen::look_closer(const std::vector<Candidate>& candidates, std::ve
   std::stable_sort(list.begin(), list.end(), [](const Weighed& a, const Weighed& b) {
     return a.effect.log_evidence > b.effect.log_evidence;
   });
-  double most = 0;
-  for (const Weighed& one : list)
-    if (one.effect.weighed) most = std::max(most, one.effect.log_evidence);
-  for (Weighed& one : list)
-    if (one.looked.whole && may_be_missing(one.effect, most)) {
+  const auto look_at_open_ones = [&](const LevelEffort& effort, bool undecided) {
+    double most = 0;
+    for (const Weighed& one : list)
+      if (one.effect.weighed) most = std::max(most, one.effect.log_evidence);
+    for (Weighed& one : list) {
+      if (!one.looked.whole || one.looked.exact || !may_be_missing(one.effect, most)) continue;
+      if (undecided && !is_undecided(one.effect, static_cast<double>(searched_))) continue;
       const Candidate& candidate = candidates[one.effect.candidate];
-      simulations_->look(candidate, effort_.look, one.looked);
+      simulations_->look(candidate, effort, one.looked);
       weigh_again(candidate, one);
     }
+  };
+  look_at_open_ones(effort_.look, false);
+  look_at_open_ones(effort_.decide, true);
 }
 
 Screening EffectScreen::weigh(const std::vector<Candidate>& candidates) {
@@ -143,6 +154,11 @@ Screening EffectScreen::weigh(const std::vector<Candidate>& candidates) {
         }
       } catch (const BudgetSpent&) {
         spent = true;
+        // Its middle level alone says nothing against an effect that other levels may speak for.
+        if (one.effect.log_evidence < 0 && may_be_missing(one.effect, 0)) {
+          one.effect.weighed = false;
+          signatures_.erase(c);
+        }
       }
     list.push_back(std::move(one));
   }

@@ -33,11 +33,13 @@ constexpr Effort look{1, 128, 0}, refit{2, 160, 128}, beside{2, 160, 128, true},
     apart{2, 160, 128, true, false, true}, least{1, 64, 0, false, true};
 constexpr int most_when_dear = 80;
 constexpr std::size_t most_pairs = 2;
-constexpr ScreenEffort rank{}, rank_when_dear{32, 48, {8, 8, 8}, {12, 12, 12}};
+constexpr int fitted_where_poor = 2;
+constexpr ScreenEffort rank{}, rank_when_dear{32, 48, 0, {8, 8, 8}, {12, 12, 12}, {24, 24, 24}};
 /// Returns the same effort at the middle levels alone, where signatures say little but at which strength a
 /// short fit begins.
 constexpr ScreenEffort at_the_middle(ScreenEffort effort) {
   effort.middle_alone = true;
+  effort.nothing_more = 0;
   return effort;
 }
 
@@ -50,6 +52,10 @@ constexpr Rule glance_tells{
     "glance_tells", 0.25, "of the gain",
     "what a glance shows at least of a signal that decides: 12 simulations leave a noise of 35 to 45 in the "
     "square of a signature, of which even odds need 15"};
+constexpr Rule well_seen{
+    "well_seen", 0.8, "of the gain",
+    "a signature of which the simulations' noise leaves as much is not simulated again: more would add a "
+    "quarter of its gain at most"};
 constexpr Rule signature_errs{
     "signature_errs", 0.1, "of ln odds",
     "what a signature is wrong by far from nothing: 456 where three times the simulations saw 476, 2557 for "
@@ -70,7 +76,7 @@ constexpr Rule short_fits_err{"short_fits_err", 1.3, "times what the best of the
                               "missed the best strength"};
 constexpr Rule astray{
     "astray", 2, "errors of what is believed",
-    "the restitutions of a rejected model beyond are not where effects are looked for: what a 95 % interval "
+    "the restitutions of a doubtful model beyond are not where effects are looked for: what a 95 % interval "
     "leaves out"};
 }  // namespace effort
 

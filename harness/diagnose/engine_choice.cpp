@@ -39,7 +39,9 @@ EngineChoice chosen_engine(const DiagnosisState& model, DiagnosisTools& tools) {
   EngineChoice choice;
   const DiagnoseOptions& options = tools.options();
   const Measurement& measurement = tools.measurement();
-  if (options.lasting_contacts == nullptr || !lie_in_one_layer(measurement)) return choice;
+  if (options.lasting_contacts == nullptr || !lie_in_one_layer(measurement) ||
+      tools.workshop().engine->name() == options.lasting_contacts->name())
+    return choice;
   // The question counts in the limits: where they are too narrow for it, it is not asked.
   if (options.budget > 0 &&
       options.budget < least_budget(measurement) + 2 * first_look.count * std::ssize(measurement.runs))

@@ -79,7 +79,8 @@ void offer_free_restitution(const Setup& user, const DiagnosisState& failing, Di
   try {
     FreeRestitution law = free_restitution_beside(failing, tools);
     if (is_worth_offering(law)) {
-      law.setup.hard = user.hard;  // a diagnosis simulates less exactly than it may
+      law.setup.hard = user.hard,
+      law.setup.soft = user.soft;  // a diagnosis simulates less exactly than it may
       d.free_restitution = std::move(law);
       return;
     }

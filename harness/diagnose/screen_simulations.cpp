@@ -36,6 +36,18 @@ int count_of(const Candidate& candidate, const LevelEffort& effort) {
   return candidate.dear ? effort.dear : candidate.slow ? effort.slow : effort.plain;
 }
 
+/// Takes the means of more simulations at the same point into the emulators, and what these leave.
+void join(std::vector<Emulator>& emulators, const std::vector<Emulator>& more) {
+  for (std::size_t r = 0; r < emulators.size(); ++r) {
+    Emulator& one = emulators[r];
+    const Eigen::Index before = one.residuals.rows(), fresh = more[r].residuals.rows();
+    const double share = static_cast<double>(fresh) / static_cast<double>(before + fresh);
+    one.coefficients.row(0) += share * (more[r].coefficients.row(0) - one.coefficients.row(0));
+    one.residuals.conservativeResize(before + fresh, Eigen::NoChange);
+    one.residuals.bottomRows(fresh) = more[r].residuals;
+  }
+}
+
 std::vector<Knob> at_a_point(std::vector<Knob> knobs) {
   for (Knob& knob : knobs) knob.width = 0;
   return knobs;
@@ -48,9 +60,14 @@ ScreenSimulations::ScreenSimulations(std::vector<MeasuredFeatures> measured, std
                                      const ScreenStart& start)
     : measured_(std::move(measured)), fitted_(std::move(fitted)), workshop_(workshop), first_run_(first_run) {
   const bool simulates = start.emulators.empty();
-  const std::vector<Emulator> nothing =
+  std::vector<Emulator> nothing =
       simulates ? emulate(measured_, at_a_point(fitted_), effort.nothing, next_run(), workshop)
                 : start.emulators;
+  // The fit that put the parameters there has made the noise of its own simulations part of them.
+  if (!simulates && effort.nothing_more > 0) try {
+      join(nothing, emulate(measured_, at_a_point(fitted_), effort.nothing_more, next_run(), workshop));
+    } catch (const BudgetSpent&) {  // the fit's own have to do
+    }
   about_ = simulates ? straight(fitted_, 0.5) : start.knobs;
   const std::vector<Emulator> slopes =
       simulates ? emulate(measured_, about_, effort.slopes, next_run(), workshop) : start.emulators;
@@ -102,7 +119,6 @@ void ScreenSimulations::look(const Candidate& candidate, const LevelEffort& effo
     } catch (const InputError& error) {
       looked.reason = error.what();
     }
-  looked.count += count;
 }
 
 void ScreenSimulations::add_levels(const Candidate& candidate, const std::vector<Candidate::Level>& chosen,
@@ -116,8 +132,10 @@ void ScreenSimulations::add_levels(const Candidate& candidate, const std::vector
     });
   };
   for (const Candidate::Level& level : chosen) try {
-      if (!looked.has(level.strength) && !is_hopeless(level.strength))
+      if (!looked.has(level.strength) && !is_hopeless(level.strength)) {
         looked.levels.push_back(simulated_level(candidate, level, count, looked));
+        looked.simulated[level.strength] = count;
+      }
     } catch (const PhysicsError& error) {
       looked.reason = error.what();
     } catch (const InputError& error) {
@@ -261,17 +279,26 @@ LevelPoint ScreenSimulations::start_of(const Candidate& candidate, const Candida
   for (const auto& [other, there] : looked.points)
     if (other * level.strength > 0 && std::abs(other) > std::abs(strength))
       nearest = &there, strength = other;
-  if (nearest == nullptr) return point;
+  if (nearest == nullptr) return within_reach(std::move(point), level.strength);
   Eigen::VectorXd steps(std::ssize(fitted_));
   for (std::size_t k = 0; k < fitted_.size(); ++k)
     steps[static_cast<Eigen::Index>(k)] =
         (nearest->fitted[k].centre - fitted_[k].centre) * level.strength / strength;
-  return moved_by(std::move(point), steps);
+  return within_reach(moved_by(std::move(point), steps), level.strength);
+}
+
+LevelPoint ScreenSimulations::within_reach(LevelPoint point, double strength) {
+  for (Knob& absent : point.fitted) {
+    if (absent.key != point.knob.absent_key) continue;
+    point.knob.centre = std::clamp(absent.centre + strength, point.knob.low, point.knob.high);
+    absent.centre = std::clamp(point.knob.centre - strength, absent.low, absent.high);
+  }
+  return point;
 }
 
 std::optional<LevelPoint> ScreenSimulations::moved_along(const Eigen::VectorXd& change,
-                                                         const LevelPoint& point) const {
-  Eigen::VectorXd steps = outside_->taken_of(-change);
+                                                         const LevelPoint& point, double share) const {
+  Eigen::VectorXd steps = share * outside_->taken_of(of_means_.model.residual - change);
   bool far = false;
   for (std::size_t k = 0; k < fitted_.size(); ++k) {
     double& step = steps[static_cast<Eigen::Index>(k)];
@@ -285,18 +312,37 @@ std::optional<LevelPoint> ScreenSimulations::moved_along(const Eigen::VectorXd& 
 SignatureLevel ScreenSimulations::simulated_level(const Candidate& candidate, const Candidate::Level& level,
                                                   int count, Looked& looked) {
   const auto known = looked.points.find(level.strength);
-  LevelPoint point = known != looked.points.end() ? known->second : start_of(candidate, level, looked);
-  std::vector<Emulator> there = simulated_at(candidate, point, count);
-  Eigen::VectorXd change = change_at(there, point.fitted, of_means_);
-  if (known == looked.points.end()) {
-    if (const auto moved = moved_along(change, point)) {
-      there = simulated_at(candidate, *moved, count);
-      point = *moved;
-      change = change_at(there, point.fitted, of_means_);
+  const bool is_new = known == looked.points.end();
+  const auto at = [&](const LevelPoint& point) {
+    const std::vector<Emulator> there = simulated_at(candidate, point, count);
+    SimulatedPoint one{point, change_at(there, point.fitted, of_means_), {}, 0};
+    one.outside = (*outside_)(one.change);
+    one.noise = chaos_of(there, of_means_) / count;
+    return one;
+  };
+  SimulatedPoint best = at(is_new ? start_of(candidate, level, looked) : known->second);
+  // A line from where the fit without the effect has ended may lead too far: then half the way.
+  constexpr int most_steps = 3;
+  double share = 1;
+  for (int step = 0; is_new && step < most_steps; ++step) try {
+      const auto moved = moved_along(best.change, best.point, share);
+      if (!moved) break;
+      SimulatedPoint there = at(within_reach(*moved, level.strength));
+      const double before = (best.outside - without_.residual).squaredNorm(),
+                   after = (there.outside - without_.residual).squaredNorm();
+      if (after < before + there.noise)
+        best = std::move(there);
+      else
+        share /= 2;
+    } catch (const PhysicsError&) {  // what was simulated stands
+      break;
+    } catch (const InputError&) {
+      break;
+    } catch (const BudgetSpent&) {
+      break;
     }
-    looked.points[level.strength] = point;
-  }
-  return {level.strength, (*outside_)(change), chaos_of(there, of_means_) / count};
+  if (is_new) looked.points[level.strength] = best.point;
+  return {level.strength, best.outside, best.noise};
 }
 
 SignatureLevel ScreenSimulations::exact_level(const Candidate& candidate) const {

@@ -22,11 +22,19 @@ struct LevelPoint {
   Knob knob;                 ///< of the candidate
 };
 
+/// Holds what simulations at a point show.
+struct SimulatedPoint {
+  LevelPoint point;
+  Eigen::VectorXd change, outside;  ///< of the features; the part that fitted parameters do not take up
+  double noise = 0;                 ///< expected square of its error
+};
+
 /// Holds the levels of a candidate as far as they were simulated.
 struct Looked {
   std::vector<SignatureLevel> levels{};
   std::map<double, LevelPoint> points{};  ///< by strength
-  int count = 0;                          ///< simulations of each level, of each different setup
+  int count = 0;                          ///< simulations of a level's first look, of each different setup
+  std::map<double, int> simulated{};      ///< of each level so far, by strength
   bool whole = false;                     ///< all levels were looked at, not the middle one alone
   std::string reason{};                   ///< why a level could not be simulated; empty: none failed
   bool exact = false;                     ///< its change is arithmetic on the recording
@@ -38,7 +46,9 @@ struct Looked {
   }
   /// Takes the mean of the simulations before and of `more` new ones into the level.
   void add(const SignatureLevel& level, int more) {
-    const double before = count, all = count + more;
+    int& so_far = simulated[level.strength];
+    const double before = so_far, all = so_far + more;
+    so_far += more;
     for (SignatureLevel& one : levels)
       if (one.strength == level.strength) {
         one.change = (before * one.change + more * level.change) / all;
@@ -78,8 +88,9 @@ class ScreenSimulations {
     FirstModel model;
   };
 
-  /// Returns the first run of the next batch; batches of up to 1000 share none.
-  int next_run() { return first_run_ + 1000 * batches_++; }
+  /// Returns the first run of the next batch; up to 400 batches of up to 250 share none, nor with what comes
+  /// after.
+  int next_run() { return first_run_ + 250 * batches_++; }
 
   /// Returns the metric of these covariances (m^2, of each run), with the slopes by the widths of `about`.
   Frame frame_of(const std::vector<Eigen::MatrixXd>& covariances, const std::vector<Knob>& about,
@@ -123,9 +134,14 @@ class ScreenSimulations {
   /// level of the same sign has moved them.
   LevelPoint start_of(const Candidate& candidate, const Candidate::Level& level, const Looked& looked) const;
 
-  /// Returns the point with the fitted parameters where their slopes see the best fit beside this change of
-  /// the features; none where they hardly move.
-  std::optional<LevelPoint> moved_along(const Eigen::VectorXd& change, const LevelPoint& point) const;
+  /// Returns the point where the effect has this strength: what it replaces a part of (the wall's restitution
+  /// of side walls) is moved where the bounds of its parameter do not allow as much there.
+  static LevelPoint within_reach(LevelPoint point, double strength);
+
+  /// Returns the point with the fitted parameters on this share of the way to where their slopes see the best
+  /// fit beside this change of the features; none where they hardly move.
+  std::optional<LevelPoint> moved_along(const Eigen::VectorXd& change, const LevelPoint& point,
+                                        double share) const;
 
   /// Simulates a level. Beside an effect that restitutions imitate these lie elsewhere, farther than a line
   /// tells: the level is simulated again there.

@@ -47,7 +47,7 @@ std::vector<Candidate> open_candidates(const DiagnosisState& state, DiagnosisToo
   Setup at_fit = state.setup;
   for (const Knob& knob : state.theta) set_knob(at_fit, knob, tools.known());
   std::vector<Candidate> candidates =
-      candidates_for(at_fit, tools.options().effects, tools.known(), *tools.workshop().engine);
+      candidates_for(at_fit, tools.options().effects, tools.known(), *tools.workshop().engine, state.theta);
   const std::vector<std::string> exact = exactly_known(tools.measurement(), tools.known());
   std::erase_if(candidates, [&](const Candidate& candidate) {
     return std::find(exact.begin(), exact.end(), candidate.effect) != exact.end();
@@ -222,8 +222,9 @@ class Round {
     if (order_.empty()) return nullptr;
     sort_by_odds();
     // A model that the data reject is not what is there: while nothing was found, the most probable are
-    // fitted whatever their odds.
-    const bool all_bad = rejected_ && std::none_of(rivals_.begin(), rivals_.end(), is_found);
+    // fitted whatever their odds; two of them where it may be two codes that differ.
+    const bool poor = state_.fit.p_value <= rules::holds && tried_ < effort::fitted_where_poor;
+    const bool all_bad = (rejected_ || poor) && std::none_of(rivals_.begin(), rivals_.end(), is_found);
     const double worth_asking = std::log(rules::doubtful);  // less than the odds at which a model is doubted
     const double best = std::min(promised, order_.front()->log_odds);
     const double worth_a_fit = all_bad ? -std::numeric_limits<double>::infinity()

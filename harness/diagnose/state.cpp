@@ -94,7 +94,9 @@ bool is_rejected(const Refit& fit) {
 bool is_far_off(const Refit& fit) { return is_rejected(fit) && fit.scatter > effort::far_off; }
 
 bool is_led_astray(const DiagnosisState& state) {
-  return is_rejected(state.fit) && std::any_of(state.theta.begin(), state.theta.end(), [](const Knob& knob) {
+  // However little of the misfit a single effect makes: chi2 of hundreds of features hardly shows it.
+  return state.fit.p_value <= rules::doubtful &&
+         std::any_of(state.theta.begin(), state.theta.end(), [](const Knob& knob) {
            return is_believed(knob) &&
                   std::abs(knob.centre - knob.believed) > effort::astray * knob.believed_error;
          });

@@ -8,6 +8,7 @@
 #include "candidates.hpp"
 #include "effects.hpp"
 #include "engines.hpp"
+#include "parameter_knobs.hpp"
 #include "physics.hpp"
 #include "setup_file.hpp"
 #include "within.hpp"
@@ -119,6 +120,32 @@ TEST(Candidates, AShapeThatNoStrengthTellsMakesAlternatives) {
   EXPECT_EQ(range_and_walls,
             (std::vector<std::pair<double, double>>{{2e-5, 0}, {2e-5, 1}, {2e-4, 0}, {2e-4, 1}}));
   EXPECT_DOUBLE_EQ(odds, 0.135);  // as likely together as one
+}
+
+// Side walls that take .6 more than the end walls are looked for though a fit without them has put these at
+// .42: they lie elsewhere beside it.
+TEST(Candidates, SideWallsAreLookedForAtEveryStrengthWhereverTheEndWallsWereFitted) {
+  for (const double walls : {0.42, 0.76, 0.95}) {
+    shakedown::Setup setup;
+    set_number(setup, "restitution.grain_wall", walls, all_effects());
+    const std::vector<Candidate> list = candidates_for(setup, {"side_wall_restitution"}, all_effects(),
+                                                       *engine_named("hard"), free_parameters(setup));
+    ASSERT_EQ(list.size(), 1u);
+    // Where the end walls are known they make no room.
+    const Candidate known =
+        candidates_for(setup, {"side_wall_restitution"}, all_effects(), *engine_named("hard")).at(0);
+    for (const Candidate::Level& level : known.levels)
+      WITHIN(level.value - walls, level.strength, 1e-15, 5.6e-17);
+    std::vector<double> strengths;
+    for (const Candidate::Level& level : list[0].levels) {
+      strengths.push_back(level.strength);
+      EXPECT_GE(level.value, list[0].knobs[0].low);
+      EXPECT_LE(level.value, list[0].knobs[0].high);
+    }
+    EXPECT_EQ(strengths, (std::vector<double>{-0.1, 0.15, -0.2, -0.4, -0.6})) << walls;
+    EXPECT_LE(list[0].strengths.low, -0.61);
+    EXPECT_GE(list[0].strengths.high, 0.15);
+  }
 }
 
 TEST(Candidates, LeaveOutWhatTheSetupHasAndWhatItCannotHave) {

@@ -135,7 +135,7 @@ TEST(Search, BesideAModelThatIsFarOffFitsShortlyAndThenWhatHolds) {
 }
 
 TEST(Search, AShortFitStandsWhereSimulationsSufficeForNoMore) {
-  const SearchRound round = searched(1150);
+  const SearchRound round = searched(1100);
   expect_the_law(round);
   ASSERT_EQ(round.notes.size(), 1u);
   EXPECT_NE(round.notes.front().find("no time for more than a short fit"), std::string::npos);
