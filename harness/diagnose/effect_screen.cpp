@@ -46,7 +46,7 @@ bool is_left_open(const ScreenedEffect& effect, double most, double searched) {
   // What the noise of a glance has taken off the gain comes back with more simulations.
   const double share = std::max<double>(effect.share_seen, effort::glance_tells),
                could_be = effect.log_evidence + effect.gain / 2 * (1 / share - 1);
-  return effect.log_evidence > effort::glance_sees * most + doubted &&
+  return could_be > effort::glance_sees * most + doubted &&
          could_be + prior_log_odds(effect.seen.odds, searched) > doubted;
 }
 

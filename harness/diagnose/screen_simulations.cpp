@@ -297,8 +297,8 @@ LevelPoint ScreenSimulations::within_reach(LevelPoint point, double strength) {
 }
 
 std::optional<LevelPoint> ScreenSimulations::moved_along(const Eigen::VectorXd& change,
-                                                         const LevelPoint& point, double share) const {
-  Eigen::VectorXd steps = share * outside_->taken_of(of_means_.model.residual - change);
+                                                         const LevelPoint& point) const {
+  Eigen::VectorXd steps = outside_->taken_of(-change);
   bool far = false;
   for (std::size_t k = 0; k < fitted_.size(); ++k) {
     double& step = steps[static_cast<Eigen::Index>(k)];
@@ -312,37 +312,18 @@ std::optional<LevelPoint> ScreenSimulations::moved_along(const Eigen::VectorXd& 
 SignatureLevel ScreenSimulations::simulated_level(const Candidate& candidate, const Candidate::Level& level,
                                                   int count, Looked& looked) {
   const auto known = looked.points.find(level.strength);
-  const bool is_new = known == looked.points.end();
-  const auto at = [&](const LevelPoint& point) {
-    const std::vector<Emulator> there = simulated_at(candidate, point, count);
-    SimulatedPoint one{point, change_at(there, point.fitted, of_means_), {}, 0};
-    one.outside = (*outside_)(one.change);
-    one.noise = chaos_of(there, of_means_) / count;
-    return one;
-  };
-  SimulatedPoint best = at(is_new ? start_of(candidate, level, looked) : known->second);
-  // A line from where the fit without the effect has ended may lead too far: then half the way.
-  constexpr int most_steps = 3;
-  double share = 1;
-  for (int step = 0; is_new && step < most_steps; ++step) try {
-      const auto moved = moved_along(best.change, best.point, share);
-      if (!moved) break;
-      SimulatedPoint there = at(within_reach(*moved, level.strength));
-      const double before = (best.outside - without_.residual).squaredNorm(),
-                   after = (there.outside - without_.residual).squaredNorm();
-      if (after < before + there.noise)
-        best = std::move(there);
-      else
-        share /= 2;
-    } catch (const PhysicsError&) {  // what was simulated stands
-      break;
-    } catch (const InputError&) {
-      break;
-    } catch (const BudgetSpent&) {
-      break;
+  LevelPoint point = known != looked.points.end() ? known->second : start_of(candidate, level, looked);
+  std::vector<Emulator> there = simulated_at(candidate, point, count);
+  Eigen::VectorXd change = change_at(there, point.fitted, of_means_);
+  if (known == looked.points.end()) {
+    if (const auto moved = moved_along(change, point)) {
+      point = within_reach(*moved, level.strength);
+      there = simulated_at(candidate, point, count);
+      change = change_at(there, point.fitted, of_means_);
     }
-  if (is_new) looked.points[level.strength] = best.point;
-  return {level.strength, best.outside, best.noise};
+    looked.points[level.strength] = point;
+  }
+  return {level.strength, (*outside_)(change), chaos_of(there, of_means_) / count};
 }
 
 SignatureLevel ScreenSimulations::exact_level(const Candidate& candidate) const {

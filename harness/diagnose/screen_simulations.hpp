@@ -22,13 +22,6 @@ struct LevelPoint {
   Knob knob;                 ///< of the candidate
 };
 
-/// Holds what simulations at a point show.
-struct SimulatedPoint {
-  LevelPoint point;
-  Eigen::VectorXd change, outside;  ///< of the features; the part that fitted parameters do not take up
-  double noise = 0;                 ///< expected square of its error
-};
-
 /// Holds the levels of a candidate as far as they were simulated.
 struct Looked {
   std::vector<SignatureLevel> levels{};
@@ -138,10 +131,10 @@ class ScreenSimulations {
   /// of side walls) is moved where the bounds of its parameter do not allow as much there.
   static LevelPoint within_reach(LevelPoint point, double strength);
 
-  /// Returns the point with the fitted parameters on this share of the way to where their slopes see the best
-  /// fit beside this change of the features; none where they hardly move.
-  std::optional<LevelPoint> moved_along(const Eigen::VectorXd& change, const LevelPoint& point,
-                                        double share) const;
+  /// Returns the point with the fitted parameters where by their slopes they take up what they can of this
+  /// change of the features (not of the residual: a weaker effect moves them less, and none not at all); none
+  /// where they hardly move.
+  std::optional<LevelPoint> moved_along(const Eigen::VectorXd& change, const LevelPoint& point) const;
 
   /// Simulates a level. Beside an effect that restitutions imitate these lie elsewhere, farther than a line
   /// tells: the level is simulated again there.

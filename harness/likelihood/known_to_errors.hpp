@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frees what is known to within an error only, for commands that judge a model as it is given: a film through a lens
-// and a shutter, a track that wanders, or a box two grams heavier than was weighed, is not the model's
+// Frees what is known to within an error only, for commands that judge a model as it is given: a film through
+// a lens and a shutter, a track that wanders, or a box two grams heavier than was weighed, is not the model's
 // mistake.
 #pragma once
 #include <vector>
