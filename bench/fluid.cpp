@@ -34,11 +34,9 @@ int main(int count, char** words) {
   }
   const int grains = std::atoi(words[1]), percent = std::atoi(words[2]);
   const std::int64_t impacts = std::atoll(words[3]) * grains;
-  const shakedown::Setup setup = shakedown::periodic_fluid(grains, percent / 100.0);
-  shakedown::HardSphereSystem system(setup);
-  system.advance_impacts((grains > 200'000 ? 5LL : 20LL) * grains / 2);
+  shakedown::HardSphereSystem system = shakedown::molten_fluid(grains, percent / 100.0);
   if (count > 4) {
-    write_sph(system.state(), setup.box.length, words[4]);
+    write_sph(system.state(), shakedown::periodic_fluid(grains, percent / 100.0).box.length, words[4]);
     return 0;
   }
   const double begin = cpu_seconds();

@@ -71,13 +71,12 @@ void large_damper(benchmark::State& state) {
 
 /// Returns a fluid that has molten. It is kept between the calls that the benchmark library makes to find its
 /// number of iterations; one at a time.
-HardSphereSystem& molten_fluid(int grains, int percent) {
+HardSphereSystem& kept_fluid(int grains, int percent) {
   static std::unique_ptr<HardSphereSystem> kept;
   static std::pair<int, int> which;
   if (!kept || which != std::pair{grains, percent}) {
     kept.reset();
-    kept = std::make_unique<HardSphereSystem>(periodic_fluid(grains, percent / 100.0));
-    kept->advance_impacts((grains > 200'000 ? 5LL : 20LL) * grains / 2);
+    kept = std::make_unique<HardSphereSystem>(shakedown::molten_fluid(grains, percent / 100.0));
     which = {grains, percent};
   }
   return *kept;
@@ -86,7 +85,7 @@ HardSphereSystem& molten_fluid(int grains, int percent) {
 /// Runs elastic spheres in a periodic cube; an iteration is one impact a grain.
 void periodic_fluid(benchmark::State& state) {
   const int grains = static_cast<int>(state.range(0));
-  HardSphereSystem& system = molten_fluid(grains, static_cast<int>(state.range(1)));
+  HardSphereSystem& system = kept_fluid(grains, static_cast<int>(state.range(1)));
   const std::int64_t impacts = all_impacts(system.collisions()), events = system.events();
   for (auto _ : state) system.advance_impacts(grains / 2);
   count(state, all_impacts(system.collisions()) - impacts, system.events() - events);

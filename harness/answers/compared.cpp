@@ -13,6 +13,7 @@
 #include "effects.hpp"
 #include "judged_as_given.hpp"
 #include "knobs_report.hpp"
+#include "known_to_errors.hpp"
 #include "missing_numbers.hpp"
 #include "parameter_knobs.hpp"
 #include "release_known.hpp"
@@ -92,6 +93,7 @@ std::string compared_text(const Compared& compared) {
   if (has_ensembles)
     text += fmt::format("  whole: p = {:.3f} ({:.2f} times the misfit of the model's own runs)\n",
                         fit.p_value, fit.scatter);
+  text += nuisances_text(nuisances_of(fit, all_effects()));
   text += "\n" + validation_text(fit.validation()) + "\n";
   if (has_ensembles) text += readable(fit.cells);
   text += readable(decays);
@@ -183,6 +185,7 @@ std::string compared_json(const Compared& compared) {
         {"com_mm", fit.floor_centre() > 0 ? fit.floor_centre() * 1e3 : std::nan("")}}},
       {"runs", runs},
       {"validation", validation_json(fit.validation())},
+      {"camera", nuisances_json(nuisances_of(fit, all_effects()))},
       {"where", json_of(fit.cells)},
       {"decay", json_of(decays)},
       {"momentum",

@@ -29,7 +29,7 @@ struct Compared {
   Measurement measurement;              ///< from the first turn of each run on
   std::vector<std::string> warnings;    ///< what the frames as recorded give reason to say
   std::vector<std::string> notes;       ///< the same, and what was assumed in reading
-  Refit fit;                            ///< of camera and clock alone
+  Refit fit;                            ///< of what is known to an error alone
   std::vector<DecayComparison> decays;  ///< of each run
   MomentumAudit momentum;
   ModelJudgement judgement;

@@ -18,6 +18,7 @@
 #include "known_effects.hpp"
 #include "measurement.hpp"
 #include "momentum_terms.hpp"
+#include "nuisance_found.hpp"
 
 namespace shakedown {
 
@@ -89,13 +90,6 @@ struct BalanceAlternative {
   std::vector<FoundTerm> terms;
   double frequency = 0, frequency_low = 0, frequency_high = 0;  ///< Hz, of the empty box
   BalanceFit final_fit;
-};
-
-/// Holds what the fit says of something of the camera or of what was weighed.
-struct NuisanceFound {
-  std::string name, unit;
-  double deviation = 0;         ///< standard deviation beforehand
-  double value = 0, error = 0;  ///< afterwards
 };
 
 /// Holds all that the balance says of a measurement.

@@ -11,6 +11,7 @@
 #include "grain_count.hpp"
 #include "key_unit.hpp"
 #include "known_effects.hpp"
+#include "known_to_errors.hpp"
 #include "last_fit.hpp"
 #include "next_experiment.hpp"
 #include "quantity.hpp"
@@ -103,14 +104,9 @@ void note_shapes(Diagnosis& d, KnownEffects known) {
 /// better.
 void set_camera(const Refit& fit, Diagnosis& d, KnownEffects known) {
   d.camera = d.momentum.nuisances;
-  for (std::size_t k = 0; k < fit.values.size(); ++k) {
-    const Knob& knob = fit.knobs[k];
-    if (!knob.exact) continue;
-    const FittedValue& value = fit.values[k];
-    const NuisanceFound found{knob.key, si_unit_of_key(knob.key, known), knob.believed_error,
-                              value.value - knob.believed, value.error};
+  for (const NuisanceFound& found : nuisances_of(fit, known)) {
     const auto same = std::find_if(d.camera.begin(), d.camera.end(),
-                                   [&](const NuisanceFound& n) { return n.name == knob.key; });
+                                   [&](const NuisanceFound& n) { return n.name == found.name; });
     if (same == d.camera.end())
       d.camera.push_back(found);
     else if (found.error < same->error)

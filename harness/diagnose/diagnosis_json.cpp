@@ -43,17 +43,6 @@ Json left_json(const std::vector<Difference>& left) {
   return list;
 }
 
-Json camera_json(const std::vector<NuisanceFound>& camera) {
-  Json list = Json::array();
-  for (const NuisanceFound& n : camera)
-    list.push_back({{"name", n.name},
-                    {"value", number(n.value)},
-                    {"error", number(n.error)},
-                    {"known_to", number(n.deviation)},
-                    {"unit", n.unit}});
-  return list;
-}
-
 Json momentum_json(const MomentumAudit& audit) {
   Json terms = Json::array();
   for (const FoundTerm& term : audit.terms)
@@ -178,7 +167,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"validation", validation_json(d.validation)},
       {"forced", forced_json(d.forced)},
       {"explained", number(d.explained)},
-      {"camera", camera_json(d.camera)},
+      {"camera", nuisances_json(d.camera)},
       {"parameters", parameters_json(d.parameters)},
       {"ranking", ranking_json(d.ranking)},
       {"ladder", steps_json(d.ladder)},

@@ -33,14 +33,6 @@ std::string hypotheses_text(const Diagnosis& d) {
   return text.empty() ? "" : "  probability of what is missing\n" + text + "\n";
 }
 
-std::string camera_text(const Diagnosis& d) {
-  std::string text;
-  for (const NuisanceFound& n : d.camera)
-    text += fmt::format("    {:<44} {:>10.3g} +- {:<8.2g} {:<5} (known to {:.2g})\n", n.name, n.value,
-                        n.error, n.unit, n.deviation);
-  return text.empty() ? "" : "\n  camera and weights, as the data show them\n" + text;
-}
-
 /// Returns a length in mm; "-" where nothing was measured.
 std::string in_mm(double metres) { return std::isfinite(metres) ? fmt::format("{:.3f}", metres * 1e3) : "-"; }
 
@@ -100,7 +92,7 @@ std::string diagnosis_text(const Diagnosis& d) {
                                            p.low, p.high, p.unit)
                              : fmt::format("    {:<44} {}\n", p.name, p.word);
   }
-  text += camera_text(d);
+  if (!d.camera.empty()) text += "\n" + nuisances_text(d.camera);
   if (d.momentum.possible && d.momentum.wander.deviation > 0)
     text += fmt::format("  the track wanders by {:.2g} mm over {:.2g} s\n", d.momentum.wander.deviation * 1e3,
                         d.momentum.wander.time);

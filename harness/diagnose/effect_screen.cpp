@@ -39,7 +39,8 @@ void name_look_alikes(const std::vector<Eigen::VectorXd>& changes, std::vector<S
     }
 }
 
-/// Tells whether a second look may make it more than doubtful, beside the best one and beside nothing.
+}  // namespace
+
 bool is_left_open(const ScreenedEffect& effect, double most, double searched) {
   if (!effect.weighed) return false;
   const double doubted = std::log(rules::doubtful);
@@ -50,13 +51,10 @@ bool is_left_open(const ScreenedEffect& effect, double most, double searched) {
          could_be + prior_log_odds(effect.seen.odds, searched) > doubted;
 }
 
-/// Tells whether the noise of the simulations is what keeps it from being said to be there, or not.
 bool is_undecided(const ScreenedEffect& effect, double searched) {
   const double log_odds = effect.log_evidence + prior_log_odds(effect.seen.odds, searched);
   return effect.share_seen < effort::well_seen && log_odds < -std::log(rules::doubtful);
 }
-
-}  // namespace
 
 EffectScreen::EffectScreen(std::vector<MeasuredFeatures> measured, std::vector<Knob> fitted,
                            const Workshop& workshop, const ScreenEffort& effort, int first_run,

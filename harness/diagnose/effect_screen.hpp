@@ -28,6 +28,14 @@ struct ScreenedEffect {
   double share_seen = 1;  ///< of the gain, that the noise of the simulations leaves
 };
 
+/// Tells whether another look may make it more than doubtful: beside the best one, whose ln evidence is
+/// `most`, and beside nothing with its prior among as many effects as are searched for. What the noise of its
+/// simulations hides counts for it.
+bool is_left_open(const ScreenedEffect& effect, double most, double searched);
+
+/// Tells whether the noise of its simulations is what keeps it from being said to be there, or not.
+bool is_undecided(const ScreenedEffect& effect, double searched);
+
 /// Holds the candidates that were weighed, and those that could not be.
 struct Screening {
   std::vector<ScreenedEffect> list;  ///< best first

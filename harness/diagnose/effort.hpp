@@ -33,6 +33,8 @@ constexpr Effort look{1, 128, 0}, refit{2, 160, 128}, beside{2, 160, 128, true},
     apart{2, 160, 128, true, false, true}, least{1, 64, 0, false, true};
 constexpr int most_when_dear = 80;
 constexpr std::size_t most_pairs = 2;
+/// Fits whatever the odds where p is below `holds` and the misfit is no more than codes differ by: half of
+/// most_tried, an assumption that spares time.
 constexpr int fitted_where_poor = 2;
 constexpr ScreenEffort rank{}, rank_when_dear{32, 48, 0, {8, 8, 8}, {12, 12, 12}, {24, 24, 24}};
 /// Returns the same effort at the middle levels alone, where signatures say little but at which strength a

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "emulator.hpp"
+#include "refit_result.hpp"
 
 namespace shakedown {
 
@@ -18,5 +19,8 @@ struct ScreenStart {
   std::vector<Emulator> emulators{};
   std::vector<Knob> knobs{};
 };
+
+/// Returns what the screen of the model at `knobs`, where this fit has put it, need not simulate again.
+ScreenStart start_from(const Refit& fit, const std::vector<Knob>& knobs);
 
 }  // namespace shakedown

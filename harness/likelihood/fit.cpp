@@ -12,6 +12,7 @@
 #include "distributions.hpp"
 #include "free_parameters.hpp"
 #include "key_unit.hpp"
+#include "known_to_errors.hpp"
 #include "refit.hpp"
 #include "refit_options.hpp"
 #include "setup_file.hpp"
@@ -227,9 +228,8 @@ class Fitter {
       set_knob(fit_.fitted, at_solution, options_.known);
     }
     for (std::size_t k = 0; k < asked_; ++k) fit_.parameters.push_back(parameter(k, found.values[k], told));
-    for (std::size_t k = asked_; k < knobs_.size(); ++k)
-      fit_.beside.push_back({knobs_[k].key, si_unit_of_key(knobs_[k].key, options_.known),
-                             found.values[k].value, found.values[k].error, knobs_[k].believed_error});
+    for (NuisanceFound& one : nuisances_of(found, options_.known))
+      if (!is_asked(one.name)) fit_.beside.push_back(std::move(one));
   }
 
   FittedParameter parameter(std::size_t k, const FittedValue& value, const ToldApart& told) const {

@@ -10,6 +10,7 @@
 #include "contact_curve.hpp"
 #include "execution.hpp"
 #include "known_effects.hpp"
+#include "nuisance_found.hpp"
 #include "refit_result.hpp"
 #include "slow_wander.hpp"
 
@@ -36,13 +37,6 @@ struct FittedParameter {
   std::string remark;                              ///< why not, or with what it is confounded
 };
 
-/// Holds a number of camera or damper that is known to an error and was free beside what the user asked for.
-struct FreedBeside {
-  std::string key, unit;        ///< unit: SI
-  double value = 0, error = 0;  ///< as the data show it, SI
-  double known_to = 0;          ///< standard deviation beforehand, SI
-};
-
 /// Says what a fit with a constant in place of each curve leaves, everything else as free.
 struct ConstantBeside {
   double p_value = 1, scatter = 1;       ///< as of the fit
@@ -53,7 +47,7 @@ struct ConstantBeside {
 /// Holds what a fit found, and how well it foretells the runs left out.
 struct Fit {
   std::vector<FittedParameter> parameters;
-  std::vector<FreedBeside> beside{};       ///< camera and weights, within their errors
+  std::vector<NuisanceFound> beside{};     ///< camera and weights, which were free beside
   Eigen::MatrixXd correlation;             ///< of the estimates
   std::vector<RunComparison> used;         ///< runs fitted, at the solution
   std::vector<RunComparison> left_out;     ///< the others, foretold

@@ -28,25 +28,6 @@ Json runs_json(const std::vector<RunComparison>& runs) {
   return list;
 }
 
-Json beside_json(const std::vector<FreedBeside>& freed) {
-  Json list = Json::array();
-  for (const FreedBeside& one : freed)
-    list.push_back({{"name", one.key},
-                    {"value", one.value},
-                    {"error", one.error},
-                    {"known_to", one.known_to},
-                    {"unit", one.unit}});
-  return list;
-}
-
-std::string beside_text(const std::vector<FreedBeside>& freed) {
-  std::string text;
-  for (const FreedBeside& one : freed)
-    text += fmt::format("    {:<44} {:>10.3g} +- {:<8.2g} {:<5} (known to {:.2g})\n", one.key, one.value,
-                        one.error, one.unit, one.known_to);
-  return text.empty() ? "" : "  camera and weights, as the data show them\n" + text;
-}
-
 /// Returns a length in mm; "-" where the grains' centre was not tracked.
 std::string of_centre(const RunComparison& run, double metres) {
   return run.floor_centre > 0 ? fmt::format("{:.3f}", 1e3 * metres) : "-";
@@ -114,7 +95,7 @@ std::string fit_json(const Fit& fit) {
                 {"holds", fit.judgement.holds()},
                 {"standing", std::string(name_of(fit.judgement.standing))},
                 {"reason", fit.judgement.reason},
-                {"camera", beside_json(fit.beside)},
+                {"camera", nuisances_json(fit.beside)},
                 {"runs_used", runs_json(fit.used)},
                 {"runs_left_out", runs_json(fit.left_out)},
                 {"simulations", fit.runs},
@@ -152,7 +133,7 @@ std::string fit_text(const Fit& fit) {
   if (std::isfinite(fit.p_value))
     text += fmt::format("  misfit {:.2f} times that of the model's own runs, p = {:.3f}\n", fit.scatter,
                         fit.p_value);
-  text += "  fitted model " + fit.judgement.reason + "\n" + beside_text(fit.beside);
+  text += "  fitted model " + fit.judgement.reason + "\n" + nuisances_text(fit.beside);
   for (const RunComparison& run : fit.used) text += validation_text(run.validation);
   text += runs_text("runs fitted", fit.used) + runs_text("runs foretold", fit.left_out);
   return text + (fit.runs > 0 ? fmt::format("  {} simulations, {:.1f} s\n", fit.runs, fit.seconds)

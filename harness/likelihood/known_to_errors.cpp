@@ -3,6 +3,7 @@
 
 #include "camera_features.hpp"
 #include "damper_errors.hpp"
+#include "key_unit.hpp"
 
 namespace shakedown {
 
@@ -18,6 +19,17 @@ KnownToErrors known_to_errors(const Setup& setup, const Measurement& measurement
               workshop.known, known.measured);
   known.of_damper = knobs_of(errors, setup);
   return known;
+}
+
+std::vector<NuisanceFound> nuisances_of(const Refit& fit, KnownEffects known) {
+  std::vector<NuisanceFound> list;
+  for (std::size_t k = 0; k < fit.values.size(); ++k) {
+    const Knob& knob = fit.knobs[k];
+    if (!knob.exact) continue;
+    list.push_back({knob.key, si_unit_of_key(knob.key, known), knob.believed_error,
+                    fit.values[k].value - knob.believed, fit.values[k].error});
+  }
+  return list;
 }
 
 }  // namespace shakedown

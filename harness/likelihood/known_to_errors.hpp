@@ -7,6 +7,8 @@
 
 #include "emulator.hpp"
 #include "measurement.hpp"
+#include "nuisance_found.hpp"
+#include "refit_result.hpp"
 #include "slow_wander.hpp"
 
 namespace shakedown {
@@ -22,5 +24,8 @@ struct KnownToErrors {
 /// where they were seen (with_measured_release()); `wander`: of its tracks.
 KnownToErrors known_to_errors(const Setup& setup, const Measurement& measurement, const Wander& wander,
                               const Workshop& workshop);
+
+/// Returns what a fit shows of the numbers of camera, clock and masses that were free in it.
+std::vector<NuisanceFound> nuisances_of(const Refit& fit, KnownEffects known);
 
 }  // namespace shakedown

@@ -12,6 +12,7 @@
 #include "key_unit.hpp"
 #include "known_effects.hpp"
 #include "last_fit.hpp"
+#include "measured_sections.hpp"
 #include "page_figures.hpp"
 #include "quantity.hpp"
 #include "setup_file.hpp"
@@ -145,23 +146,6 @@ ReportSection what_is_left(const Diagnosis& d) {
   return section;
 }
 
-ReportSection camera(const Diagnosis& d) {
-  ReportSection section;
-  section.title = "Camera and weights";
-  section.paragraphs = {
-      "What the data say (95 %) of what was known to an error only, counted from what was stated; pale: what "
-      "was known."};
-  for (const NuisanceFound& n : d.camera) {
-    const ReadUnit read = read_unit(n.name.substr(0, n.name.find(' ')));
-    const double value = n.value / read.factor, error = normal_95 * n.error / read.factor,
-                 known = normal_95 * n.deviation / read.factor;
-    ReportInterval interval{words_of_key(n.name), read.unit, "", value, value - error, value + error};
-    if (known > 0) interval.known_low = -known, interval.known_high = known;
-    section.intervals.push_back(interval);
-  }
-  return section;
-}
-
 }  // namespace
 
 ReadUnit read_unit(const std::string& key) {
@@ -204,7 +188,7 @@ std::vector<ReportSection> answer_of(const Diagnosis& diagnosis, const Setup& gi
     sections.push_back(std::move(table));
   sections.push_back(strengths(diagnosis, given));
   if (!diagnosis.left.empty()) sections.push_back(what_is_left(diagnosis));
-  if (!diagnosis.camera.empty()) sections.push_back(camera(diagnosis));
+  if (!diagnosis.camera.empty()) sections.push_back(nuisances_section(diagnosis.camera));
   return sections;
 }
 

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "effects.hpp"
+#include "known_to_errors.hpp"
 #include "measured_sections.hpp"
 #include "page_figures.hpp"
 #include "report_parts.hpp"
@@ -87,6 +89,8 @@ Report report_of(const ComparedModel& found, const Measurement& measurement, con
   report.sections.back().tables.push_back(validation_table(fit.validation()));
   if (ReportSection landings = landings_section(decays); !landings.plots.empty())
     report.sections.push_back(std::move(landings));
+  if (const std::vector<NuisanceFound> found = nuisances_of(fit, all_effects()); !found.empty())
+    report.sections.push_back(nuisances_section(found));
   report.sections.push_back(momentum_section(momentum));
   if (!curves.empty()) report.sections.push_back(energy_section(curves));
   if (const std::vector<std::string> notes = all_notes(measurement); !notes.empty()) {

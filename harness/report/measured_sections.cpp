@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "answer_sections.hpp"
+#include "distributions.hpp"
 #include "page_figures.hpp"
 #include "report_parts.hpp"
 
@@ -48,6 +50,23 @@ ReportTable validation_table(const std::vector<Validation>& rows) {
                                                : "about " + for_people(left)});
   }
   return table;
+}
+
+ReportSection nuisances_section(const std::vector<NuisanceFound>& found) {
+  ReportSection section;
+  section.title = "Camera and weights";
+  section.paragraphs = {
+      "What the data say (95 %) of what was known to an error only, counted from what was stated; pale: what "
+      "was known."};
+  for (const NuisanceFound& n : found) {
+    const ReadUnit read = read_unit(n.name.substr(0, n.name.find(' ')));
+    const double value = n.value / read.factor, error = normal_95 * n.error / read.factor,
+                 known = normal_95 * n.deviation / read.factor;
+    ReportInterval interval{words_of_key(n.name), read.unit, "", value, value - error, value + error};
+    if (known > 0) interval.known_low = -known, interval.known_high = known;
+    section.intervals.push_back(interval);
+  }
+  return section;
 }
 
 ReportSection momentum_section(const MomentumAudit& momentum) {

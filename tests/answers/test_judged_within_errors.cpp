@@ -2,6 +2,8 @@
 // What is known to within an error only is not the model's mistake, whichever command judges it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "climbed.hpp"
@@ -40,6 +42,8 @@ TEST(SlowJudgedWithinErrors, AComparisonAllowsForWeighingAndForTheHandThatLetsGo
   const Compared compared = compared_with(film.believed, film.measurement, *film.engine, {64, {2}, {}});
   EXPECT_NE(compared.judgement.standing, Standing::fails) << compared.judgement.reason;
   EXPECT_GT(compared.fit.p_value, 0.01);
+  EXPECT_NE(compared_text(compared).find("box.mass"), std::string::npos);
+  EXPECT_NE(compared_json(compared).find("\"known_to\""), std::string::npos);
 }
 
 TEST(SlowJudgedWithinErrors, SoDoesALadder) {
@@ -58,6 +62,11 @@ TEST(SlowJudgedWithinErrors, SoDoesAFit) {
   const Fit fit =
       fitted_and_judged(film.believed, film.measurement, {"restitution.grain_grain"}, *film.engine, options);
   EXPECT_GT(fit.p_value, 0.01);
+  // A release that is not free is told as a scale of the camera that is nine standard errors off.
+  const auto scale = std::find_if(fit.beside.begin(), fit.beside.end(),
+                                  [](const NuisanceFound& one) { return one.name == "camera_scale.scale"; });
+  ASSERT_NE(scale, fit.beside.end());
+  EXPECT_LT(std::abs(scale->value), 3 * scale->error);
   ASSERT_EQ(fit.parameters.size(), 1u);
   EXPECT_LT(fit.parameters[0].low, 0.75);
   EXPECT_GT(fit.parameters[0].high, 0.75);

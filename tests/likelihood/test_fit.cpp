@@ -115,8 +115,8 @@ TEST(Fit, ThroughALensAShutterAndAScaleThatAreKnownToTheirErrors) {
     EXPECT_LE(parameter.low, value) << parameter.key;
     EXPECT_GE(parameter.high, value) << parameter.key;
   }
-  const auto lens = std::find_if(fit.beside.begin(), fit.beside.end(), [](const FreedBeside& freed) {
-    return freed.key == "camera_lens.distortion";
+  const auto lens = std::find_if(fit.beside.begin(), fit.beside.end(), [](const NuisanceFound& freed) {
+    return freed.name == "camera_lens.distortion";
   });
   ASSERT_NE(lens, fit.beside.end());
   EXPECT_LT(std::abs(lens->value - 0.008), 3 * lens->error);

@@ -36,7 +36,7 @@ TEST(ReleaseKnown, MeasuredGrainsKeepTheirPlacesInTheBox) {
       const State state = initial_state(setup);
       EXPECT_GT((state.x_box - first.x_box) / beside, 0.2);
       for (std::size_t i = 0; i < state.size(); ++i)
-        WITHIN(state.position[i].x() - state.x_box, first.position[i].x() - first.x_box, 3e-16, 2.8e-17);
+        WITHIN(state.position[i].x() - state.x_box, first.position[i].x() - first.x_box, 2.5e-16, 1.4e-17);
     }
     EXPECT_GT(seen.runs[0].recorded.release_error, 0);
   }
