@@ -55,14 +55,33 @@ void EndWalls::sweep(const Now& now) {
   bound_all(now);
 }
 
+/// Bounds of the first root of gaps in vector lanes, each as earliest_possible_root() makes it.
+template <class L>
+static L earliest_possible_roots(const L& gap, const L& rate, double top) {
+  const L zero(0.0), room = simd::max(gap, zero);
+  const auto opens = rate >= zero;
+  if (top <= 0) {
+    L wait = room / -rate;
+    simd::where(opens, wait) = never;
+    return wait;
+  }
+  const L root = simd::sqrt(rate * rate + L(2 * top) * room);
+  L over = L(2.0) * room, under = root - rate;
+  simd::where(opens, over) = rate + root;
+  simd::where(opens, under) = L(top);
+  return over / under;
+}
+
 double EndWalls::bound_of(int grain, const Flight& flight, double room, const Now& now) const {
   const double apart = now.point.x - (flight.x + flight.v * (now.time - flight.time)),
                rate = now.point.v - flight.v;
   const double top = top_in_window(now);
-  if (range_ == 0)
-    return now.time + std::min(earliest_possible_root(room + apart, rate - budget_, top),
-                               earliest_possible_root(room - apart, -rate - budget_, top));
-  return now.time + bound_at_wells(grain, room + apart, room - apart, rate, top);
+  if (range_ > 0) return now.time + bound_at_wells(grain, room + apart, room - apart, rate, top);
+  // Both walls at a time: a root and a division each.
+  using Two = simd::simd<double, simd::simd_abi::deduce_t<double, 2>>;
+  const Two side([](auto lane) { return lane == 0 ? 1.0 : -1.0; });
+  return now.time + simd::hmin(earliest_possible_roots<Two>(Two(room) + side * Two(apart),
+                                                            side * Two(rate) - Two(budget_), top));
 }
 
 /// Returns a lower bound of the time, s from now, to what lies ahead at the upper and the lower wall: the
@@ -75,18 +94,8 @@ double EndWalls::bound_at_wells(int grain, double upper, double lower, double ra
   const std::array<double, 4> gaps{upper - (in_upper ? 0 : range_), lower - (in_lower ? 0 : range_),
                                    in_upper ? range_ - upper : far, in_lower ? range_ - lower : far};
   const std::array<double, 4> rates{rate, -rate, in_upper ? -rate : 1, in_lower ? rate : 1};
-  const Four gap(gaps.data(), simd::element_aligned), opening(rates.data(), simd::element_aligned), zero(0.0);
-  const Four room = simd::max(gap, zero);
-  Four over = room, under = -opening;
-  if (top > 0) {
-    const Four root = simd::sqrt(opening * opening + Four(2 * top) * room);
-    over = Four(2.0) * room, under = root - opening;
-    simd::where(opening >= zero, over) = opening + root;
-    simd::where(opening >= zero, under) = Four(top);
-  }
-  Four wait = over / under;
-  if (top <= 0) simd::where(opening >= zero, wait) = never;
-  return simd::hmin(wait);
+  return simd::hmin(earliest_possible_roots<Four>(Four(gaps.data(), simd::element_aligned),
+                                                  Four(rates.data(), simd::element_aligned), top));
 }
 
 void EndWalls::watch(int i, const Flight& flight) {

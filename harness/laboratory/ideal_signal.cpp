@@ -84,7 +84,7 @@ class Simulations {
   double sample_rate_;  // 1/s
 };
 
-/// Returns the variance of the camera's noise in each bin, m^2.
+/// Returns the variance of the camera's white noise in each bin, m^2.
 Vector noise_of(const RecordingSettings& camera, Eigen::Index features, bool grains, double bin) {
   const double frames = std::max(1.0, camera.frame_rate * bin * (1 - camera.missing));
   Vector noise = Vector::Constant(features, camera.box_noise * camera.box_noise / frames);
@@ -123,24 +123,49 @@ struct Block {
   std::array<Matrix, 2> covariance;        ///< to find directions with
   std::array<Matrix, 2> plain_covariance;  ///< to weigh them with
   Matrix unknown_to_all, unknown_of_run;   ///< columns, each times its standard deviation
+  Matrix wander;                           ///< covariance of a wandering track
 };
 
-Matrix columns_of_run(const Vector& mean, bool grains, const IdealIgnorance& ignorance, double bin) {
-  const Eigen::Index bins = grains ? mean.size() / 2 : mean.size();
-  Matrix columns(mean.size(), 2);
+/// Returns the velocity in each bin of box and grains, m/s.
+Vector velocities(const Vector& mean, Eigen::Index bins, double bin) {
+  Vector velocity(mean.size());
   for (Eigen::Index i = 0; i < mean.size(); ++i) {
     const Eigen::Index first = i < bins ? 0 : bins, low = std::max(first, i - 1),
                        high = std::min(first + bins - 1, i + 1);
-    columns(i, 0) = ignorance.clock * (mean(high) - mean(low)) / (bin * static_cast<double>(high - low));
-    columns(i, 1) = ignorance.origin;
+    velocity(i) = (mean(high) - mean(low)) / (bin * static_cast<double>(high - low));
   }
+  return velocity;
+}
+
+/// Returns what the camera's errors in all runs do to each bin, m: lens, rows that are read one after the
+/// other, grains nearer than the marker. Columns of nothing where the camera has no such error.
+Matrix columns_of_camera(const Vector& mean, Eigen::Index bins, const RecordingSettings& camera, double bin) {
+  constexpr double lens_scale = 0.2, rows_of = 0.4;  // m, as Physics::Camera has them
+  Matrix columns = Matrix::Zero(mean.size(), 3);
+  columns.col(0) = camera.lens * mean.array() * (mean.array() / lens_scale).square();
+  columns.col(1) = camera.shutter * velocities(mean, bins, bin).array() * (mean.array() / rows_of + 0.5);
+  if (mean.size() > bins) columns.col(2).tail(bins) = camera.near * mean.tail(bins);
   return columns;
+}
+
+/// Returns the covariance of a track that wanders, m^2: of means over bins, box and grains apart.
+Matrix wander_of(Eigen::Index features, Eigen::Index bins, const RecordingSettings& camera, double bin) {
+  Matrix covariance = Matrix::Zero(features, features);
+  if (camera.wander <= 0) return covariance;
+  for (Eigen::Index i = 0; i < features; ++i)
+    for (Eigen::Index j = 0; j < features; ++j)
+      if ((i < bins) == (j < bins))
+        covariance(i, j) = camera.wander * camera.wander *
+                           std::exp(-bin * static_cast<double>(std::abs(i - j)) / camera.wander_time);
+  return covariance;
 }
 
 Block block_of(const Setup& without, const std::vector<Setup>& with, const IdealSettings& settings,
                const Simulations& simulations) {
   const int n = settings.count, changes = static_cast<int>(with.size());
   const bool grains = without.grains.count > 0;
+  const RecordingSettings& camera = settings.recording;
+  const double bin = bin_of(without);
   Block block;
   std::array<Matrix, 2> spread;
   Vector mean;
@@ -157,13 +182,14 @@ Block block_of(const Setup& without, const std::vector<Setup>& with, const Ideal
     block.signatures[static_cast<std::size_t>(half)] = signatures;
     spread[static_cast<std::size_t>(half)] = sample_covariance(residuals, 1 + changes);
   }
-  const Vector noise = noise_of(settings.recording, mean.size(), grains, bin_of(without));
+  const Eigen::Index bins = grains ? mean.size() / 2 : mean.size();
+  const Vector noise = noise_of(camera, mean.size(), grains, bin);
+  block.wander = wander_of(mean.size(), bins, camera, bin);
   for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
     block.covariance[half] = likely_covariance(spread[half], spread[1 - half], noise);
     block.plain_covariance[half] = spread[half];
     block.plain_covariance[half].diagonal() += noise;
   }
-  block.unknown_of_run = columns_of_run(mean, grains, settings.ignorance, bin_of(without));
   // A law may not reach as far on one side.
   const auto mean_at = [&](const char* key, double value) -> std::optional<Vector> {
     try {
@@ -184,7 +210,14 @@ Block block_of(const Setup& without, const std::vector<Setup>& with, const Ideal
   };
   const IdealIgnorance& unknown = settings.ignorance;
   const double frequency = without.spring.frequency;
-  block.unknown_to_all.resize(mean.size(), 4);
+  block.unknown_of_run = Matrix::Constant(mean.size(), 3, unknown.origin);
+  block.unknown_of_run.col(0) = unknown.clock * velocities(mean, bins, bin);
+  block.unknown_of_run.col(2) =
+      camera.release > 0
+          ? Vector(camera.release * slope("release.displacement", 0.01 * without.release.displacement))
+          : Vector::Zero(mean.size());
+  block.unknown_to_all.resize(mean.size(), 7);
+  block.unknown_to_all.rightCols(3) = columns_of_camera(mean, bins, camera, bin);
   block.unknown_to_all.col(0) = unknown.scale * mean;
   block.unknown_to_all.col(1) = unknown.frequency * frequency * slope("spring.frequency", 1e-3 * frequency);
   block.unknown_to_all.col(2) = unknown.restitution * slope("restitution.grain_grain", 0.05);
@@ -204,12 +237,12 @@ Matrix seen(const std::vector<Block>& blocks, std::size_t finds, std::size_t see
   const Eigen::Index changes = blocks.front().signatures[0].cols();
   Eigen::Index size = 0;
   for (const Block& block : blocks) size += block.signatures[0].rows();
-  Matrix covariance = Matrix::Zero(size, size), weighing = covariance, shared(size, 4);
+  Matrix covariance = Matrix::Zero(size, size), weighing = covariance, shared(size, 7);
   Matrix found(size, changes), other(size, changes);
   Eigen::Index at = 0;
   for (const Block& block : blocks) {
     const Eigen::Index here = block.signatures[0].rows();
-    const Matrix own = block.unknown_of_run * block.unknown_of_run.transpose();
+    const Matrix own = block.unknown_of_run * block.unknown_of_run.transpose() + block.wander;
     covariance.block(at, at, here, here) = block.covariance[finds] + own;
     weighing.block(at, at, here, here) = block.plain_covariance[sees] + own;
     shared.middleRows(at, here) = block.unknown_to_all;

@@ -18,7 +18,8 @@ struct IdealIgnorance {
 /// Says what is filmed and how much is simulated.
 struct IdealSettings {
   std::vector<PlannedRun> runs{};
-  RecordingSettings recording{};  ///< its noise and frame rate; other errors of the camera are in `ignorance`
+  RecordingSettings
+      recording{};  ///< lens, shutter, depth, wander and release are as unknown as they are large
   IdealIgnorance ignorance{};
   int count = 24;  ///< simulations of each different run and half
   std::uint64_t seed = 1;
