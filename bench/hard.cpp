@@ -123,9 +123,11 @@ void wall_bound(benchmark::State& state) {
 BENCHMARK(paper_damper)->ArgName("L_mm")->Arg(40)->Arg(311)->Unit(benchmark::kMillisecond);
 BENCHMARK(large_damper)
     ->ArgNames({"N", "ms"})
+    ->Args({100, 20})
     ->Args({1000, 20})
     ->Args({10'000, 20})
     ->Args({100'000, 20})
+    ->Args({1'000'000, 20})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(periodic_fluid)
     ->ArgNames({"N", "percent"})

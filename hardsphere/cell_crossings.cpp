@@ -264,8 +264,8 @@ void CellCrossings::schedule(std::size_t i, const Flight3& anchor, double now) {
 }
 
 double CellCrossings::bytes_per_grain() const {
-  return GrainLines::bytes_per_grain() + sizeof(Place) +
-         static_cast<double>(cell_first_.size() * sizeof(std::int32_t) + queue_.bytes()) /
+  return sizeof(Place) +
+         static_cast<double>(lines_.bytes() + cell_first_.size() * sizeof(std::int32_t) + queue_.bytes()) /
              static_cast<double>(lines_.size());
 }
 

@@ -198,9 +198,8 @@ template <bool Periodic>
 double CellLists<Periodic>::bytes_per_grain() const {
   if (lines_.size() == 0) return 0;
   const double n = static_cast<double>(lines_.size());
-  return GrainLines::bytes_per_grain() + sizeof(Own) +
-         static_cast<double>(list_room_) * sizeof(std::int32_t) +
-         static_cast<double>(centres_.bytes() + queue_.bytes()) / n;
+  return sizeof(Own) + static_cast<double>(list_room_) * sizeof(std::int32_t) +
+         static_cast<double>(lines_.bytes() + centres_.bytes() + queue_.bytes()) / n;
 }
 
 template class CellLists<true>;

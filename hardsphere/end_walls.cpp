@@ -10,21 +10,33 @@ EndWalls::EndWalls(std::vector<double> room, bool always_watch_all, double range
       range_(range),
       room_(std::move(room)),
       slot_(room_.size(), -1),
-      bound_(room_.size()) {
-  const std::size_t size = std::max(padded(room_.size()), lane_count);
-  for (AlignedVector<double>* array : {&x_, &v_, &time_, &room_of_slot_}) array->assign(size, 0.0);
-  grain_.assign(size, -1);
-  side_.assign(size, 0);
-  meeting_.assign(size, Meeting::none);
+      bound_(watch_all_ ? room_.size() : 0) {
+  make_room(watch_all_ ? slot_.size() : 0);
+  if (range_ > 0) inside_.assign(2 * slot_.size(), 0);
+  equal_ = std::all_of(room_.begin(), room_.end(), [this](double one) { return one == room_[0]; });
+  if (equal_ && room_.size() > 1) room_ = {room_[0]};
+}
+
+void EndWalls::make_room(std::size_t watched) {
+  const std::size_t size = std::max(padded(watched), lane_count);
+  for (AlignedVector<double>* array : {&x_, &v_, &time_, &room_of_slot_}) array->resize(size, 0.0);
+  grain_.resize(size, -1);
+  side_.resize(size, 0);
+  meeting_.resize(size, Meeting::none);
+  bound_.widen(size);
   if (range_ == 0) return;
-  inside_.assign(2 * room_.size(), 0);
-  for (AlignedVector<double>& side : inside_of_slot_) side.assign(size, 0.0);
+  for (AlignedVector<double>& side : inside_of_slot_) side.resize(size, 0.0);
+}
+
+std::size_t EndWalls::bytes() const {
+  const std::size_t of_watched = 5 * sizeof(double) + sizeof(std::int32_t) + 2;
+  return room_.size() * sizeof(double) + slot_.size() * sizeof(std::int32_t) + grain_.size() * of_watched;
 }
 
 void EndWalls::start_window(const Now& now) {
   if (watch_all_) return;
   // A grain costs about 8 times as much in the sweep over all as in the vectorised sweep over the watched.
-  const double all = 8 * static_cast<double>(room_.size());
+  const double all = 8 * static_cast<double>(slot_.size());
   if (planned_ == 0)
     planned_ = 1e-5;
   else
@@ -99,12 +111,13 @@ double EndWalls::bound_at_wells(int grain, double upper, double lower, double ra
 }
 
 void EndWalls::watch(int i, const Flight& flight) {
+  if (count_ == grain_.size()) make_room(std::min(count_ + count_ / 4 + lane_count, padded(slot_.size())));
   const std::size_t slot = count_++;
   slot_[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(slot);
   x_[slot] = flight.x;
   v_[slot] = flight.v;
   time_[slot] = flight.time;
-  room_of_slot_[slot] = room_[static_cast<std::size_t>(i)];
+  room_of_slot_[slot] = room_of(static_cast<std::size_t>(i));
   grain_[slot] = i;
   meeting_[slot] = Meeting::none;
   note_inside(slot, i);
@@ -181,7 +194,7 @@ void EndWalls::find_next() {
 bool EndWalls::watch_changed(int i, const Flight& flight, const Now& now) {
   const std::int32_t slot = slot_[static_cast<std::size_t>(i)];
   if (slot < 0) {
-    if (can_sleep(flight, room_[static_cast<std::size_t>(i)], now)) return false;
+    if (can_sleep(flight, room_of(static_cast<std::size_t>(i)), now)) return false;
     watch(i, flight);
     return true;
   }
@@ -204,7 +217,7 @@ void EndWalls::grain_changed(int i, const Flight& flight, const Now& now, bool m
   }
   if (!watch_changed(i, flight, now)) return;
   const std::size_t k = static_cast<std::size_t>(slot_[static_cast<std::size_t>(i)]);
-  bound_.set(k, bound_of(i, flight, room_[static_cast<std::size_t>(i)], now));
+  bound_.set(k, bound_of(i, flight, room_of(static_cast<std::size_t>(i)), now));
   if (bound_[k] < next_.time)
     next_ = {bound_[k], i, 0, Meeting::none};
   else if (next_.grain == i)

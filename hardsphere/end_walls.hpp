@@ -104,9 +104,8 @@ class EndWalls {
   /// Returns how deep a watched grain was in a wall whenever all bounds were renewed, m; 0: never.
   double deepest_overlap() const { return -smallest_gap_; }
   std::size_t watched() const { return count_; }  ///< number of grains that are not asleep
-  double bytes_per_grain() const {
-    return room_.empty() ? 0 : 6 * sizeof(double) + 2 * sizeof(std::int32_t) + 2;
-  }
+  /// Returns the memory held for all grains, B.
+  std::size_t bytes() const;
 
  private:
   class EarliestRoots;
@@ -128,8 +127,11 @@ class EndWalls {
   double top_in_window(const Now& now) const { return std::max(window_top_, now.top_acceleration); }
   /// Tells whether a grain cannot reach a wall before the window ends, with the slack allowed for.
   bool can_sleep(const Flight& flight, double room, const Now& now) const;
+  double room_of(std::size_t i) const { return room_[equal_ ? 0 : i]; }
   /// Puts grain i among the watched.
   void watch(int i, const Flight& flight);
+  /// Makes room for so many watched grains, no fewer than before.
+  void make_room(std::size_t watched);
   void note_inside(std::size_t slot, int i);
   /// Takes note of a new flight; false when the grain sleeps on.
   bool watch_changed(int i, const Flight& flight, const Now& now);
@@ -160,7 +162,8 @@ class EndWalls {
 
   bool watch_all_;
   double range_;
-  std::vector<double> room_;        // of every grain
+  std::vector<double> room_;  // of every grain; of the first where all are equal
+  bool equal_ = true;
   std::vector<std::int32_t> slot_;  // of every grain: its place among the watched, -1 asleep
   // of every grain and side: in the well of that wall; empty without attraction
   std::vector<std::int8_t> inside_;
@@ -202,10 +205,10 @@ template <class FlightOf>
 void EndWalls::open(const Now& now, FlightOf&& flight_of) {
   start_window(now);
   count_ = 0;
-  for (std::size_t i = 0; i < room_.size(); ++i) {
+  for (std::size_t i = 0; i < slot_.size(); ++i) {
     const Flight flight = flight_of(static_cast<int>(i));
     slot_[i] = -1;
-    if (watch_all_ || !can_sleep(flight, room_[i], now)) watch(static_cast<int>(i), flight);
+    if (watch_all_ || !can_sleep(flight, room_of(i), now)) watch(static_cast<int>(i), flight);
   }
   sweep(now);
 }

@@ -80,7 +80,9 @@ class EventLoop {
   /// Returns the sum over pair impacts of impulse times distance, N s m: 3 N k T (Z - 1) times the time that
   /// it was summed over.
   double virial() const { return impacts_.virial(); }
-  double bytes_per_grain() const { return scene_.grains.bytes_per_grain() + walls_.bytes_per_grain(); }
+  double bytes_per_grain() const {
+    return scene_.grains.bytes_per_grain() + walls_.bytes_per_grain(scene_.grains.size());
+  }
 
  private:
   using Parts = Scene<Grains, Motion>;

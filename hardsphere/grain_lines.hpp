@@ -47,6 +47,8 @@ class GrainLines {
     for (const double r : radius_) largest = std::max(largest, r), smallest = std::min(smallest, r);
     equal_ = largest == smallest;
     equal_mass_ = std::all_of(mass_.begin(), mass_.end(), [this](double m) { return m == mass_[0]; });
+    if (equal_) keep_first(radius_);
+    if (equal_mass_) keep_first(mass_);
     largest_reach_ = 2 * largest;
     smallest_reach_ = 2 * smallest;
     for (std::size_t i = 0; i < line_.size(); ++i) {
@@ -97,10 +99,15 @@ class GrainLines {
   /// Returns how deep two grains that closed were seen to overlap, m, to first order in it; 0: never. With
   /// grains of several sizes the true overlap may be less.
   double deepest_overlap() const { return -smallest_room_ / (2 * smallest_reach_); }
-  /// Returns the memory held for each grain, B.
-  static constexpr double bytes_per_grain() { return sizeof(GrainLine) + 2 * sizeof(double); }
+  /// Returns the memory held for all grains, B.
+  std::size_t bytes() const {
+    return line_.size() * sizeof(GrainLine) + (radius_.size() + mass_.size()) * sizeof(double);
+  }
 
  private:
+  static void keep_first(AlignedVector<double>& of_all) {
+    if (of_all.size() > 1) of_all = AlignedVector<double>(1, of_all.front());
+  }
   /// How a vector of others moves as grain i sees it: b = r.w, c = r^2 - reach^2, a = w^2, discriminant b^2 -
   /// a c.
   template <class L>
@@ -133,7 +140,7 @@ class GrainLines {
 
   Period period_;
   AlignedVector<GrainLine> line_;
-  AlignedVector<double> radius_, mass_;
+  AlignedVector<double> radius_, mass_;  // of each grain; of the first where all are equal
   double largest_reach_ = 0, smallest_reach_ = never;
   bool equal_ = true, equal_mass_ = true;
   double smallest_room_ = 0;  // of r^2 - reach^2, m^2
@@ -229,7 +236,7 @@ inline GrainSums GrainLines::sums(double t) const {
   GrainSums sums;
   for (std::size_t i = 0; i < line_.size(); ++i) {
     const GrainLine& line = line_[i];
-    const double m = mass_[i];
+    const double m = mass(i);
     sums.mass += m;
     sums.kinetic += m / 2 * (line.vx * line.vx + line.vy * line.vy + line.vz * line.vz);
     sums.moment += m * (line.x + line.vx * (t - line.time));

@@ -85,7 +85,10 @@ class LoopWalls {
     for (const EndWalls& walls : side_walls_) deepest = std::max(deepest, walls.deepest_overlap());
     return deepest;
   }
-  double bytes_per_grain() const { return end_walls_.bytes_per_grain(); }
+  /// Returns the memory held for each of `grains`, B.
+  double bytes_per_grain(int grains) const {
+    return grains == 0 ? 0 : static_cast<double>(end_walls_.bytes()) / grains;
+  }
 
  private:
   /// Returns the number of axes with side walls that move or attract.

@@ -8,10 +8,16 @@ namespace shakedown {
 
 class SmallestTree {
  public:
-  explicit SmallestTree(std::size_t capacity) : numbers_(std::max(padded(capacity), lane_count), infinite) {
+  explicit SmallestTree(std::size_t capacity) { widen(capacity); }
+
+  /// Makes room for so many numbers, no fewer than before; those that are there stay.
+  void widen(std::size_t capacity) {
+    numbers_.resize(std::max(padded(capacity), lane_count), infinite);
+    node_.clear();
     for (std::size_t size = numbers_.size() / lane_count; size * lane_count > top_size;
          size = node_.back().size() / lane_count)
       node_.emplace_back(std::max(padded(size), lane_count), infinite);
+    rebuild(used_);
   }
 
   double operator[](std::size_t k) const { return numbers_[k]; }

@@ -37,4 +37,21 @@ TEST(SmallestTree, FindsTheFirstOfTheSmallest) {
   }
 }
 
+TEST(SmallestTree, KeepsWhatIsThereWhereItIsMadeWider) {
+  Random random(8, 0, Stream::other);
+  SmallestTree tree(1);
+  std::vector<double> plain;
+  for (const std::size_t capacity : {1u, 9u, 200u, 257u, 3000u}) {
+    tree.widen(capacity);
+    while (plain.size() < capacity) {
+      plain.push_back(100 * random.uniform());
+      tree.set(plain.size() - 1, plain.back());
+      if (plain.size() == capacity / 2) tree.widen(capacity);  // as wide as it is
+      const auto first = std::min_element(plain.begin(), plain.end());
+      ASSERT_EQ(tree.smallest().value, *first) << plain.size();
+      ASSERT_EQ(tree.smallest().index, first - plain.begin()) << plain.size();
+    }
+  }
+}
+
 }  // namespace
