@@ -310,8 +310,29 @@ Eigen::MatrixXd Emulator::coefficients_without(Eigen::Index block, Eigen::Index 
   return without;
 }
 
+namespace {
+
+std::vector<Knob> at_places(const std::vector<Eigen::Index>& places, const std::vector<Knob>& knobs) {
+  std::vector<Knob> there;
+  for (const Eigen::Index place : places) there.push_back(knobs[static_cast<std::size_t>(place)]);
+  return there;
+}
+
+Eigen::Index number_of_terms(const std::vector<Knob>& knobs) {
+  return regression_terms(knobs, Eigen::VectorXd::Zero(std::ssize(knobs))).size();
+}
+
+/// Returns the fewest simulations that a regression over these knobs can do with: a fifth of them is left to
+/// tell the spread (an assumption).
+int fewest_simulations(const std::vector<Knob>& knobs) {
+  return static_cast<int>((5 * number_of_terms(at_places(scattered_places(knobs), knobs)) + 3) / 4);
+}
+
+}  // namespace
+
 std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
-                              int count, int first_run, const Workshop& workshop, double sparse) {
+                              int wanted, int first_run, const Workshop& workshop, double sparse) {
+  const int count = std::max(wanted, fewest_simulations(knobs));
   const std::vector<Group> groups = groups_of(measured);
   std::vector<std::vector<Simulated>> simulated(groups.size(),
                                                 std::vector<Simulated>(static_cast<std::size_t>(count)));
@@ -333,10 +354,8 @@ std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, con
       exchange(simulated[g], model_name(groups[g], measured, knobs, workshop), knobs, *workshop.pool);
     const auto rows = static_cast<Eigen::Index>(simulated[g].size());
     const std::vector<Eigen::Index> places = scattered_places(knobs);
-    std::vector<Knob> varied;
-    for (const Eigen::Index place : places) varied.push_back(knobs[static_cast<std::size_t>(place)]);
-    const auto n_terms = regression_terms(varied, Eigen::VectorXd::Zero(std::ssize(varied))).size();
-    Eigen::MatrixXd terms(rows, n_terms);
+    const std::vector<Knob> varied = at_places(places, knobs);
+    Eigen::MatrixXd terms(rows, number_of_terms(varied));
     for (Eigen::Index i = 0; i < rows; ++i)
       terms.row(i) =
           regression_terms(varied, simulated[g][static_cast<std::size_t>(i)].z(places)).transpose();

@@ -85,8 +85,9 @@ void set_knob(Setup& setup, const Knob& knob, KnownEffects known);
 Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::VectorXd& z,
                KnownEffects known);
 
-/// Returns one emulator for each measured run, from `count` new simulations of each different setup,
-/// scattered over the knobs' box, and from those in the workshop's pool that lie in it. Where no knob but
+/// Returns one emulator for each measured run, from `count` new simulations of each different setup (more
+/// where the terms of so many knobs need them), scattered over the knobs' box, and from those in the
+/// workshop's pool that lie in it. Where no knob but
 /// exact ones has a width, all new simulations stand at the centre: the mean and the chaos of one ensemble.
 /// Exact knobs may stand anywhere among the others; their terms stand in the order of the knobs. `first_run`
 /// addresses the random numbers of the new simulations. Knobs that are not curved are moved in the fraction

@@ -45,6 +45,19 @@ TEST(Emulator, LearnsFromThePoolWhatLiesInItsBox) {
   EXPECT_EQ(emulate(other, theta, 64, 3000, workshop)[0].residuals.rows(), 64);
 }
 
+/// So many knobs with squares and products have more terms than the simulations that were asked for; a
+/// diagnosis with two effects and a curve of restitution came to 66 terms of 64 simulations and ended there.
+TEST(Emulator, MakesAsManySimulationsAsItsTermsNeed) {
+  const DampedOscillation engine;
+  const std::vector<MeasuredFeatures> measured = measured_on(believed_setup(), believed_setup(), 1);
+  const Workshop workshop{&engine, all_effects(), {2}};
+  std::vector<Knob> many = theta;
+  for (Knob& knob : many) knob.curved = true;
+  const Emulator emulator = emulate(measured, many, 4, 0, workshop)[0];
+  EXPECT_EQ(emulator.terms.cols(), 10);  // of three knobs
+  EXPECT_EQ(emulator.terms.rows(), 13);
+}
+
 /// Notes with which masses of the box it was asked.
 class Weighing final : public Engine {
  public:
