@@ -140,10 +140,9 @@ Vector velocities(const Vector& mean, Eigen::Index bins, double bin) {
 /// Returns what the camera's errors in all runs do to each bin, m: lens, rows that are read one after the
 /// other, grains nearer than the marker. Columns of nothing where the camera has no such error.
 Matrix columns_of_camera(const Vector& mean, Eigen::Index bins, const RecordingSettings& camera, double bin) {
-  constexpr double lens_scale = 0.2, rows_of = 0.4;  // m, as Physics::Camera has them
   Matrix columns = Matrix::Zero(mean.size(), 3);
-  columns.col(0) = camera.lens * mean.array() * (mean.array() / lens_scale).square();
-  columns.col(1) = camera.shutter * velocities(mean, bins, bin).array() * (mean.array() / rows_of + 0.5);
+  columns.col(0) = camera.lens * mean.array() * (mean.array() / camera_lens_reach).square();
+  columns.col(1) = camera.shutter * velocities(mean, bins, bin).array() * (mean.array() / camera_track + 0.5);
   if (mean.size() > bins) columns.col(2).tail(bins) = camera.near * mean.tail(bins);
   return columns;
 }

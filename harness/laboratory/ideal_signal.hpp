@@ -18,8 +18,8 @@ struct IdealIgnorance {
 /// Says what is filmed and how much is simulated.
 struct IdealSettings {
   std::vector<PlannedRun> runs{};
-  RecordingSettings
-      recording{};  ///< lens, shutter, depth, wander and release are as unknown as they are large
+  /// Its lens, shutter, depth, wander and release are as unknown to the judge as they are large.
+  RecordingSettings recording{};
   IdealIgnorance ignorance{};
   int count = 24;  ///< simulations of each different run and half
   std::uint64_t seed = 1;

@@ -54,6 +54,10 @@ Eigen::VectorXd regression_terms(const std::vector<Knob>& knobs, const Eigen::Ve
   return Eigen::Map<Eigen::VectorXd>(terms.data(), static_cast<Eigen::Index>(terms.size()));
 }
 
+Eigen::Index number_of_terms(const std::vector<Knob>& knobs) {
+  return regression_terms(knobs, Eigen::VectorXd::Zero(std::ssize(knobs))).size();
+}
+
 void set_knob(Setup& setup, const Knob& knob, KnownEffects known) {
   for (const std::string& key : joined_keys(knob.key)) set_number(setup, key, knob.at(0), known);
 }
@@ -316,10 +320,6 @@ std::vector<Knob> at_places(const std::vector<Eigen::Index>& places, const std::
   std::vector<Knob> there;
   for (const Eigen::Index place : places) there.push_back(knobs[static_cast<std::size_t>(place)]);
   return there;
-}
-
-Eigen::Index number_of_terms(const std::vector<Knob>& knobs) {
-  return regression_terms(knobs, Eigen::VectorXd::Zero(std::ssize(knobs))).size();
 }
 
 /// Returns the fewest simulations that a regression over these knobs can do with: a fifth of them is left to

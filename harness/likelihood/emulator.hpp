@@ -77,6 +77,8 @@ struct Emulator {
 /// Returns the terms of the regression at z (one entry a knob): 1, z, then squares and products of the curved
 /// ones, then cubes.
 Eigen::VectorXd regression_terms(const std::vector<Knob>& knobs, const Eigen::VectorXd& z);
+/// Returns how many terms these knobs have.
+Eigen::Index number_of_terms(const std::vector<Knob>& knobs);
 
 /// Sets every key of the knob to its centre.
 void set_knob(Setup& setup, const Knob& knob, KnownEffects known);
@@ -86,12 +88,11 @@ Setup setup_at(const Setup& setup, const std::vector<Knob>& knobs, const Eigen::
                KnownEffects known);
 
 /// Returns one emulator for each measured run, from `count` new simulations of each different setup (more
-/// where the terms of so many knobs need them), scattered over the knobs' box, and from those in the
-/// workshop's pool that lie in it. Where no knob but
-/// exact ones has a width, all new simulations stand at the centre: the mean and the chaos of one ensemble.
-/// Exact knobs may stand anywhere among the others; their terms stand in the order of the knobs. `first_run`
-/// addresses the random numbers of the new simulations. Knobs that are not curved are moved in the fraction
-/// `sparse` of the simulations only.
+/// where so many knobs have more terms), scattered over the knobs' box, and from those in the workshop's pool
+/// that lie in it. Where no knob but exact ones has a width, all new simulations stand at the centre: the
+/// mean and the chaos of one ensemble. Exact knobs may stand anywhere among the others; their terms stand in
+/// the order of the knobs. `first_run` addresses the random numbers of the new simulations. Knobs that are
+/// not curved are moved in the fraction `sparse` of the simulations only.
 std::vector<Emulator> emulate(const std::vector<MeasuredFeatures>& measured, const std::vector<Knob>& knobs,
                               int count, int first_run, const Workshop& workshop, double sparse = 1);
 

@@ -51,8 +51,7 @@ MeasuredFeatures beginning_of(const MeasuredFeatures& whole, double end) {
 /// Refuses fewer simulations than twice the regression's terms: one on as many simulations as it has terms
 /// leaves nothing between them, so that what is chaos would seem known.
 void refuse_too_few_simulations(const std::vector<Knob>& knobs, int count) {
-  const int terms = static_cast<int>(
-      regression_terms(knobs, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs.size()))).size());
+  const int terms = static_cast<int>(number_of_terms(knobs));
   const bool half_decides = 4 * terms > 2 * fewest_on_the_way;
   if (std::min(count, simulations_on_the_way(count)) >= 2 * terms) return;
   throw InputError(

@@ -124,7 +124,6 @@ TEST(SlowScreen, AReleaseWithVelocityIsRankedAtItsStrength) {
   WITHIN(found.value, 0.01, 1.4e-3, 7.3e-5);
 }
 
-// A glance at the middle level rules most effects out: the others are not simulated then.
 // Seen: unequal grains of .13 had a gain of 8.9 after a first look and 61 after the next, beside an arc of
 // the blade with ln evidence 21.
 TEST(Screen, WhatTheNoiseOfAGlanceHidesMayStillBeThere) {
@@ -145,6 +144,7 @@ TEST(Screen, WhatTheNoiseOfAGlanceHidesMayStillBeThere) {
   EXPECT_FALSE(is_left_open(effect, 0, searched));
 }
 
+// A glance at the middle level rules most effects out: the others are not simulated then.
 TEST(Screen, WhatTheMiddleLevelRulesOutCostsOneLevel) {
   const std::unique_ptr<Engine> engine = engine_named("hard");
   const shakedown::Setup setup = believed("2 s");
